@@ -64,7 +64,7 @@ const KINDS: &[Kind] = &[
         what: "an OpenStreetMap extract in PBF",
         ends: &["osm.pbf", "pbf"],
         marks: &[Mark::At(4, b"\x0a\x09OSMHeader")],
-        instead: "make a SUMO network of it with netconvert --osm-files, and import that",
+        instead: "turn it into XML (osmium cat FILE.osm.pbf -o FILE.osm, or osmconvert FILE.osm.pbf -o=FILE.osm), and import that",
     },
     Kind {
         what: "a GeoJSON file",

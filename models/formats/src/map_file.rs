@@ -3,7 +3,8 @@
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one_scene, only, only_read,
 };
-use crate::problem::{ImportWarning, Imported, ReadError, checked};
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::repairs::{self, checked};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::map::LaneMap;
@@ -55,7 +56,8 @@ impl MapRead {
     /// # Errors
     /// The bounds of a scene.
     pub fn scene(self, source: &str, licence: Option<String>) -> Result<Imported, ReadError> {
-        let Self { name, map, signals, origin, warnings } = self;
+        let Self { name, mut map, signals, origin, mut warnings } = self;
+        warnings.extend(repairs::drop_far_links(&mut map));
         let scene = Scene {
             id: None,
             name,

@@ -1,10 +1,12 @@
 //! The XML of OpenStreetMap, item by item: nodes, ways and relations, with their tags. Road maps and Lanelet2
 //! maps share it.
 
+use crate::encoding::Utf8;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Scanner, XmlEvent};
+use std::io::BufRead;
 
 /// Most bytes of a file once decompressed, and of one tag.
 const MAX_BYTES: u64 = 256 << 20;
@@ -105,6 +107,43 @@ pub(crate) fn each(
         }
     }
     Ok(())
+}
+
+/// Whether a file of OpenStreetMap's XML holds lanelets (`type=lanelet`), by all of its content; a broken one by what
+/// stands before the fault.
+pub(crate) fn holds_lanelets(file: &dyn Source) -> bool {
+    let open = || file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES))).ok();
+    // The word is looked for first: most extracts lack it, and bytes are searched faster than elements.
+    let named = open().is_some_and(|input| has_word(Utf8::new(input), b"lanelet"));
+    let Some(input) = open().filter(|_| named) else { return false };
+    let mut scanner = Scanner::new(input, MAX_TAG);
+    while let Ok(Some(event)) = scanner.next() {
+        if let XmlEvent::Start(element) = event
+            && (element.name.as_str(), element.get("k"), element.get("v"))
+                == ("tag", Some("type"), Some("lanelet"))
+        {
+            return true;
+        }
+    }
+    false
+}
+
+fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
+    let mut kept: Vec<u8> = Vec::new();
+    while let Ok(chunk) = input.fill_buf() {
+        if chunk.is_empty() {
+            break;
+        }
+        let count = chunk.len();
+        kept.extend_from_slice(chunk);
+        input.consume(count);
+        if kept.windows(word.len()).any(|part| part == word) {
+            return true;
+        }
+        // The word may go on in the next piece.
+        kept.drain(..kept.len().saturating_sub(word.len() - 1));
+    }
+    false
 }
 
 fn begun(kind: &'static str, element: &Element) -> Result<Option<OsmElement>, ReadError> {

@@ -1,9 +1,9 @@
 //! Several files of one scene, as one zip.
 
 use scene::Scene;
-use std::io::{self, Cursor, Write};
+use std::io::{self, Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 /// Name of the files, where a scene has none that a file can have.
 const NAME: &str = "scene";
@@ -17,6 +17,23 @@ pub(crate) fn file_name(scene: &Scene) -> String {
     let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
     let name: String = words.join("-").chars().take(NAME_CHARS).collect();
     if name.is_empty() { NAME.into() } else { name }
+}
+
+/// Files of a zip that [`zip`] made, by name.
+///
+/// # Errors
+/// A zip that is broken.
+pub fn unzipped(bytes: &[u8]) -> io::Result<Vec<(String, Vec<u8>)>> {
+    let mut zip = ZipArchive::new(Cursor::new(bytes))?;
+    let mut files = Vec::new();
+    for i in 0..zip.len() {
+        let mut file = zip.by_index(i)?;
+        let name = file.name()?.into_owned();
+        let mut content = Vec::new();
+        file.read_to_end(&mut content)?;
+        files.push((name, content));
+    }
+    Ok(files)
 }
 
 /// Packs files by name. The same files are the same bytes, whenever they are packed.

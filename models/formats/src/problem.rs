@@ -270,14 +270,6 @@ impl ImportWarning {
 /// A scene and what its reader changed or left out.
 pub type Imported = (Scene, Vec<ImportWarning>);
 
-/// What a reader made, if it is within the bounds of a scene.
-pub(crate) fn checked(scene: Scene, warnings: Vec<ImportWarning>) -> Result<Imported, ReadError> {
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
-}
-
 /// Faults collected while reading one document.
 #[derive(Debug, Default)]
 pub(crate) struct Problems(pub Vec<FieldProblem>);

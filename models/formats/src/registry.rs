@@ -14,6 +14,7 @@ use crate::native::format::NativeJson;
 use crate::opendrive::format::OPENDRIVE;
 use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
+use crate::osm_items::holds_lanelets;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
 use crate::sentences;
@@ -108,6 +109,19 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     best.map(|(_, format)| format).ok_or_else(unknown)
 }
 
+/// The format of a file: by how it begins, and where two formats begin alike, by all of it.
+///
+/// # Errors
+/// `format-unknown`.
+pub fn identified(file: &dyn Source, name: &str) -> Result<&'static dyn Format, ReadError> {
+    let found = recognised(&head(file), name)?;
+    let alike: [&'static dyn Format; 2] = [&LANELET2, &OsmExtract];
+    if alike.iter().any(|format| format.info().id == found.info().id) {
+        return Ok(alike[usize::from(!holds_lanelets(file))]);
+    }
+    Ok(found)
+}
+
 /// Reads a file in memory of the given format (`auto` looks at its content and name).
 ///
 /// # Errors
@@ -131,8 +145,7 @@ pub fn scenes<'a>(
     format: &str,
     options: &'a ImportOptions,
 ) -> Result<Scenes<'a>, ReadError> {
-    let found =
-        if format == "auto" { recognised(&head(file), name)? } else { by_id(format).ok_or_else(unknown)? };
+    let found = if format == "auto" { identified(file, name)? } else { by_id(format).ok_or_else(unknown)? };
     let called = called(name, &found.info());
     let named = move |(mut scene, warnings): Imported| {
         if scene.name.is_empty() {

@@ -41,6 +41,10 @@ pub mod json_fault {
 scene::messages! {
     json_syntax(fault: Word) = "json-syntax", "not valid JSON: {fault}";
     not_a_known_format(formats: &str) = "not-a-known-format", "not a file of a known format ({formats})";
+    boxes_across(count: usize) =
+        "boxes-across",
+        [count] "The long side of {count} box lies across its motion: length and width may be exchanged",
+        "The long sides of {count} boxes lie across their motion: length and width may be exchanged";
     columns_missing(missing: &str, columns: &str) =
         "columns-missing",
         "no column {missing}; there are {columns}. A file of columns can name them (--columns, a part columns of a form)";
@@ -93,7 +97,21 @@ scene::messages! {
     headings_derived() =
         "headings-derived", "Headings are derived from the motion; a standing road user keeps its last \
          heading";
-    headings_in_degrees() = "headings-in-degrees", "Headings are in degrees and were converted to radians";
+    headings_along_degrees(agree: usize, moving: usize) =
+        "headings-along-degrees",
+        "Headings are in degrees and were converted to radians: {agree} of {moving} moving road users go along \
+         them";
+    headings_along_radians(agree: usize, moving: usize) =
+        "headings-along-radians",
+        "Headings are in radians where degrees are usual: {agree} of {moving} moving road users go along them";
+    headings_in_degrees(outside: usize, found: usize) =
+        "headings-in-degrees",
+        "Headings are in degrees and were converted to radians: those of {outside} of {found} road users are \
+         outside of a turn in radians, or the format has degrees";
+    headings_wrapped(count: usize) =
+        "headings-wrapped",
+        [count] "{count} heading is outside of a turn and was wrapped",
+        "{count} headings are outside of a turn and were wrapped";
     ids_renumbered() = "ids-renumbered", "Lanes and junctions have numbers instead of SUMO's ids";
     ids_replaced(count: usize, subject: Word) =
         "ids-replaced",
@@ -127,21 +145,34 @@ scene::messages! {
         "lanelets-with-used-id",
         [count] "{count} lanelet with the id of another lanelet is left out",
         "{count} lanelets with the id of another lanelet are left out";
+    lanes_bordered(count: usize, length_m: f64) =
+        "lanes-bordered",
+        [count] "{count} lane ({length_m:.0} m) has borders in a section with widths, which the standard \
+         prefers: its borders are left out",
+        "{count} lanes ({length_m:.0} m) have borders in sections with widths, which the standard prefers: \
+         their borders are left out";
     lanes_closed(count: usize) =
         "lanes-closed",
         [count] "{count} lane open to no road user (rails, strips) is left out",
         "{count} lanes open to no road user (rails, strips) are left out";
-    lane_links_derived() =
+    lane_links_derived(count: usize) =
         "lane-links-derived",
-        "The file does not link its lanes: a lane that ends where another one begins is linked to it";
+        [count] "{count} link of lanes is not in the file: a lane that ends where another one begins is linked to it",
+        "{count} links of lanes are not in the file: a lane that ends where another one begins is linked to it";
     lane_segments_unusable(count: usize) =
         "lane-segments-unusable",
         [count] "{count} lane segment without two sides is left out",
         "{count} lane segments without two sides are left out";
     left_hand() = "left-hand", "Traffic keeps to the left, as it does in this region";
-    left_hand_as_right() =
-        "left-hand-as-right",
-        "Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right";
+    left_hand_network() = "left-hand-network", "Traffic keeps to the left, as the network states";
+    lines_thinned(count: usize) =
+        "lines-thinned",
+        [count] "{count} line has more points than a scene holds and is thinned",
+        "{count} lines have more points than a scene holds and are thinned";
+    links_apart(count: usize) =
+        "links-apart",
+        [count] "{count} link of lanes is dropped: the ends lie more than a lane's width apart",
+        "{count} links of lanes are dropped: the ends lie more than a lane's width apart";
     lines_approximated(count: usize) =
         "lines-approximated",
         [count] "{count} painted line has a type or colour that a scene does not support",
@@ -227,9 +258,11 @@ scene::messages! {
         [count] "{count} container or passenger is left out",
         "{count} containers and passengers are left out";
     programs_beyond_last() = "programs-beyond-last", "A signal has several programs; the last one is shown";
-    projection_dropped() =
-        "projection-dropped", "Positions stay in the frame of the network; its projection is not kept";
     recording_heights_dropped() = "recording-heights-dropped", "The recording has heights; the scene is flat";
+    rows_repeated(count: usize) =
+        "rows-repeated",
+        [count] "{count} row repeats a road user at the same time; one row of each time is kept",
+        "{count} rows repeat a road user at the same time; one row of each time is kept";
     shapes_boxed(count: usize) =
         "shapes-boxed",
         [count] "{count} obstacle is not rectangular: its bounding box is used",

@@ -3,7 +3,8 @@
 use crate::format::{EGO, ImportOptions};
 use crate::identities;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{ImportWarning, Imported, ReadError, checked};
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::repairs::{self, checked};
 use crate::sentences;
 use scene::geometry::rotate;
 use scene::map::{LaneMap, Points};
@@ -23,12 +24,14 @@ pub(crate) fn settled(
     options: &ImportOptions,
 ) -> Result<Imported, ReadError> {
     let now = scene.time.now_step;
+    warnings.extend(repairs::notice_boxes(&scene.agents));
     warnings.extend(nearest(&mut scene.agents, now));
     let by = origin(&scene, &map);
     shift(&mut scene, &mut map, by);
     let turned = rotate(by, scene.meta.origin.rotation_rad);
     (scene.meta.origin.x_m, scene.meta.origin.y_m) =
         (scene.meta.origin.x_m + turned.x, scene.meta.origin.y_m + turned.y);
+    warnings.extend(repairs::join_lanes(&mut map));
     scene.map = map.into();
     if options.join_identities {
         warnings.extend(identities::join(&mut scene));

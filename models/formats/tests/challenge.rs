@@ -8,7 +8,7 @@ use formats::womd::{Options, RecordReader};
 use formats::{ExportOptions, Exported, ExportedMotion, registry};
 use proptest::prelude::*;
 use prost::Message;
-use scene::{AgentFutures, Future, Generated, Sample, Scene, State, Vec2};
+use scene::{AgentFutures, Future, Generated, Sample, Scene, State, Timing, Vec2};
 use std::collections::BTreeMap;
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
@@ -124,8 +124,25 @@ fn submission(file: &Exported) -> SimAgentsChallengeSubmission {
 }
 
 #[test]
+fn submissions_begin_at_the_challenges_step() {
+    let scene = formats::native::read(JUNCTION).unwrap();
+    let refused = |scene: &Scene| {
+        let format = registry::by_id("sim-agents").unwrap();
+        format.export(&[scene], &ExportOptions::default()).unwrap_err().to_string()
+    };
+    assert!(refused(&scene).contains("this scene at step 2 (0.2 s)"), "{}", refused(&scene));
+    // Futures that begin later are no rollouts either.
+    let mut late = with_samples(&Scene { time: Timing { steps: 91, now_step: 20 }, ..scene }, 2);
+    late.time.now_step = 10;
+    assert!(refused(&late).contains("at step 20 (2.0 s)"), "{}", refused(&late));
+}
+
+#[test]
 fn samples_are_rollouts() {
-    let plain = formats::native::read(JUNCTION).unwrap();
+    let mut plain = formats::native::read(JUNCTION).unwrap();
+    plain.time = Timing { steps: 91, now_step: 10 };
+    plain.generated = None;
+    plain.agents.iter_mut().for_each(|agent| agent.track.first_step += 8);
     let scene = with_samples(&plain, 32);
     let file = export("sim-agents", &[&scene, &plain], &ExportOptions::default());
     assert_eq!(file, export("sim-agents", &[&scene, &plain], &ExportOptions::default()));
@@ -212,7 +229,9 @@ proptest! {
 
     #[test]
     fn submissions_follow_the_log_where_nothing_is_generated(scene in generated::scene()) {
-        let scene = scene.checked().unwrap();
+        let mut scene = scene.checked().unwrap();
+        scene.time = Timing { steps: scene.time.steps.max(11), now_step: 10 };
+        scene.generated = None;
         let sent = submission(&export("sim-agents", &[&scene], &log()));
         let now = scene.time.now_step;
         let there: Vec<_> = scene.agents.iter().filter(|agent| agent.track.at(now).is_some()).collect();

@@ -182,14 +182,6 @@ fn cases() -> Vec<(&'static str, Vec<u8>, &'static str, Option<u64>)> {
             None,
         ),
         (
-            "polygon of 4,097 points",
-            edited(|m| {
-                m.map_features.push(feature(FeatureData::Crosswalk(Polygon { polygon: points(4_097) })));
-            }),
-            "map-too-large",
-            None,
-        ),
-        (
             "410,000 map points",
             edited(|m| {
                 for _ in 0..103 {

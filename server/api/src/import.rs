@@ -5,7 +5,7 @@ use crate::english;
 use crate::problem::Problem;
 use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
-use formats::{COLUMNS_POINTER, ImportOptions, NET_POINTER, Source, source};
+use formats::{COLUMNS_POINTER, ImportOptions, NET_POINTER, Source};
 use scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
@@ -85,7 +85,7 @@ impl SceneFile {
     ) -> Result<Self, Problem> {
         let found = match format {
             Some(format) => registry::by_id(known(format)).ok_or_else(registry::unknown)?,
-            None => registry::recognised(&source::head(file), name)?,
+            None => registry::identified(file, name)?,
         };
         let info = found.info();
         let Companions { net, columns, netconvert } = beside.clone();

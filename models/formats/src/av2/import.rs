@@ -216,6 +216,7 @@ pub(super) fn read(
         spacing_s: Some(STEP_S),
         map: map.into(),
         warnings,
+        crs: None,
     };
     let mut scenes = Recording { said, users, futures: Vec::new() }.scenes();
     let empty = || FieldProblem::new("", code::CANNOT_REPRESENT, "no road user is seen").into();

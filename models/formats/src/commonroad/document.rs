@@ -124,6 +124,7 @@ pub(super) struct PlanningProblem {
 pub(super) struct CommonRoadDocument {
     pub name: String,
     pub source: String,
+    pub affiliation: String,
     pub step_s: f64,
     pub tags: Vec<String>,
     pub origin: Origin,
@@ -227,6 +228,7 @@ fn head(root: &Element) -> Result<CommonRoadDocument, ReadError> {
     Ok(CommonRoadDocument {
         name: get("benchmarkID"),
         source: get("source"),
+        affiliation: get("affiliation"),
         tags: get("tags").split_whitespace().map(str::to_owned).collect(),
         step_s,
         ..CommonRoadDocument::default()

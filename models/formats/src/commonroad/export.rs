@@ -2,7 +2,7 @@
 
 use super::export_map::MapElements;
 use super::export_motion::{self, PlanningTask, ScenarioAgent};
-use super::import::LICENCE;
+use super::import::{LICENCE, MADE};
 use super::words::{TAGS, VERSION};
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
@@ -30,6 +30,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let (shown, steps) = options.motion.all(scene);
     let drawn = MapElements::of(scene, steps, &mut ids, &mut losses);
     let problem = PlanningTask::of(scene, &shown);
+    let made = problem.is_none().then(|| ids.free());
     let name = benchmark_id(scene);
     let mut out = Markup::new();
     let licence = scene.licence().map(|licence| format!("{LICENCE}{licence}")).unwrap_or_default();
@@ -40,7 +41,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
             ("benchmarkID", &name),
             ("date", &date(scene)),
             ("author", "unknown"),
-            ("affiliation", "unknown"),
+            ("affiliation", if problem.is_some() { "unknown" } else { MADE }),
             ("source", &format!("{}{licence}", scene.meta.source)),
             ("timeStepSize", &decimal(STEP_S)),
         ],
@@ -63,6 +64,11 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         .map(|((agent, shown), id)| ScenarioAgent { agent, shown, id: *id, is_fixed: fixed(agent) })
         .collect();
     export_motion::write(scene, &users, problem.as_ref(), &mut out, &mut losses);
+    if let Some(id) = made {
+        export_motion::write_made(scene, id, &mut out);
+        let detail = "a scenario has a planning problem, this scene no ego or goal: one along the longest lane is made";
+        losses.insert(Loss::new(code::SINGLE_EGO, detail));
+    }
     if ids.renumbered {
         let detail = "ids that are no whole numbers above zero, or not unique among all that is in a scenario, got new ones";
         losses.insert(Loss::new(code::IDS_RENUMBERED, detail));

@@ -5,6 +5,8 @@ use super::words::road_user_word;
 use crate::format::EGO;
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
+use crate::polyline::length;
+use scene::map::Lane;
 use scene::{
     Agent, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, Shown, State, Subtype, Track, Vec2, wrap_angle,
 };
@@ -34,6 +36,22 @@ pub(super) struct PlanningTask {
     first_step: usize,
     start: State,
     goal: Goal,
+}
+
+/// Writes a planning problem from the beginning of the longest lane to its end, for a scene without an ego or a goal:
+/// a scenario has one at least.
+pub(super) fn write_made(scene: &Scene, id: i64, out: &mut Markup) {
+    let lanes = &scene.map.lanes;
+    let length =
+        |lane: &&Lane| if lane.lane_type.carries_vehicles() { length(&lane.points.xy) } else { -1.0 };
+    let longest = lanes.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+    let Some([first, second, ..]) = longest.map(|lane| lane.points.xy.as_slice()) else { return };
+    let way = second - first;
+    let heading_rad = way.y.atan2(way.x);
+    let start = State { x_m: first.x, y_m: first.y, heading_rad, ..State::default() };
+    let position = longest.and_then(|lane| lane.points.xy.last().copied());
+    let goal = Goal { position, ..Goal::default() };
+    planning_problem(&PlanningTask { agent: 0, first_step: 0, start, goal }, id, out);
 }
 
 impl PlanningTask {
@@ -273,7 +291,8 @@ fn planning_problem(problem: &PlanningTask, id: i64, out: &mut Markup) {
     exact("orientation", angle(start.heading_rad), out);
     exact("yawRate", 0, out);
     exact("slipAngle", angle(slip), out);
-    exact("time", problem.first_step, out);
+    // The schema has no other time here.
+    exact("time", 0, out);
     out.close();
     out.open("goalState", &[]);
     let goal = &problem.goal;
@@ -284,7 +303,7 @@ fn planning_problem(problem: &PlanningTask, id: i64, out: &mut Markup) {
             let off = OFF.2.min(step.saturating_sub(problem.first_step + 2));
             (step - off, step + off)
         }
-        None => (problem.first_step, latest),
+        None => (problem.first_step.max(1), latest),
     };
     out.open("time", &[]);
     out.leaf("intervalStart", from);

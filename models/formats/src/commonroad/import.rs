@@ -7,17 +7,21 @@ use crate::describe;
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::repairs::{self, checked};
 use crate::sentences;
 use crate::settle;
 use crate::source::Source;
 use scene::geometry::rotate;
 use scene::message::Message;
-use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
+use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Timing, Vec2};
 use std::collections::{BTreeMap, HashSet};
 
 /// Text before the licence in the source of a file written by this program.
 pub(super) const LICENCE: &str = "; licence ";
+
+/// Affiliation of a file whose planning problem this program made, because a scenario has one at least.
+pub(super) const MADE: &str = "planning problem made by DragTraffic";
 
 /// Reads a file, plain or gzip.
 ///
@@ -25,6 +29,9 @@ pub(super) const LICENCE: &str = "; licence ";
 /// Those of [`document::read`]; `map-too-large`; the faults of a scene.
 pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
     let mut document = document::read(file)?;
+    if document.affiliation == MADE {
+        document.problems.clear();
+    }
     let shift = about_the_middle(&mut document)?;
     let mut warnings = Vec::new();
     let (map, lanes) = map::lane_map(&document, &mut warnings);
@@ -67,6 +74,8 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
         if document.name.is_empty() { "CommonRoad scenario".to_owned() } else { document.name.clone() };
     let now_step =
         if document.obstacles.is_empty() && document.problems.is_empty() { MAP_TIMING.now_step } else { 0 };
+    let mut map = Shared::from(map);
+    warnings.extend(repairs::drop_far_links(&mut map));
     let scene = Scene {
         id: None,
         name,
@@ -79,7 +88,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
             ..Meta::default()
         })?,
         time: Timing { steps: clock.steps, now_step },
-        map: map.into(),
+        map,
         signals,
         agents,
         generated: None,

@@ -31,7 +31,7 @@ pub(crate) static GPUDRIVE: EngineFormat = EngineFormat {
     name: "GPUDrive scenario (JSON)",
     flavour: Flavour::GpuDrive,
     notes: "Road users and lights; lanes are lines without a graph: those that end where others \
-         begin are joined. Headings in degrees are known by their size and by where one goes; \
+         begin are joined. Moving road users decide whether headings are degrees; \
          written in radians, with heights and ids.",
 };
 /// Nocturne.
@@ -40,7 +40,7 @@ pub(crate) static NOCTURNE: EngineFormat = EngineFormat {
     name: "Nocturne scenario (JSON)",
     flavour: Flavour::Nocturne,
     notes: "Road users and lights; lanes are lines without a graph: those that end where others \
-         begin are joined. Headings in degrees are known by their size and by where one goes; \
+         begin are joined. Moving road users decide whether headings are degrees; \
          written in degrees, in the plane.",
 };
 

@@ -2,6 +2,7 @@
 
 use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
+use crate::headings::{self, HeadingUnit};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
@@ -10,18 +11,10 @@ use scene::map::{
     Area, Lane, LaneMap, LaneType, Points, ROAD_EDGE_TYPES, ROAD_LINE_TYPES, StopSign, TypedLine,
 };
 use scene::{Agent, AgentType, Meta, Scene, Signal, SignalState, Size, State, Subtype, Timing, Track, Vec2};
-use scene::{geometry, wrap_angle};
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;
-/// Above this speed motion follows the heading, m/s.
-const MOVES_MPS: f64 = 2.0;
-/// Least number of moving states, and least mean cosine of heading and motion, that decide the unit of
-/// headings.
-const ENOUGH: i32 = 10;
-const ALONG: f64 = 0.9;
 /// Numbers of the map elements by kind: where the words of lines and edges begin.
 pub(super) const FIRST_LINE: i64 = 5;
 pub(super) const FIRST_EDGE: i64 = 14;
@@ -39,17 +32,15 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     // Files of Nocturne, which have degrees, are in the plane.
     let flat = document.scenario_id.is_none()
         && document.objects.iter().flat_map(|object| &object.position).all(|p| p.z.is_none());
-    let degrees = in_degrees(&document.objects, flat);
-    if degrees {
-        warnings.push(ImportWarning::new("headings-in-degrees", sentences::headings_in_degrees()));
-    }
     let mut ids = Ids::default();
     let mut agents = Vec::new();
     for (i, object) in document.objects.iter().enumerate() {
         let id = object.id.unwrap_or(i as i64);
-        agents.push(agent(object, i, ids.take(&id.to_string()), degrees)?);
+        agents.push(agent(object, i, ids.take(&id.to_string()))?);
     }
     warnings.extend(ids.warning(subject::ROAD_USERS));
+    let unit = if flat { HeadingUnit::UsuallyDegrees } else { HeadingUnit::UsuallyRadians };
+    warnings.extend(headings::settle(&mut agents, unit));
     let metadata = document.metadata.as_ref();
     let by_index = |i: i64| usize::try_from(i).ok().and_then(|i| agents.get(i)).map(|agent| agent.id.clone());
     let predict = metadata.iter().flat_map(|metadata| &metadata.tracks_to_predict);
@@ -61,9 +52,6 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
         ego.role = Some(EGO.to_owned());
     }
     let map = lane_map(&document.roads, &mut warnings);
-    if !map.lanes.is_empty() {
-        warnings.push(ImportWarning::new("no-lane-graph", sentences::lane_links_derived()));
-    }
     let signals =
         document.tl_states.0.iter().filter_map(|(lane, light)| signal(lane, light, steps)).collect();
     let Document { name, scenario_id, .. } = document;
@@ -89,34 +77,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     settle::settled(scene, map, warnings, options)
 }
 
-/// Headings are degrees if one is more than a turn in radians. Otherwise the engine's unit holds, unless
-/// moving road users agree with the other unit.
-fn in_degrees(objects: &[Object], usual: bool) -> bool {
-    let (mut count, mut degrees, mut radians) = (0, 0.0, 0.0);
-    for object in objects {
-        for (i, heading) in object.heading.iter().enumerate() {
-            if object.valid.get(i) != Some(&true) {
-                continue;
-            }
-            if heading.abs() > TAU {
-                return true;
-            }
-            let velocity = object.velocity.get(i).map(|v| Vec2::new(v.x, v.y)).unwrap_or_default();
-            if velocity.norm() > MOVES_MPS {
-                let way = velocity / velocity.norm();
-                count += 1;
-                degrees += geometry::direction(heading.to_radians()).dot(&way);
-                radians += geometry::direction(*heading).dot(&way);
-            }
-        }
-    }
-    let (other, own) = if usual { (radians, degrees) } else { (degrees, radians) };
-    let mean = other / f64::from(count).max(1.0);
-    let is_other = count >= ENOUGH && mean > ALONG && mean > own / f64::from(count) + 0.2;
-    usual != is_other
-}
-
-fn agent(object: &Object, index: usize, id: String, degrees: bool) -> Result<Agent, ReadError> {
+fn agent(object: &Object, index: usize, id: String) -> Result<Agent, ReadError> {
     let count = object.position.len();
     let lists = [
         ("heading", object.heading.len()),
@@ -134,8 +95,8 @@ fn agent(object: &Object, index: usize, id: String, degrees: bool) -> Result<Age
         _ => AgentType::Other,
     };
     let state = |i: usize| {
-        let (at, v, heading) = (object.position.get(i)?, object.velocity.get(i)?, *object.heading.get(i)?);
-        let heading_rad = if degrees { wrap_angle(heading.to_radians()) } else { heading };
+        let (at, v, heading_rad) =
+            (object.position.get(i)?, object.velocity.get(i)?, *object.heading.get(i)?);
         Some(State { x_m: at.x, y_m: at.y, heading_rad, vx_mps: v.x, vy_mps: v.y })
     };
     let seen = |i: usize| object.valid.get(i) == Some(&true);

@@ -20,6 +20,10 @@ const JUNCTION_M: f64 = 60.0;
 /// Hint in the refusal of an OpenStreetMap extract.
 const EXTRACT: &str = "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
 
+/// ... and of a map in which nobody may pass.
+const NONE_OPEN: &str =
+    "no lanelets with two sides that a road user may pass: subtypes and participants decide";
+
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
 ///
 /// # Errors
@@ -31,7 +35,9 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let mut map = LaneMap::default();
     let lanes = draw(&lanelets, &mut map);
     if map.lanes.is_empty() {
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, EXTRACT).into());
+        let closed = osm.relations.iter().any(|relation| is(&relation.tags, "type", "lanelet"));
+        let detail = if closed && map.crosswalks.is_empty() { NONE_OPEN } else { EXTRACT };
+        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
     }
     link(&lanelets, &lanes, &mut map);
     paint(&osm, &lanelets, &lanes, &mut map);
@@ -96,7 +102,10 @@ fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
             map.lanes.push(Lane {
                 lane_type,
                 width_m: Some(((width_m * 1e3).round() / 1e3).clamp(0.1, 50.0)),
-                speed_limit_mps: tags.get("speed_limit").and_then(|text| speed(text)).filter(|_| !walked),
+                speed_limit_mps: ["speed_limit:vehicle", "speed_limit"]
+                    .iter()
+                    .find_map(|key| speed(tags.get(*key)?))
+                    .filter(|_| !walked),
                 interpolating: tags.contains_key("turn_direction") && !walked,
                 ..Lane::street(id, points)
             });
@@ -119,6 +128,26 @@ fn speed(text: &str) -> Option<f64> {
     (limit > 0.0 && limit <= 100.0).then_some(limit)
 }
 
+/// The limit of a sign such as `de274-60`, or of a type that is a speed itself, m/s.
+fn sign_limit(sign_type: &str) -> Option<f64> {
+    let text = sign_type.trim().to_ascii_lowercase();
+    let number =
+        |text: &str, unit: &str| speed(&format!("{} {unit}", text.trim_start_matches(['-', ':', '_'])));
+    let german = text.strip_prefix("de").unwrap_or(&text);
+    if let Some(rest) = german.strip_prefix("274.1").or_else(|| german.strip_prefix("274")) {
+        return if rest.is_empty() { speed("30") } else { number(rest, "km/h") };
+    }
+    match german {
+        "310" => return speed("50"),
+        "325" | "325.1" => return speed("7"),
+        _ => {}
+    }
+    if let Some(rest) = text.strip_prefix("us").unwrap_or(&text).strip_prefix("r2-1") {
+        return number(rest, "mph");
+    }
+    speed(&text)
+}
+
 /// Lanelets follow each other where the ends of both sides are the same points, and lie side by side where they
 /// share a line.
 fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
@@ -139,8 +168,8 @@ fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
             ends.push((*lane, end));
         }
         if let [lane] = drawn.as_slice() {
-            on_right.entry(lanelet.ways[1]).or_default().push(*lane);
-            on_left.push((*lane, lanelet.ways[0]));
+            lanelet.ways[1].iter().for_each(|way| on_right.entry(*way).or_default().push(*lane));
+            on_left.extend(lanelet.ways[0].iter().map(|way| (*lane, *way)));
         }
     }
     for (lane, end) in ends {
@@ -151,8 +180,13 @@ fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
         }
     }
     let travelled = |lane: &Lane| lane.lane_type.carries_vehicles() || lane.lane_type.carries_cyclists();
+    let mut done = HashSet::new();
     for (right, way) in on_left {
         for left in on_right.get(&way).into_iter().flatten().copied().filter(|left| *left != right) {
+            // Two sides may share several lines.
+            if !done.insert((left, right)) {
+                continue;
+            }
             let ways = [left, right].map(|i| {
                 let points = &map.lanes[i].points.xy;
                 points[points.len() - 1] - points[0]
@@ -196,24 +230,50 @@ fn line_type(tags: &Tags) -> Option<&'static str> {
 fn paint(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
     let mut done = HashSet::new();
     for (lanelet, drawn) in lanelets.iter().zip(lanes) {
-        for (side, way) in lanelet.ways.iter().enumerate() {
-            let Some(line_type) = osm.ways.get(way).and_then(|way| line_type(&way.tags)) else { continue };
-            if done.insert(*way) {
-                let points = if side == 0 { &lanelet.left } else { &lanelet.right };
-                let points = polyline::simplify(points, 0.03, 20.0).into();
-                map.road_lines.push(TypedLine { id: way.to_string(), line_type: line_type.into(), points });
+        let ways =
+            lanelet.ways.iter().enumerate().flat_map(|(side, ways)| ways.iter().map(move |way| (side, way)));
+        for (side, way) in ways {
+            let Some((line, line_type)) =
+                osm.ways.get(way).and_then(|way| Some((way, line_type(&way.tags)?)))
+            else {
+                continue;
+            };
+            let whole = lanelet.ways[side].len() == 1;
+            let own = || line.nodes.iter().filter_map(|node| osm.nodes.get(node).copied()).collect();
+            let points: Vec<Vec2> = match (whole, side) {
+                (false, _) => own(),
+                (true, 0) => lanelet.left.clone(),
+                (true, _) => lanelet.right.clone(),
+            };
+            if points.len() < 2 {
+                continue;
             }
             let kind = ROAD_LINE_TYPES.iter().position(|word| *word == line_type);
             for (lane, forward) in drawn.iter().zip([true, false]) {
                 let lane = &mut map.lanes[*lane];
-                let to = lane.points.xy.len() - 1;
+                let (from, to) =
+                    if whole { (0, lane.points.xy.len() - 1) } else { beside(&lane.points.xy, &points) };
                 let kind = kind.and_then(|kind| u32::try_from(kind).ok());
-                let boundary = Boundary { line: way.to_string(), from: 0, to, kind };
+                let boundary = Boundary { line: way.to_string(), from, to, kind };
                 let left = (side == 0) == forward;
                 if left { &mut lane.left_boundary } else { &mut lane.right_boundary }.push(boundary);
             }
+            if done.insert(*way) {
+                let points = polyline::simplify(&points, 0.03, 20.0).into();
+                map.road_lines.push(TypedLine { id: way.to_string(), line_type: line_type.into(), points });
+            }
         }
     }
+}
+
+/// First and last point of a lane beside a line.
+fn beside(lane: &[Vec2], line: &[Vec2]) -> (usize, usize) {
+    let near = |p: Vec2| {
+        let by_distance = |a: &usize, b: &usize| (lane[*a] - p).norm().total_cmp(&(lane[*b] - p).norm());
+        (0..lane.len()).min_by(by_distance).unwrap_or_default()
+    };
+    let ends = (near(line[0]), near(line[line.len() - 1]));
+    (ends.0.min(ends.1), ends.0.max(ends.1))
 }
 
 /// Draws the ground of vehicles, and its edges.
@@ -257,10 +317,12 @@ fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut La
     let mut places: Vec<Vec2> = Vec::new();
     let mut signs: BTreeMap<i64, StopSign> = BTreeMap::new();
     for (lanelet, drawn) in lanelets.iter().zip(lanes) {
-        let Some(&lane) = drawn.first().filter(|i| map.lanes[**i].lane_type.carries_cyclists()) else {
-            continue;
+        let ruled = |i: &&usize| {
+            let kind = map.lanes[**i].lane_type;
+            kind.carries_vehicles() || kind.carries_cyclists()
         };
-        let points = &map.lanes[lane].points.xy;
+        let Some(&lane) = drawn.first().filter(ruled) else { continue };
+        let points = map.lanes[lane].points.xy.clone();
         let rules = lanelet.relation.members.iter().filter(|member| member.role == "regulatory_element");
         for rule in rules.filter_map(|member| by_id.get(&member.id)) {
             let line = rule.member("ref_line").and_then(middle);
@@ -270,13 +332,13 @@ fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut La
             };
             if subtype == "traffic_light" && !heads.iter().any(|head| head.lane == lane) {
                 let stop =
-                    line.filter(|_| !map.lanes[lane].interpolating).map_or(stop, |p| nearest(points, p));
+                    line.filter(|_| !map.lanes[lane].interpolating).map_or(stop, |p| nearest(&points, p));
                 let near = places.iter().position(|place| (place - stop).norm() < JUNCTION_M);
                 let junction = near.unwrap_or_else(|| {
                     places.push(stop);
                     places.len() - 1
                 });
-                let heading_rad = heading_at(points, stop);
+                let heading_rad = heading_at(&points, stop);
                 heads.push(SignalHead {
                     lane,
                     stop,
@@ -286,6 +348,14 @@ fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut La
                 });
             }
             let sign_type = rule.tags.get("sign_type").map_or("", String::as_str);
+            if subtype == "speed_limit" {
+                let signs = rule.all("refers").filter_map(|way| osm.ways.get(&way)?.tags.get("subtype"));
+                let stated = ["sign_type", "speed_limit"].into_iter().filter_map(|key| rule.tags.get(key));
+                if let Some(limit) = stated.chain(signs).find_map(|text| sign_limit(text)) {
+                    drawn.iter().for_each(|lane| map.lanes[*lane].speed_limit_mps = Some(limit));
+                }
+                continue;
+            }
             if subtype == "traffic_sign" && matches!(sign_type, "de206" | "usR1-1" | "stop_sign") {
                 let position = rule.member("refers").and_then(middle).or(line).unwrap_or(stop);
                 let sign = StopSign { id: rule.id.to_string(), position, z_m: None, lanes: Vec::new() };

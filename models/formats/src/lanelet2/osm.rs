@@ -13,7 +13,7 @@ const MAX_WAYS: usize = 100_000;
 const MAX_RELATIONS: usize = 40_000;
 const MAX_REFERENCES: usize = 2_000_000;
 /// Keys of the tags that are read.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 11] = [
     "local_x",
     "local_y",
     "ele",
@@ -23,12 +23,13 @@ const KEYS: [&str; 14] = [
     "one_way",
     "speed_limit",
     "turn_direction",
-    "participant:vehicle",
-    "participant:pedestrian",
-    "participant:bicycle",
-    "location",
+    "speed_limit:vehicle",
     "sign_type",
 ];
+/// Begins the keys of the tags that state who may pass.
+const PARTICIPANT: &str = "participant";
+/// Most of these tags of one relation.
+const MAX_PARTICIPANTS: usize = 16;
 /// Most characters of a value.
 const VALUE_CHARS: usize = 60;
 /// Farthest a local coordinate may lie from its origin, metres.
@@ -50,9 +51,16 @@ pub(super) struct OsmRelation {
     pub id: i64,
     pub members: Vec<Member>,
     pub tags: Tags,
+    /// Road users that are stated to pass, or not: what follows `participant:`.
+    pub participants: Vec<(String, bool)>,
 }
 
 impl OsmRelation {
+    /// All members in a role.
+    pub fn all<'a>(&'a self, role: &'a str) -> impl Iterator<Item = i64> + 'a {
+        self.members.iter().filter(move |member| member.role == role).map(|member| member.id)
+    }
+
     /// The first member in a role.
     pub fn member(&self, role: &str) -> Option<i64> {
         self.members.iter().find(|member| member.role == role).map(|member| member.id)
@@ -93,7 +101,10 @@ pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
                 }
             }
             "way" => drop(osm.ways.insert(item.id, OsmWay { nodes: item.nodes, tags })),
-            _ => osm.relations.push(OsmRelation { id: item.id, members: item.members, tags }),
+            _ => {
+                let participants = participants(&item.tags);
+                osm.relations.push(OsmRelation { id: item.id, members: item.members, tags, participants });
+            }
         }
         at_most(local.len() + degrees.len(), MAX_NODES, "points")?;
         at_most(osm.ways.len(), MAX_WAYS, "lines")?;
@@ -114,6 +125,15 @@ fn known(tags: &[(String, String)]) -> Tags {
     let known = |key: &str| KEYS.iter().copied().find(|known| *known == key);
     let cut = |value: &str| value.chars().take(VALUE_CHARS).collect();
     tags.iter().filter_map(|(key, value)| Some((known(key)?, cut(value)))).collect()
+}
+
+fn participants(tags: &[(String, String)]) -> Vec<(String, bool)> {
+    let stated = |(key, value): &(String, String)| {
+        let who = key.strip_prefix(PARTICIPANT)?;
+        let yes = matches!(value.to_ascii_lowercase().as_str(), "yes" | "true" | "1");
+        Some((who.trim_start_matches(':').chars().take(VALUE_CHARS).collect(), yes))
+    };
+    tags.iter().filter_map(stated).take(MAX_PARTICIPANTS).collect()
 }
 
 fn local_of(tags: &Tags) -> Result<Option<Vec2>, ReadError> {

@@ -2,6 +2,7 @@
 
 use super::course;
 use super::roads::{Road, RoadLink, Roads, roads};
+use crate::driving_side::keeps_left;
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
@@ -23,6 +24,20 @@ const STOP_SIGN: &str = "206";
 /// Day of files that do not depend on when they were written.
 const DAY: &str = "1970-01-01T00:00:00";
 
+/// Side of the road that traffic keeps to: the word for it, and the number of the one lane of each road, which leads
+/// along its road on that side.
+#[derive(Clone, Copy)]
+struct WrittenSide {
+    word: &'static str,
+    lane: &'static str,
+    side: &'static str,
+    /// From the reference line to the lane's outer border, in widths.
+    outward: f64,
+}
+
+const RIGHT_HAND: WrittenSide = WrittenSide { word: "RHT", lane: "-1", side: "right", outward: -1.0 };
+const LEFT_HAND: WrittenSide = WrittenSide { word: "LHT", lane: "1", side: "left", outward: 1.0 };
+
 /// Id of the light of a signal of a scene, by its position.
 pub(crate) fn light_id(signal: usize) -> String {
     (signal + 1).to_string()
@@ -39,15 +54,16 @@ pub(crate) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     }
     let beside = Roadside::of(scene, &drawn);
+    let rule = if keeps_left(&scene.map) { LEFT_HAND } else { RIGHT_HAND };
     let mut out = Markup::new();
     out.open("OpenDRIVE", &[]);
     header(scene, &mut out);
     let mut off_m = 0.0_f64;
     for (i, road) in drawn.roads.iter().enumerate() {
-        off_m = off_m.max(write_road(i, (road, &drawn), &scene.map, &beside, &mut out));
+        off_m = off_m.max(write_road(i, (road, &drawn), (&scene.map, rule), &beside, &mut out));
     }
     for (number, connecting) in &drawn.junctions {
-        write_junction(*number, connecting, &drawn, &mut out);
+        write_junction(*number, connecting, (&drawn, rule), &mut out);
     }
     out.close();
     Ok(Exported { bytes: out.finish(), losses: losses(scene, &drawn, off_m) })
@@ -136,7 +152,7 @@ fn middle(ring: &[Vec2]) -> Vec2 {
 fn write_road(
     number: usize,
     (road, drawn): (&Road<'_>, &Roads<'_>),
-    map: &LaneMap,
+    (map, rule): (&LaneMap, WrittenSide),
     beside: &Roadside,
     out: &mut Markup,
 ) -> f64 {
@@ -151,7 +167,7 @@ fn write_road(
             ("length", &decimal(total)),
             ("id", &number.to_string()),
             ("junction", &road.junction.map_or("-1".to_owned(), |j| junction_id(j, drawn))),
-            ("rule", "RHT"),
+            ("rule", rule.word),
         ],
     );
     out.open("link", &[]);
@@ -175,10 +191,10 @@ fn write_road(
     course::write(&pieces, out);
     out.close();
     heights(road, out);
-    lanes(road, drawn, total, out);
+    lanes((road, rule), drawn, total, out);
     let path = Polyline::new(line.iter().copied());
     crosswalks(number, &path, map, beside, out);
-    signals(number, &path, beside, out);
+    signals((number, rule), &path, beside, out);
     out.close();
     road.points.iter().map(|p| distance_to(line, *p)).fold(0.0, f64::max)
 }
@@ -251,7 +267,7 @@ fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
 }
 
 /// The one lane, whose middle is the reference line.
-fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
+fn lanes((road, rule): (&Road<'_>, WrittenSide), drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     let kind = match road.lane.lane_type {
         LaneType::BikeLane => "biking",
         LaneType::Sidewalk => "sidewalk",
@@ -277,19 +293,25 @@ fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     };
     out.open("lanes", &[]);
     for (s, width, slope) in &pieces {
-        cubic("laneOffset", "s", *s, width / 2.0, slope / 2.0, out);
+        cubic("laneOffset", "s", *s, -rule.outward * width / 2.0, -rule.outward * slope / 2.0, out);
     }
+    let centre = |out: &mut Markup| {
+        out.open("center", &[]);
+        out.open("lane", &[("id", "0"), ("type", "none"), ("level", "false")]);
+        out.close();
+        out.close();
+    };
     out.open("laneSection", &[("s", "0")]);
-    out.open("center", &[]);
-    out.open("lane", &[("id", "0"), ("type", "none"), ("level", "false")]);
-    out.close();
-    out.close();
-    out.open("right", &[]);
-    out.open("lane", &[("id", "-1"), ("type", kind), ("level", "false")]);
+    // Sides stand in the order of the standard: left, centre, right.
+    if rule.side == "right" {
+        centre(out);
+    }
+    out.open(rule.side, &[]);
+    out.open("lane", &[("id", rule.lane), ("type", kind), ("level", "false")]);
     out.open("link", &[]);
     for (name, link) in [("predecessor", road.predecessor), ("successor", road.successor)] {
         if let Some(RoadLink::Road(_)) = link {
-            out.empty(name, &[("id", "-1")]);
+            out.empty(name, &[("id", rule.lane)]);
         }
     }
     out.close();
@@ -298,6 +320,9 @@ fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     }
     out.close();
     out.close();
+    if rule.side == "left" {
+        centre(out);
+    }
     out.close();
     out.close();
 }
@@ -344,7 +369,7 @@ fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Roadside, 
     out.close();
 }
 
-fn signals(number: usize, path: &Polyline, beside: &Roadside, out: &mut Markup) {
+fn signals((number, rule): (usize, WrittenSide), path: &Polyline, beside: &Roadside, out: &mut Markup) {
     let (lights, signs) = (beside.lights.get(&number), beside.stop_signs.get(&number));
     if lights.is_none() && signs.is_none() {
         return;
@@ -368,7 +393,7 @@ fn signals(number: usize, path: &Polyline, beside: &Roadside, out: &mut Markup) 
                 ("hOffset", "0"),
             ],
         );
-        out.empty("validity", &[("fromLane", "-1"), ("toLane", "-1")]);
+        out.empty("validity", &[("fromLane", rule.lane), ("toLane", rule.lane)]);
         out.close();
     };
     for (i, stop) in lights.into_iter().flatten() {
@@ -384,7 +409,12 @@ fn junction_id(number: usize, drawn: &Roads<'_>) -> String {
     (drawn.roads.len() + number).to_string()
 }
 
-fn write_junction(number: usize, connecting: &[usize], drawn: &Roads<'_>, out: &mut Markup) {
+fn write_junction(
+    number: usize,
+    connecting: &[usize],
+    (drawn, rule): (&Roads<'_>, WrittenSide),
+    out: &mut Markup,
+) {
     let id = junction_id(number, drawn);
     out.open("junction", &[("name", &format!("junction {id}")), ("id", &id), ("type", "default")]);
     for (k, road) in connecting.iter().enumerate() {
@@ -398,7 +428,7 @@ fn write_junction(number: usize, connecting: &[usize], drawn: &Roads<'_>, out: &
                 ("contactPoint", "start"),
             ],
         );
-        out.empty("laneLink", &[("from", "-1"), ("to", "-1")]);
+        out.empty("laneLink", &[("from", rule.lane), ("to", rule.lane)]);
         out.close();
     }
     out.close();

@@ -5,6 +5,7 @@
 //! limits far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates
 //! move to the middle of the file's first road, because the crate keeps them in single precision.
 
+use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
@@ -50,6 +51,9 @@ const UNPAINTED: &str = "grass";
 const LENGTH: &str = " length=\"";
 /// A lane raised by so much is not driven onto from the one beside it, metres.
 const RAISED_M: f64 = 0.05;
+
+/// Limits of speed change no nearer to each other, or to an end of a section, metres.
+const LEAST_STRETCH_M: f64 = 1.0;
 
 /// Elements that are kept, by the one that they are in.
 const KEPT: &[(&str, &[&str])] = &[
@@ -101,6 +105,8 @@ pub(super) struct Filtered {
     pub origin: Vec2,
     /// Projection named by the file.
     pub projection: Option<String>,
+    /// Place and turn of the file's frame in the projection: `<offset>`.
+    pub offset: Offset,
     /// Number of dropped elements, by name.
     pub left_out: BTreeMap<&'static str, usize>,
     /// Lanes that stand above the road: road id, lane section, lane id.
@@ -109,6 +115,16 @@ pub(super) struct Filtered {
     pub left_hand: HashSet<String>,
     /// Faults that were repaired.
     pub faults: Vec<String>,
+    /// Lanes that have borders in a section with widths, and their length, metres.
+    pub bordered: (usize, f64),
+}
+
+/// `<offset>` of a header, metres and radians.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Offset {
+    pub at: Vec2,
+    pub z_m: f64,
+    pub turn_rad: f64,
 }
 
 /// Reads a file, plain or gzip.
@@ -128,6 +144,9 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
             XmlEvent::Text(text) => filter.text(&text),
         }
     }
+    let mut edits = filter.edits;
+    edits.extend(filter.links.edits());
+    filter.out.text = short::edited(filter.out.text, edits);
     Ok(filter.out)
 }
 
@@ -143,13 +162,31 @@ struct Road {
     /// Elements that are looked for along it.
     records: usize,
     sections: Vec<FilteredSection>,
+    /// Where limits of speed begin along the road, and what they are.
+    speeds: Vec<(f64, Option<String>)>,
+    ends: [Option<RoadEnd>; 2],
 }
 
+#[derive(Clone, Default)]
 struct FilteredSection {
     s_m: f64,
     lanes: usize,
     drawn: usize,
     raised: Vec<i32>,
+    /// Sides that the section gives, right and left.
+    gives: [bool; 2],
+    /// Some lane has a width; lanes that have borders alone.
+    has_widths: bool,
+    bordered: usize,
+    /// Where limits of speed of lanes begin: lane, place in the section, limit.
+    speeds: Vec<(i32, f64, Option<String>)>,
+}
+
+/// The lane that is open.
+#[derive(Default)]
+struct OpenLane {
+    has_width: bool,
+    has_border: bool,
 }
 
 #[derive(Default)]
@@ -165,6 +202,18 @@ struct Filter {
     ids: HashSet<String>,
     road: Road,
     lane: Option<i32>,
+    lane_shape: OpenLane,
+    /// Links of the road's sections, in the order of the file, and of all roads before.
+    sections: Vec<LinkedSection>,
+    links: Links,
+    /// The link that is open: where it begins, of which lane, after it or before, to which lane.
+    link: Option<(usize, i32, bool, i32)>,
+    /// The junction and the connection that are open.
+    junction: String,
+    connection: (String, String, bool),
+    lane_link: Option<JunctionLink>,
+    /// Changes of the text that are made at the end.
+    edits: Vec<(Range<usize>, String)>,
     kept: usize,
     lanes: usize,
     signals: usize,
@@ -197,6 +246,9 @@ impl Filter {
             KEPT.iter().any(|(name, inner)| *name == parent && inner.contains(&element.name.as_str()));
         if !known || !self.wanted(element) {
             self.projection = parent == "header" && element.name == "geoReference";
+            if parent == "header" && element.name == "offset" {
+                self.out.offset = offset(element)?;
+            }
             self.height(element);
             self.count_left_out(&element.name);
             self.skipped = 1;
@@ -211,14 +263,87 @@ impl Filter {
             "roadMark" => self.keep(&unpainted(element), &[]),
             "laneSection" => {
                 let s_m = number(element, "s").unwrap_or(0.0).max(0.0);
-                self.road.sections.push(FilteredSection { s_m, lanes: 0, drawn: 0, raised: Vec::new() });
+                let whole = !matches!(element.get("singleSide"), Some("true" | "1"));
+                let section = FilteredSection { s_m, gives: [whole; 2], ..FilteredSection::default() };
+                self.road.sections.push(section);
+                self.sections.push(LinkedSection { s_m, gives: [whole; 2], ..LinkedSection::default() });
                 self.keep(element, &[("s", s_m)])
             }
             "lane" => {
                 self.lane(element)?;
                 self.keep(element, &[])
             }
-            _ => self.keep(element, &[]),
+            _ => {
+                self.note(&parent, element);
+                self.keep(element, &[])
+            }
+        }
+    }
+
+    /// Notes what is linked, and what holds where.
+    fn note(&mut self, parent: &str, element: &Element) {
+        let text = |name: &str| element.get(name).unwrap_or_default().to_owned();
+        let id = |name: &str| element.get(name).and_then(|id| id.trim().parse::<i32>().ok());
+        let from = self.out.text.len();
+        let after = element.name == "successor";
+        match (parent, element.name.as_str(), self.lane) {
+            ("link", "predecessor" | "successor", Some(lane)) => {
+                self.link = id("id").map(|to| (from, lane, after, to));
+            }
+            ("link", "predecessor" | "successor", None) => {
+                let end = RoadEnd {
+                    is_junction: element.get("elementType") == Some("junction"),
+                    id: text("elementId"),
+                    at_end: element.get("contactPoint") == Some("end"),
+                };
+                self.road.ends[usize::from(after)] = Some(end);
+            }
+            ("laneSection", side @ ("left" | "right"), _) => {
+                let left = usize::from(side == "left");
+                if let (Some(section), Some(linked)) =
+                    (self.road.sections.last_mut(), self.sections.last_mut())
+                {
+                    (section.gives[left], linked.gives[left]) = (true, true);
+                }
+            }
+            ("road", "type", _) => self.road.speeds.push((number(element, "s").unwrap_or(0.0), None)),
+            ("type", "speed", _) => {
+                if let Some((_, limit)) = self.road.speeds.last_mut() {
+                    *limit = Some(limit_of(element));
+                }
+            }
+            ("lane", "speed", Some(lane)) => {
+                let at = number(element, "sOffset").unwrap_or(0.0);
+                if let Some(section) = self.road.sections.last_mut() {
+                    section.speeds.push((lane, at, Some(limit_of(element))));
+                }
+            }
+            ("lane", "width", _) => {
+                self.lane_shape.has_width = true;
+                if let Some(section) = self.road.sections.last_mut() {
+                    section.has_widths = true;
+                }
+            }
+            ("lane", "border", _) => self.lane_shape.has_border = true,
+            ("OpenDRIVE", "junction", _) => self.junction = text("id"),
+            ("junction", "connection", _) => {
+                let connecting = element.get("connectingRoad").or_else(|| element.get("linkedRoad"));
+                let at_end = element.get("contactPoint") == Some("end");
+                self.connection = (text("incomingRoad"), connecting.unwrap_or_default().to_owned(), at_end);
+            }
+            ("connection", "laneLink", _) => {
+                let (incoming, connecting, at_end) = self.connection.clone();
+                self.lane_link = id("from").zip(id("to")).map(|(lane, to)| JunctionLink {
+                    junction: self.junction.clone(),
+                    incoming,
+                    connecting,
+                    at_end,
+                    from: lane,
+                    to,
+                    at: from..from,
+                });
+            }
+            _ => {}
         }
     }
 
@@ -232,10 +357,32 @@ impl Filter {
         if name == "road" {
             self.end_of_road()?;
         }
+        if name == "lanes" {
+            self.split_at_limits()?;
+        }
         if name == "lane" {
             self.lane = None;
+            let shape = std::mem::take(&mut self.lane_shape);
+            let bordered = usize::from(shape.has_border && !shape.has_width);
+            if let Some(section) = self.road.sections.last_mut() {
+                section.bordered += bordered;
+            }
         }
         let _ = write!(self.out.text, "</{name}>");
+        let end = self.out.text.len();
+        if let Some((from, lane, after, to)) =
+            self.link.take_if(|_| name == "predecessor" || name == "successor")
+        {
+            let link = LaneLink { lane, after, to, at: from..end };
+            if let Some(section) = self.sections.last_mut() {
+                section.links.push(link);
+            }
+            return Ok(());
+        }
+        if let Some(mut link) = self.lane_link.take_if(|_| name == "laneLink") {
+            link.at.end = end;
+            self.links.junctions.push(link);
+        }
         Ok(())
     }
 
@@ -357,8 +504,44 @@ impl Filter {
         let (said, line_m) = (road.length_m, road.line_m);
         let fault = format!("road {id:?}: length {said:.3} m, but its <planView> ends at {line_m:.3} m");
         self.out.faults.push(fault);
-        self.out.text.replace_range(road.length_at.clone(), &line_m.to_string());
+        self.edits.push((road.length_at.clone(), line_m.to_string()));
         road.length_m = line_m;
+    }
+
+    /// Begins a section where a limit of speed changes, with the lanes of the one before, so that each lane has one
+    /// limit.
+    fn split_at_limits(&mut self) -> Result<(), ReadError> {
+        let road = &mut self.road;
+        road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+        let length_m = if road.line_m > 0.0 { road.length_m.min(road.line_m) } else { road.length_m };
+        let changes = road.speeds.windows(2).filter(|pair| pair[0].1 != pair[1].1).map(|pair| pair[1].0);
+        let mut places: Vec<f64> = changes.collect();
+        for section in &road.sections {
+            for (i, (lane, at, limit)) in section.speeds.iter().enumerate() {
+                let before = section.speeds[..i].iter().rev().find(|(other, ..)| other == lane);
+                if before.is_none_or(|(.., other)| other != limit) && *at > 0.0 {
+                    places.push(section.s_m + at);
+                }
+            }
+        }
+        places.sort_by(f64::total_cmp);
+        for place in places {
+            let at = road.sections.partition_point(|section| section.s_m <= place);
+            let end_m = road.sections.get(at).map_or(length_m, |next| next.s_m.min(length_m));
+            let Some(before) = at.checked_sub(1).and_then(|i| road.sections.get(i)).cloned() else {
+                continue;
+            };
+            if place - before.s_m < LEAST_STRETCH_M || end_m - place < LEAST_STRETCH_M {
+                continue;
+            }
+            self.lanes += before.lanes;
+            self.kept += 1;
+            at_most(self.lanes, MAX_LANES, "lanes")?;
+            let _ = write!(self.out.text, "<laneSection s=\"{place}\" singleSide=\"true\"></laneSection>");
+            self.sections.push(LinkedSection { s_m: place, ..LinkedSection::default() });
+            road.sections.insert(at, FilteredSection { s_m: place, gives: [false; 2], ..before });
+        }
+        self.fits()
     }
 
     /// A piece of the reference line, about the file's own middle.
@@ -408,6 +591,16 @@ impl Filter {
         self.cut(&mut road);
         // As they are numbered: in the order along the road.
         road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+        let mut links =
+            RoadLinks { sections: std::mem::take(&mut self.sections), ends: std::mem::take(&mut road.ends) };
+        links.close(road.length_m);
+        self.links.roads.insert(road.id.clone(), links);
+        for i in 1..road.sections.len() {
+            let gives = road.sections[i].gives;
+            let raised = road.sections[i - 1].raised.clone();
+            let carried = raised.into_iter().filter(|lane| !gives[usize::from(*lane > 0)]);
+            road.sections[i].raised.extend(carried);
+        }
         let widest = road.sections.iter().map(|section| section.lanes).max().unwrap_or(0);
         for (i, section) in road.sections.iter().enumerate() {
             let end_m = road.sections.get(i + 1).map_or(road.length_m, |next| next.s_m).min(road.length_m);
@@ -415,6 +608,10 @@ impl Filter {
             self.drawn_m += (end_m - section.s_m).max(0.0) * section.drawn as f64;
             let raised = section.raised.iter().map(|lane| (road.id.clone(), i, *lane));
             self.out.raised.extend(raised);
+            if section.has_widths && section.bordered > 0 {
+                self.out.bordered.0 += section.bordered;
+                self.out.bordered.1 += (end_m - section.s_m).max(0.0) * section.bordered as f64;
+            }
         }
         if self.lanes_m > MAX_LANES_M {
             return Err(too_large(format!("more than {MAX_LANES_M} m of lanes")));
@@ -426,6 +623,20 @@ impl Filter {
             return Err(too_large(format!("road \"{id}\" has {} records", road.records)));
         }
         Ok(())
+    }
+}
+
+/// The limit that a `<speed>` states, to be compared.
+fn limit_of(speed: &Element) -> String {
+    format!("{} {}", speed.get("max").unwrap_or_default(), speed.get("unit").unwrap_or_default())
+}
+
+fn offset(element: &Element) -> Result<Offset, ReadError> {
+    let value = |name| number(element, name).unwrap_or(0.0);
+    let offset = Offset { at: Vec2::new(value("x"), value("y")), z_m: value("z"), turn_rad: value("hdg") };
+    match [offset.at.x, offset.at.y, offset.z_m].into_iter().find(|v| v.abs() > MAX_SOURCE_M) {
+        Some(far) => Err(FieldProblem::range("", -MAX_SOURCE_M, MAX_SOURCE_M, far).into()),
+        None => Ok(offset),
     }
 }
 

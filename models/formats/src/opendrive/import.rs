@@ -1,6 +1,6 @@
 //! From an OpenDRIVE file to a map about the origin, with its signals.
 
-use super::filter::{self, Filtered};
+use super::filter::{self, Filtered, Offset};
 use super::lanes::{self, Found, carries_vehicles, is_road};
 use super::sections::{NetworkFrame, Section, sections};
 use super::{marks, objects, signals};
@@ -11,8 +11,9 @@ use crate::sentences;
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, lights};
+use scene::geometry::rotate;
 use scene::map::LaneMap;
-use scene::{MAX_COORDINATE_M, Origin, Vec2};
+use scene::{MAX_COORDINATE_M, Origin, Vec2, wrap_angle};
 use std::collections::BTreeMap;
 use xodr::{Direction, RoadNetwork};
 
@@ -69,8 +70,15 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     warnings.extend(made);
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
     let name = name.trim().to_owned();
-    let middle = file.origin + frame.middle;
-    let origin = Origin { x_m: middle.x, y_m: middle.y, crs: file.projection, ..Origin::default() };
+    let Offset { at, z_m, turn_rad } = file.offset;
+    let middle = at + rotate(file.origin + frame.middle, turn_rad);
+    let origin = Origin {
+        x_m: middle.x,
+        y_m: middle.y,
+        z_m,
+        rotation_rad: wrap_angle(turn_rad),
+        crs: file.projection,
+    };
     Ok(MapRead { name, map: map.into(), signals, origin, warnings })
 }
 
@@ -175,6 +183,8 @@ fn warnings(
     }
     let listed: Vec<String> = file.left_out.iter().map(|(what, count)| format!("{count} x {what}")).collect();
     warn(!listed.is_empty(), "parts-dropped", sentences::parts_left_out(&listed.join(", ")));
+    let (bordered, length_m) = file.bordered;
+    warn(bordered > 0, "lanes-dropped", sentences::lanes_bordered(bordered, length_m));
     warn(approximated > 0, "lines-approximated", sentences::lines_approximated(approximated));
     warn(!whole, "edges-dropped", sentences::crossing_roads());
     warnings

@@ -92,10 +92,11 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMa
             };
             for &forward in both {
                 let (points, places) = points(lane, forward, linked(network, lane));
+                let width_m = lane.mean_width_over(&places);
                 let drawn = NetworkLane { lane: map.lanes.len(), forward, places };
                 map.lanes.push(Lane {
                     lane_type,
-                    width_m: Some(told(lane.mean_width_m()).clamp(0.1, 50.0)),
+                    width_m: Some(told(width_m).clamp(0.1, 50.0)),
                     speed_limit_mps: limit.filter(|_| lane_type != LaneType::Sidewalk),
                     // On a motorway, ramps join and leave without crossing traffic.
                     interpolating: interpolating && lane_type != LaneType::Freeway,
@@ -220,6 +221,11 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
         for next in lane.successors.iter().filter_map(|next| found.get(next)) {
             // Only of two-way lanes it must be found out which way leads on.
             let sure = drawn.len() == 1 && next.len() == 1;
+            // Pavements have no direction: the link of two that end or begin together is a matter of walkers.
+            let walked = |list: &[NetworkLane]| {
+                list.iter().all(|drawn| map.lanes[drawn.lane].lane_type == LaneType::Sidewalk)
+            };
+            let sure = sure && !(walked(drawn) && walked(next));
             for (from, to) in drawn.iter().flat_map(|from| next.iter().map(move |to| (from.lane, to.lane))) {
                 let ends = [map.lanes[from].points.xy.last(), map.lanes[to].points.xy.first()];
                 let meet = matches!(ends, [Some(end), Some(start)] if (end - start).norm() < MEETING_M);

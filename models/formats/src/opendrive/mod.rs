@@ -13,4 +13,5 @@ mod marks;
 mod objects;
 mod roads;
 mod sections;
+mod short;
 mod signals;

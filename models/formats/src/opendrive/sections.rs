@@ -47,9 +47,20 @@ pub(super) struct SectionLane {
 }
 
 impl SectionLane {
-    /// Mean width over the points, metres.
-    pub fn mean_width_m(&self) -> f64 {
-        self.widths_m.iter().sum::<f64>() / self.widths_m.len().max(1) as f64
+    /// Mean width over the points, metres; where places between the points are given, over the stretch of the lane
+    /// that they lie on.
+    pub fn mean_width_over(&self, places: &[f64]) -> f64 {
+        let at = |place: f64| {
+            let width = |i: usize| self.widths_m.get(i).or(self.widths_m.last()).copied().unwrap_or_default();
+            let (i, share) = (place.floor().max(0.0) as usize, place.fract());
+            width(i) + (width(i + 1) - width(i)) * share
+        };
+        let ends = places.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), p| (a.min(*p), b.max(*p)));
+        let last = self.widths_m.len().saturating_sub(1) as f64;
+        if ends.0 <= 0.0 && ends.1 >= last {
+            return self.widths_m.iter().sum::<f64>() / self.widths_m.len().max(1) as f64;
+        }
+        places.iter().map(|place| at(*place)).sum::<f64>() / places.len().max(1) as f64
     }
 
     /// Greatest width, metres.

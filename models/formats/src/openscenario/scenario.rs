@@ -16,6 +16,8 @@ const FRONT: f64 = 0.3;
 /// Vehicle properties that a scenario requires and a scene lacks: maximum speed, acceleration and braking.
 const PERFORMANCE: [(&str, &str); 3] =
     [("maxSpeed", "70"), ("maxAcceleration", "10"), ("maxDeceleration", "10")];
+/// Who moves less than this in the last step stands, metres.
+const STANDS_M: f64 = 0.05;
 /// Day of files that do not depend on when they were written.
 const DAY: &str = "1970-01-01T00:00:00";
 
@@ -351,8 +353,16 @@ fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     for (step, state) in &road_user.states {
         vertex((*step, state), out);
     }
-    if let [(step, state)] = &road_user.states[..] {
-        // A polyline needs two points: a road user seen once stays for one step.
+    // A polyline needs two points: a road user seen once stays for one step. Who stands at the end does so for one
+    // step more, since players turn the last piece towards its own direction, which a standing one has not.
+    let held = match &road_user.states[..] {
+        [.., (_, before), (step, last)] => {
+            ((last.position() - before.position()).norm() < STANDS_M).then_some((step, last))
+        }
+        [(step, only)] => Some((step, only)),
+        [] => None,
+    };
+    if let Some((step, state)) = held {
         vertex((step + 1, state), out);
     }
     out.close();

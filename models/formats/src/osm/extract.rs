@@ -1,6 +1,7 @@
 //! The parts of an extract that netconvert needs: roads, their nodes, and turn restrictions. The rest is
 //! dropped, so that the other program receives a small file written here.
 
+use super::pavements;
 use crate::markup::Markup;
 use crate::osm_items::{Member, OsmElement, each};
 use crate::problem::{FieldProblem, ReadError, at_most, code};
@@ -108,7 +109,11 @@ fn write(item: &OsmElement, out: &mut Markup) {
     for Member { sort, id, role } in &item.members {
         out.empty("member", &[("type", sort), ("ref", &id.to_string()), ("role", role)]);
     }
-    item.tags.iter().for_each(|(key, value)| out.empty("tag", &[("k", key), ("v", value)]));
+    let tags = item.tags.iter().filter(|(key, _)| !pavements::is_tag(key));
+    tags.for_each(|(key, value)| out.empty("tag", &[("k", key), ("v", value)]));
+    if let Some(sides) = pavements::value(item) {
+        out.empty("tag", &[("k", "sidewalk"), ("v", sides)]);
+    }
     out.close();
 }
 

@@ -4,11 +4,12 @@ use super::driving_side::is_left;
 use super::extract::{self, Extract};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, only, only_read};
 use crate::map_file::MapRead;
+use crate::osm_items::holds_lanelets;
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences;
 use crate::source::Source;
 use crate::sumo::formats::read_net;
-use crate::sumo::import_net::PROJECTION_DROPPED;
+use crate::sumo::import_net::LEFT_HAND;
 use crate::{unpack, xml};
 use scene::Scene;
 use std::io;
@@ -16,15 +17,12 @@ use std::io;
 /// Licence of OpenStreetMap data, and the attribution that it requires.
 const LICENCE: &str = "odbl";
 const ATTRIBUTION: &str = "Map data © OpenStreetMap contributors, available under the Open Database License.";
-/// Names of programs that cut extracts.
-const PROGRAMS: [&str; 7] =
-    ["openstreetmap", "cgimap", "overpass", "osmium", "osmosis", "osmconvert", "osmfilter"];
 /// Name of the file that netconvert is given.
 const FILE: &str = "extract.osm";
 /// Arguments with which netconvert makes usable junctions of roads without lanes. It joins nodes of one
-/// junction, adds pavements, crossings and cycle lanes where tagged or usual, and gives signals a fixed
-/// program.
-const ARGUMENTS: [&str; 17] = [
+/// junction, adds pavements as the extract states, crossings and cycle lanes where tagged or usual, and gives
+/// signals a fixed program.
+const ARGUMENTS: [&str; 16] = [
     "--geometry.remove",
     "--junctions.join",
     "--roundabouts.guess",
@@ -33,7 +31,6 @@ const ARGUMENTS: [&str; 17] = [
     "--osm.sidewalks",
     "--osm.bike-access",
     "--osm.crossings",
-    "--sidewalks.guess",
     "--crossings.guess",
     "--tls.guess-signals",
     "--tls.join",
@@ -57,9 +54,9 @@ impl OsmExtract {
         let network = network(options, &xml, &projection.name(), left)?;
         let MapRead { map, signals, mut origin, mut warnings, .. } = read_net(&network)?;
         origin.crs = Some(projection.name());
-        warnings.retain(|warning| warning.code != PROJECTION_DROPPED);
+        warnings.retain(|warning| warning.code != LEFT_HAND);
         if left {
-            warnings.push(ImportWarning::new("left-hand", sentences::left_hand()));
+            warnings.push(ImportWarning::new(LEFT_HAND, sentences::left_hand()));
         }
         let read = MapRead { name: String::new(), map, signals, origin, warnings };
         let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;
@@ -116,9 +113,8 @@ impl Format for OsmExtract {
         if xml::root_of(&head).is_none_or(|root| root != "osm") {
             return 0;
         }
-        // A Lanelet2 map begins alike, but no program that cuts extracts wrote it.
-        let start = String::from_utf8_lossy(head.get(..2_048).unwrap_or(&head)).to_lowercase();
-        if PROGRAMS.iter().any(|name| start.contains(name)) { 2 } else { 0 }
+        // A Lanelet2 map begins alike. Its lanelets may stand far behind: `registry::identified` looks at all of it.
+        if holds_lanelets(&head.as_slice()) { 0 } else { 2 }
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {

@@ -4,3 +4,4 @@
 mod driving_side;
 pub(crate) mod extract;
 pub(crate) mod format;
+mod pavements;

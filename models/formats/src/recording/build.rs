@@ -4,16 +4,22 @@ use super::motion::{Derived, complete, spacing_s, step_at, track};
 use super::{AgentIds, RecordedAgent, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
+use crate::headings::{HeadingUnit, MOVES_MPS, Votes, said_wrapped};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::repairs::checked;
 use crate::sentences;
 use scene::map::LaneMap;
+use scene::wrap_angle;
 use scene::{
     Agent, AgentFutures, Conditions, Future, Generated, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene,
     Shared, State, Timing, Vec2,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::f64::consts::TAU;
 
+/// Samples of a road user this near to each other are of one time, seconds.
+const SAME_S: f64 = 1e-6;
 /// Most scenes of one recording: a day of it.
 const MAX_WINDOWS: usize = 10_000;
 /// A file whose coordinates stay within this distance of its zero keeps its frame, metres.
@@ -30,6 +36,8 @@ pub(crate) struct Said {
     pub meta: Meta,
     /// Origin of the scene in the file's frame; derived when absent.
     pub origin: Option<Origin>,
+    /// Projection of the file's frame, for an origin that is derived.
+    pub crs: Option<String>,
     /// Time of the first step in the file, seconds; that of the first sample where absent.
     pub start_s: Option<f64>,
     pub timing: Option<Timing>,
@@ -68,6 +76,11 @@ impl Recording {
         self.said.timing = self.said.timing.filter(can_be);
         for list in self.lists() {
             list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        }
+        self.said.warnings.extend(settle_headings(&mut self.users));
+        let repeated: usize = self.users.iter().map(|user| repeated(&user.samples)).sum();
+        if repeated > 0 {
+            self.said.warnings.push(ImportWarning::new("rows-repeated", sentences::rows_repeated(repeated)));
         }
         let usual = || spacing_s(self.users.iter().map(|user| user.samples.as_slice()));
         let spacing_s = self.said.spacing_s.unwrap_or_else(usual);
@@ -251,7 +264,7 @@ impl PreparedRecording {
         } else {
             present.iter().find(ego).map_or_else(|| middle(places()), |(_, at)| *at).map(f64::round)
         };
-        Origin { x_m: at.x, y_m: at.y, ..Origin::default() }
+        Origin { x_m: at.x, y_m: at.y, crs: self.recording.said.crs.clone(), ..Origin::default() }
     }
 
     /// Road users that fit the scene, in the order of the file: within reach of the origin, and nearest to
@@ -342,6 +355,35 @@ impl PreparedRecording {
         let samples: Vec<scene::Sample> = samples.into_values().map(answer).collect();
         (!samples.is_empty()).then(|| Generated { samples, ..Generated::default() })
     }
+}
+
+/// Samples, in the order of time, at the time of the one before.
+fn repeated(samples: &[RecordedState]) -> usize {
+    samples.windows(2).filter(|pair| (pair[1].time_s - pair[0].time_s).abs() < SAME_S).count()
+}
+
+/// Turns headings to radians within a turn, as [`crate::headings::settle`] does for states.
+fn settle_headings(users: &mut [RecordedAgent]) -> Option<ImportWarning> {
+    let mut votes = Votes::default();
+    for user in users.iter() {
+        let samples = &user.samples;
+        let way = |i: usize| {
+            let (a, b) = (samples.get(i)?, samples.get(i + 1)?);
+            let way = (b.at - a.at) / (b.time_s - a.time_s);
+            Some(way).filter(|way| way.norm().is_finite() && way.norm() > MOVES_MPS)
+        };
+        votes.add(samples.iter().enumerate().map(|(i, sample)| (sample.heading_rad, way(i))));
+    }
+    if votes.is_quiet(HeadingUnit::Radians) {
+        return None;
+    }
+    let samples = users.iter_mut().flat_map(|user| &mut user.samples);
+    if votes.in_degrees(HeadingUnit::Radians) {
+        samples.for_each(|sample| sample.heading_rad = sample.heading_rad.to_radians());
+        return Some(votes.said_degrees());
+    }
+    let outside = samples.filter(|sample| sample.heading_rad.abs() > TAU);
+    said_wrapped(outside.map(|sample| sample.heading_rad = wrap_angle(sample.heading_rad)).count())
 }
 
 /// Possible motions of a sample, by road user.

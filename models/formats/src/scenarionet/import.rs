@@ -6,6 +6,7 @@ use super::value::{Pickle, PickleValue};
 use super::words::{agent_type, signal_state};
 use crate::describe;
 use crate::format::{EGO, ImportOptions};
+use crate::headings::{self, HeadingUnit};
 use crate::limits::{MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::sentences::{self, subject};
@@ -53,7 +54,8 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let metadata = pickle.get(root, "metadata").unwrap_or(&nothing);
     let steps = steps(&pickle, tracks)?;
     let own = pickle.get(metadata, OWN).unwrap_or(&nothing);
-    let (agents, ids) = agents(&pickle, tracks, metadata, steps, &mut warnings)?;
+    let (mut agents, ids) = agents(&pickle, tracks, metadata, steps, &mut warnings)?;
+    warnings.extend(headings::settle(&mut agents, HeadingUnit::Radians));
     let map = import_map::lane_map(&pickle, features, &mut warnings)?;
     let lights = pickle.get(root, "dynamic_map_states").unwrap_or(&nothing);
     let signals = signals(&pickle, lights, steps, &mut warnings)?;

@@ -2,7 +2,7 @@
 
 use super::value::{Pickle, PickleValue};
 use super::words::{Feature, feature};
-use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES};
+use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES};
 use crate::problem::{FieldProblem, ImportWarning, ReadError, code, pointer_token};
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
@@ -111,7 +111,7 @@ fn line(
     let at = format!("/map_features/{}", pointer_token(&key.chars().take(60).collect::<String>()));
     let wrong = |detail: &str| ReadError::from(FieldProblem::new(at.as_str(), code::INVALID_FIELD, detail));
     let (across, numbers) =
-        pickle.rows(found, 3 * (MAX_POLYLINE_POINTS + 1)).ok_or_else(|| wrong("rows of numbers expected"))?;
+        pickle.rows(found, 3 * (MAX_MAP_POINTS + 1)).ok_or_else(|| wrong("rows of numbers expected"))?;
     // A place is one row.
     let across = if across == 1 && (2..=3).contains(&numbers.len()) { numbers.len() } else { across };
     if numbers.is_empty() {
@@ -189,7 +189,7 @@ fn lane(
 
 /// The median width, where both its halves are known.
 fn width(pickle: &Pickle, value: &PickleValue) -> Option<f64> {
-    let (across, numbers) = pickle.rows(pickle.get(value, "width")?, 2 * MAX_POLYLINE_POINTS)?;
+    let (across, numbers) = pickle.rows(pickle.get(value, "width")?, 2 * MAX_MAP_POINTS)?;
     let mut widths: Vec<f64> = match across {
         2 => numbers
             .chunks_exact(2)

@@ -39,6 +39,8 @@ enum Known {
     /// A dictionary whose first argument is the default factory.
     DefaultDict,
     List,
+    /// A type whose only use is as the factory of a dictionary: nothing is made by it.
+    Factory,
     /// Bytes from a text with code points below 256.
     Encode,
 }
@@ -65,6 +67,20 @@ const KNOWN: &[(&str, &str, Known)] = &[
     ("__builtin__", "dict", Known::Dict),
     ("__builtin__", "list", Known::List),
     ("__builtin__", "set", Known::List),
+    ("builtins", "frozenset", Known::List),
+    ("builtins", "tuple", Known::Factory),
+    ("builtins", "int", Known::Factory),
+    ("builtins", "float", Known::Factory),
+    ("builtins", "bool", Known::Factory),
+    ("builtins", "str", Known::Factory),
+    ("__builtin__", "frozenset", Known::List),
+    ("__builtin__", "tuple", Known::Factory),
+    ("__builtin__", "int", Known::Factory),
+    ("__builtin__", "float", Known::Factory),
+    ("__builtin__", "bool", Known::Factory),
+    ("__builtin__", "str", Known::Factory),
+    ("__builtin__", "long", Known::Factory),
+    ("__builtin__", "unicode", Known::Factory),
     ("metadrive.scenario.scenario_description", "ScenarioDescription", Known::Dict),
     ("_codecs", "encode", Known::Encode),
 ];

@@ -14,7 +14,7 @@ use crate::map_file::{MapFile, MapRead};
 use crate::problem::ReadError;
 use crate::source::Source;
 use crate::{unpack, xml};
-use scene::{Origin, Scene};
+use scene::Scene;
 use std::io;
 
 /// `meta.source` of the scenes.
@@ -68,7 +68,7 @@ pub(super) fn of_net(net: NetScene) -> MapRead {
         name: String::new(),
         signals: net.signals(0.0, MAP_TIMING.steps),
         map: net.map,
-        origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
+        origin: net.place,
         warnings: net.warnings,
     }
 }

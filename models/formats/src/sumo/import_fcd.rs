@@ -8,8 +8,9 @@ use super::rows::{FcdItem, FcdRow, FcdRows};
 use super::window::{Between, FcdState, MAX_FILLED_S, SAME_S, between, track};
 use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, checked, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::recording::{AgentIds, middle};
+use crate::repairs::checked;
 use crate::sentences;
 use scene::geometry::direction;
 use scene::{
@@ -218,7 +219,10 @@ impl<'a> Windows<'a> {
             meta: Meta {
                 source: SOURCE.into(),
                 licence: self.common.licence.clone(),
-                origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+                origin: self.common.net.as_ref().map_or_else(
+                    || Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+                    |net| net.place.clone(),
+                ),
                 timestamps_s: (start_s != 0.0)
                     .then(|| (0..steps).map(|i| start_s + i as f64 * STEP_S).collect()),
                 ..Meta::default()

@@ -3,21 +3,22 @@
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
 use super::programs::SignalProgram;
-use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
+use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
 use crate::map_file;
 use crate::polyline::length;
 use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
+use crate::repairs;
 use crate::sentences;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use scene::map::{LaneMap, Points};
-use scene::{MAX_COORDINATE_M, STEP_S, Shared, Signal, Vec2};
+use scene::{MAX_COORDINATE_M, Origin, STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
-/// Warning that places on the globe are lost.
-pub(crate) const PROJECTION_DROPPED: &str = "projection-dropped";
+/// Warning that traffic keeps to the left.
+pub(crate) const LEFT_HAND: &str = "left-hand";
 /// Memory per byte of text until it is a map, bytes.
 const TEXT_MEMORY: u64 = 4;
 /// Farthest a network's coordinate may lie from its own origin, metres.
@@ -30,6 +31,8 @@ pub(super) struct NetScene {
     pub map: Shared<LaneMap>,
     /// Origin in the network's frame, whole metres.
     pub origin: Vec2,
+    /// The same place on the globe where the network states its projection.
+    pub place: Origin,
     /// Half the size of the box round all lanes, metres.
     pub half: Vec2,
     pub warnings: Vec<ImportWarning>,
@@ -48,13 +51,20 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(most)));
     let mut net = Net::read_from(input.map_err(|error| unpack::fault(&error, 0))?)?;
     let (origin, half) = check_net(&net)?;
+    // Left-hand traffic is right-hand traffic in a mirror, the order of its lanes included: it is drawn there.
+    let mirrored = net.notes.left_hand;
+    let turned = |p: Vec2| if mirrored { Vec2::new(p.x, -p.y) } else { p };
     for lane in &mut net.lanes {
-        lane.shape.iter_mut().for_each(|p| *p -= origin);
+        lane.shape.iter_mut().for_each(|p| *p = turned(*p - origin));
     }
     for junction in &mut net.junctions {
-        junction.position -= origin;
+        junction.position = turned(junction.position - origin);
     }
     let mut drawn = lane_map(&net, MapOptions { sidewalks: true, parking: false });
+    if mirrored {
+        drawn.map = drawn.map.mirrored();
+        drawn.signals.iter_mut().for_each(|place| place.stop = turned(place.stop));
+    }
     // Around junctions with extreme lane directions, borders can intersect at any distance.
     let near = |points: &Points| points.xy.iter().all(|p| p.amax() <= MAX_COORDINATE_M);
     drawn.map.drivable.retain(|area| near(&area.polygon));
@@ -70,7 +80,16 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     }
     // Of programs with the same id the simulation runs the one loaded last.
     let programs = net.programs.into_iter().map(|p| (p.id.clone(), p)).collect();
-    Ok(NetScene { map: drawn.map.into(), origin, half, warnings, places, programs })
+    let place = match net.notes.projection {
+        Some(crs) => {
+            let at = origin - net.notes.offset;
+            Origin { x_m: at.x, y_m: at.y, crs: Some(crs), ..Origin::default() }
+        }
+        None => Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+    };
+    let mut map = Shared::from(drawn.map);
+    warnings.extend(repairs::drop_far_links(&mut map));
+    Ok(NetScene { map, origin, place, half, warnings, places, programs })
 }
 
 impl NetScene {
@@ -121,10 +140,6 @@ fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
 
 fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
     let name: String = lane.id.chars().take(40).collect();
-    if lane.shape.len() > MAX_POLYLINE_POINTS {
-        let count = lane.shape.len();
-        return Err(too_large(format!("lane \"{name}\" has {count} points, at most {MAX_POLYLINE_POINTS}")));
-    }
     let problem = |what: &str, min: f64, max: f64, got: f64| {
         let mut problem = FieldProblem::range("", min, max, got);
         problem.detail = format!("lane \"{name}\", {what}: {}", problem.detail);
@@ -152,8 +167,7 @@ fn warnings_of(net: &Net) -> Vec<ImportWarning> {
     };
     warn(true, "ids-renumbered", sentences::ids_renumbered());
     warn(net.notes.heights, "heights-dropped", sentences::map_heights_dropped());
-    warn(net.notes.projected, PROJECTION_DROPPED, sentences::projection_dropped());
-    warn(net.notes.left_hand, "left-hand", sentences::left_hand_as_right());
+    warn(net.notes.left_hand, LEFT_HAND, sentences::left_hand_network());
     let closed = net.lanes.iter().filter(|l| l.kind == LaneKind::Closed).count();
     warn(closed > 0, "lanes-dropped", sentences::lanes_closed(closed));
     let ids: BTreeSet<&str> = net.programs.iter().map(|p| p.id.as_str()).collect();

@@ -107,15 +107,17 @@ pub struct Net {
     pub notes: NetNotes,
 }
 
-/// Content of a network that is not read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Content of a network beside its roads.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct NetNotes {
     /// Some shape has heights.
     pub heights: bool,
     /// Traffic keeps to the left: the lanes of an edge are counted from the left.
     pub left_hand: bool,
-    /// Coordinates are projected from the globe.
-    pub projected: bool,
+    /// Projection of the coordinates from the globe, as PROJ has it.
+    pub projection: Option<String>,
+    /// What was added to the projected coordinates, metres.
+    pub offset: Vec2,
 }
 
 impl Net {

@@ -1,6 +1,6 @@
 //! Columns of a table: this program's by their names, others' by a file that maps them.
 
-use super::{COLUMNS, SPEED};
+use super::{COLUMNS, LATITUDE, LONGITUDE, SPEED};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -10,6 +10,9 @@ use std::io::Read;
 
 /// Most bytes of a column file.
 const MAX_BYTES: u64 = 1 << 20;
+/// Member of a column file that describes a wide table, and most columns of one of its parts.
+const WIDE: &str = "wide";
+const MOST_WIDE: usize = 256;
 
 /// Source of a value.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,11 +26,45 @@ pub(super) struct ColumnSource {
     pub offset: f64,
     /// Words of theirs and ours.
     pub words: BTreeMap<String, String>,
+    /// Half of this size is added, in the direction in which the column counts, or taken off (-1): places of corners
+    /// and bumpers become those of centres.
+    pub half: Option<(f64, &'static str)>,
+    /// Files without the column are read, too.
+    pub optional: bool,
 }
 
 /// Our name to where its values come from.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Columns(pub BTreeMap<&'static str, ColumnSource>);
+pub(super) struct Columns {
+    pub sources: BTreeMap<&'static str, ColumnSource>,
+    pub wide: Option<Wide>,
+}
+
+/// A table with a row for each road user: so many columns of it, then so many for each time, again and again.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Wide {
+    pub fixed: usize,
+    pub repeated: usize,
+}
+
+/// Columns of public data sets, by the word for `--columns`.
+pub const PRESETS: [(&str, &str); 9] = [
+    ("citysim", include_str!("presets/citysim.json")),
+    ("exid", include_str!("presets/exid.json")),
+    ("highd", include_str!("presets/highd.json")),
+    ("ind", include_str!("presets/ind.json")),
+    ("interaction", include_str!("presets/interaction.json")),
+    ("ngsim", include_str!("presets/ngsim.json")),
+    ("pneuma", include_str!("presets/pneuma.json")),
+    ("round", include_str!("presets/round.json")),
+    ("sind", include_str!("presets/sind.json")),
+];
+
+/// The columns of a data set with this name.
+pub fn preset(name: &str) -> Option<&'static str> {
+    PRESETS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}
 
 /// A column in the column file: its name, or an object with details.
 #[derive(Deserialize)]
@@ -47,11 +84,14 @@ struct More {
     offset: Option<f64>,
     #[serde(default)]
     words: BTreeMap<String, String>,
+    add_half: Option<String>,
+    #[serde(default)]
+    optional: bool,
 }
 
 /// All names that a column file may map.
 fn names() -> impl Iterator<Item = &'static str> {
-    COLUMNS.into_iter().chain([SPEED])
+    COLUMNS.into_iter().chain([SPEED, LATITUDE, LONGITUDE])
 }
 
 /// Metres, seconds, radians and m/s in one of a unit.
@@ -78,10 +118,11 @@ impl Columns {
         let own = |name| {
             (name, ColumnSource { column: Some(String::from(name)), factor: 1.0, ..ColumnSource::default() })
         };
-        Self(names().map(own).collect())
+        Self { sources: names().map(own).collect(), wide: None }
     }
 
-    /// Columns from a column file, with this program's names for unmapped ones.
+    /// Columns from a column file, or those of the data set that it names, with this program's names for unmapped
+    /// ones.
     ///
     /// # Errors
     /// `malformed-json`, `invalid-field`.
@@ -90,9 +131,19 @@ impl Columns {
         let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
         let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
         input.map_err(|error| unpack::fault(&error, 0))?;
-        let told: BTreeMap<String, Told> = serde_json::from_slice(&bytes)
-            .map_err(|error| ReadError::malformed_json(&error, error.to_string()))?;
+        let named = std::str::from_utf8(&bytes).ok().and_then(|text| preset(text.trim().trim_matches('"')));
+        let malformed = |error: serde_json::Error| ReadError::malformed_json(&error, error.to_string());
+        let mut told: BTreeMap<String, serde_json::Value> =
+            serde_json::from_slice(named.map_or(bytes.as_slice(), str::as_bytes)).map_err(malformed)?;
         let mut columns = Self::own();
+        if let Some(wide) = told.remove(WIDE) {
+            let wide: Wide = serde_json::from_value(wide).map_err(malformed)?;
+            if wide.repeated == 0 || wide.fixed.max(wide.repeated) > MOST_WIDE {
+                let detail = format!("1 to {MOST_WIDE} columns expected");
+                return Err(FieldProblem::new(format!("/{WIDE}"), code::INVALID_FIELD, detail).into());
+            }
+            columns.wide = Some(wide);
+        }
         for (name, told) in told {
             let fault = |detail: String| {
                 let pointer = format!("/{}", crate::problem::pointer_token(&name));
@@ -102,13 +153,15 @@ impl Columns {
                 let all: Vec<_> = names().collect();
                 return Err(fault(format!("one of {} expected", all.join(", "))));
             };
+            let told =
+                serde_json::from_value(told).map_err(|_| fault("a name or an object expected".into()))?;
             let origin = match told {
                 Told::Name(column) => {
                     ColumnSource { column: Some(column), factor: 1.0, ..ColumnSource::default() }
                 }
                 Told::More(more) => more.origin().map_err(fault)?,
             };
-            columns.0.insert(own, origin);
+            columns.sources.insert(own, origin);
         }
         Ok(columns)
     }
@@ -138,7 +191,19 @@ impl More {
         if self.column.is_some() == value.is_some() {
             return Err("either column or value expected".into());
         }
-        Ok(ColumnSource { column: self.column, value, factor, offset, words: self.words })
+        let half = match self.add_half.as_deref() {
+            None => None,
+            Some(size) => {
+                let (sign, size) = size.strip_prefix('-').map_or((1.0, size), |size| (-1.0, size));
+                let known = ["length_m", "width_m"].into_iter().find(|known| *known == size);
+                Some((
+                    sign,
+                    known.ok_or("length_m or width_m expected in add_half, or one of them with a minus")?,
+                ))
+            }
+        };
+        let Self { column, words, optional, .. } = self;
+        Ok(ColumnSource { column, value, factor, offset, words, half, optional })
     }
 }
 
@@ -154,12 +219,26 @@ mod tests {
     fn names_units_and_words_are_taken() {
         let told = r#"{"agent_id": "trackId", "heading_rad": {"column": "heading", "unit": "deg", "factor": -1},
             "type": {"column": "class", "words": {"1": "car"}}, "scenario_id": {"value": 7}}"#;
-        let columns = read(told).unwrap().0;
+        let columns = read(told).unwrap().sources;
         assert_eq!(columns["agent_id"].column.as_deref(), Some("trackId"));
         assert!((columns["heading_rad"].factor + 0.017_453_292_5).abs() < 1e-9);
         assert_eq!(columns["type"].words["1"], "car");
         assert_eq!(columns["scenario_id"].value.as_deref(), Some("7"));
         assert_eq!(columns["x_m"].column.as_deref(), Some("x_m"));
+    }
+
+    #[test]
+    fn each_data_set_has_its_columns() {
+        for (name, _) in PRESETS {
+            let columns = read(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(columns, read(&format!("\"{}\"", name.to_uppercase())).unwrap(), "{name}");
+            let own = Columns::own();
+            assert!(
+                columns.sources.iter().filter(|(name, source)| own.sources[*name] != **source).count() > 4
+            );
+        }
+        assert_eq!(read("klingon").unwrap_err().code(), "malformed-json");
+        assert_eq!(read("pneuma").unwrap().wide, Some(Wide { fixed: 4, repeated: 6 }));
     }
 
     #[test]
@@ -170,6 +249,8 @@ mod tests {
             (r#"{"x_m": {"column": "a", "value": 1}}"#, "invalid-field", "/x_m"),
             (r#"{"x_m": {"column": "a", "unit": "yd"}}"#, "invalid-field", "/x_m"),
             (r#"{"x_m": {"column": "a", "factor": 0}}"#, "invalid-field", "/x_m"),
+            (r#"{"x_m": {"column": "a", "add_half": "height_m"}}"#, "invalid-field", "/x_m"),
+            (r#"{"wide": {"fixed": 1, "repeated": 0}}"#, "invalid-field", "/wide"),
         ] {
             let error = read(text).unwrap_err();
             assert_eq!((error.code(), error.problems[0].pointer.as_str()), (code, at), "{text}");

@@ -3,11 +3,13 @@
 use super::columns::{ColumnSource, Columns};
 use super::notes::{KEY, Notes};
 use super::rows::Rows;
-use super::{GENERATED, LOG, SPEED};
+use super::write::plain;
+use super::{GENERATED, LATITUDE, LOG, LONGITUDE, SPEED};
 use crate::columnar::ColumnValue;
 use crate::format::{COLUMNS_POINTER, ImportOptions};
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::projection::TransverseMercator;
 use crate::recording::{
     MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedFuture, RecordedState, Recording, Said, kind_of,
 };
@@ -63,6 +65,8 @@ struct Gathered {
     last_step: f64,
     unknown_words: usize,
     untyped: bool,
+    /// Of degrees, as soon as there are some.
+    projection: Option<TransverseMercator>,
 }
 
 impl<'a> Scenarios<'a> {
@@ -71,14 +75,15 @@ impl<'a> Scenarios<'a> {
             Some(file) => Columns::read(file).map_err(|error| error.under(COLUMNS_POINTER))?,
             None => Columns::own(),
         };
-        let mut rows = Rows::open(file, parquet)?;
+        let mut rows = Rows::open(file, parquet, columns.wide)?;
         let mut picked = BTreeMap::new();
-        for (name, origin) in columns.0 {
+        for (name, origin) in columns.sources {
             let at = match &origin.column {
                 None => None,
                 Some(column) => match rows.names().iter().position(|found| found == column) {
                     Some(at) => Some(at),
                     // A column named by the user must exist.
+                    None if origin.optional => continue,
                     None if column != name => {
                         let detail = format!("no column \"{column}\"; there are {}", shown(rows.names()));
                         let pointer = format!("{COLUMNS_POINTER}/{name}");
@@ -90,7 +95,9 @@ impl<'a> Scenarios<'a> {
             picked.insert(name, Picked { at, origin });
         }
         let has = |name: &str| picked.contains_key(name);
-        let needed = ["agent_id", "x_m", "y_m"].into_iter().filter(|name| !has(name));
+        let on_globe = has(LATITUDE) && has(LONGITUDE);
+        let places = ["x_m", "y_m"].into_iter().filter(|_| !on_globe);
+        let needed = std::iter::once("agent_id").chain(places).filter(|name| !has(name));
         let mut missing: Vec<&str> = needed.collect();
         if !has("time_s") && !has("step") {
             missing.push("time_s or step");
@@ -135,6 +142,10 @@ impl<'a> Scenarios<'a> {
             ColumnValue::Flag(flag) => Cow::Owned(flag.to_string()),
         };
         let words = self.columns.get(name).map(|picked| &picked.origin.words);
+        let text = match text {
+            Cow::Borrowed(text) => Cow::Borrowed(plain(text)),
+            owned => owned,
+        };
         match words.and_then(|words| words.get(text.as_ref())) {
             Some(word) => Some(Cow::Borrowed(word)),
             None => Some(text).filter(|text| !text.is_empty()),
@@ -208,7 +219,7 @@ impl<'a> Scenarios<'a> {
         }
         to.aligned &= step >= 0.0 && (time_s - step * STEP_S).abs() < 1e-3;
         to.last_step = to.last_step.max(step);
-        let sample = self.sample(time_s)?;
+        let sample = self.sample(time_s, to)?;
         let user = match to.users.get(id.as_ref()) {
             Some(user) => *user,
             None => {
@@ -251,7 +262,38 @@ impl<'a> Scenarios<'a> {
         Ok(())
     }
 
-    fn sample(&self, time_s: f64) -> Result<RecordedState, ReadError> {
+    /// Half of the size that a column adds, in the direction in which it counts, metres.
+    fn half(&self, name: &str) -> Result<f64, ReadError> {
+        let Some(ColumnSource { half: Some((sign, size)), factor, .. }) =
+            self.columns.get(name).map(|picked| &picked.origin)
+        else {
+            return Ok(0.0);
+        };
+        let size_m = self.number(size, 1e4, "a size in metres")?;
+        Ok(if size_m.is_nan() { 0.0 } else { sign * factor.signum() * size_m / 2.0 })
+    }
+
+    /// The place of a row, metres; NaN where there is none.
+    fn place(&self, to: &mut Gathered) -> Result<Vec2, ReadError> {
+        let [lat, lon] = [self.number(LATITUDE, 89.0, "degrees")?, self.number(LONGITUDE, 180.0, "degrees")?];
+        if lat.is_nan() || lon.is_nan() {
+            let metres = |name| {
+                Ok::<_, ReadError>(
+                    self.number(name, MAX_METRES, "a coordinate in metres")? + self.half(name)?,
+                )
+            };
+            return Ok(Vec2::new(metres("x_m")?, metres("y_m")?));
+        }
+        // About the first place: the rows behind it are not known yet.
+        if to.projection.is_none() {
+            to.projection = TransverseMercator::about(std::iter::once((lat, lon)));
+        }
+        Ok(to
+            .projection
+            .map_or_else(|| Vec2::new(f64::NAN, f64::NAN), |projection| projection.metres(lat, lon)))
+    }
+
+    fn sample(&self, time_s: f64, to: &mut Gathered) -> Result<RecordedState, ReadError> {
         let metres = |name| self.number(name, MAX_METRES, "a coordinate in metres");
         let nothing = Vec2::new(f64::NAN, f64::NAN);
         let (heading_rad, z_m) = (self.number("heading_rad", 1e6, "a heading in radians")?, metres("z_m")?);
@@ -259,7 +301,7 @@ impl<'a> Scenarios<'a> {
         if self.flag("valid") == Some(false) {
             return Ok(unseen);
         }
-        let at = Vec2::new(metres("x_m")?, metres("y_m")?);
+        let at = self.place(to)?;
         if at.iter().any(|value| value.is_nan()) {
             let name = if at.x.is_nan() { "x_m" } else { "y_m" };
             return Err(self.fault(name, "", "a coordinate in metres (or valid = 0)"));
@@ -275,7 +317,8 @@ impl<'a> Scenarios<'a> {
     fn user(&self, id: &str, to: &mut Gathered) -> Result<RecordedAgent, ReadError> {
         let metres = |name| {
             let metres = self.number(name, 1e4, "a size in metres")?;
-            Ok::<_, ReadError>((!metres.is_nan()).then_some(metres))
+            // Sets that measure no box of a road user give it none.
+            Ok::<_, ReadError>((metres > 0.0).then_some(metres))
         };
         let word = self.text("type");
         let (agent_type, mut subtype) = match &word {
@@ -350,6 +393,7 @@ impl<'a> Scenarios<'a> {
             let message = sentences::types_unknown(gathered.unknown_words);
             said.warnings.push(ImportWarning::new("types-unknown", message));
         }
+        said.crs = gathered.projection.map(|projection| projection.name());
         gathered.recording.said = said;
         self.ready = Some(Box::new(gathered.recording.scenes()));
     }
@@ -387,6 +431,7 @@ impl<'a> Scenarios<'a> {
                     last_step: 0.0,
                     unknown_words: 0,
                     untyped: false,
+                    projection: None,
                 });
             }
             self.add()?;

@@ -8,7 +8,9 @@ mod notes;
 mod rows;
 mod write;
 
+pub use columns::{PRESETS, preset};
 pub use format::{Csv, Parquet};
+pub use write::cell;
 
 /// Columns of a row, in order; units are in their names. `sample`, `mode` and `probability` are set only for
 /// futures. `source` is `log` or `generated`, `valid` is false if the road user was not seen, and `chosen` is
@@ -38,6 +40,9 @@ pub const COLUMNS: [&str; 21] = [
 ];
 /// Read where a table has it, in place of two velocities; never written.
 const SPEED: &str = "speed_mps";
+/// Read in place of `x_m` and `y_m`, degrees; never written.
+const LATITUDE: &str = "lat_deg";
+const LONGITUDE: &str = "lon_deg";
 /// The two words of `source`.
 const LOG: &str = "log";
 const GENERATED: &str = "generated";

@@ -1,5 +1,6 @@
 //! Rows of a table, whatever file they are in.
 
+use super::columns::Wide;
 use crate::columnar::{self, ColumnValue, is_parquet};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
@@ -10,6 +11,8 @@ use std::io::{self, BufRead, Read};
 
 /// Most bytes of a row of CSV.
 const MAX_ROW: u64 = 64 << 10;
+/// ... and of a table with a row for each road user: an hour at 25 Hz.
+const MAX_WIDE_ROW: u64 = 8 << 20;
 /// Most columns of CSV.
 const MAX_COLUMNS: usize = 1_024;
 
@@ -24,11 +27,11 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// Those of the file.
-    pub fn open(file: &'a dyn Source, parquet: bool) -> Result<Self, ReadError> {
+    pub fn open(file: &'a dyn Source, parquet: bool, wide: Option<Wide>) -> Result<Self, ReadError> {
         if parquet {
             return Ok(Self::Parquet(Box::new(columnar::ParquetTable::open(file)?), Vec::new()));
         }
-        CsvRows::open(file).map(Self::Csv)
+        CsvRows::open(file, wide).map(Self::Csv)
     }
 
     /// Names of the columns.
@@ -97,13 +100,15 @@ impl<'a> Rows<'a> {
 pub(super) struct BoundedReader<R> {
     inner: R,
     left: u64,
+    most: u64,
 }
 
 impl<R: Read> Read for BoundedReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 {
-            let detail = format!("a row of more than {MAX_ROW} bytes");
-            return Err(unpack::excess(code::DECODED_TOO_LARGE, MAX_ROW, detail));
+            let most = self.most;
+            let detail = format!("a row of more than {most} bytes");
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, most, detail));
         }
         let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(buffer.len());
         let count = self.inner.read(buffer.get_mut(..most).unwrap_or_default())?;
@@ -117,10 +122,13 @@ pub(super) struct CsvRows<'a> {
     reader: csv::Reader<BoundedReader<Box<dyn BufRead + 'a>>>,
     names: Vec<String>,
     record: csv::StringRecord,
+    wide: Option<Wide>,
+    /// Which of the repeated parts of a wide row is read; none before the first row.
+    part: Option<usize>,
 }
 
 impl<'a> CsvRows<'a> {
-    fn open(file: &'a dyn Source) -> Result<Self, ReadError> {
+    fn open(file: &'a dyn Source, wide: Option<Wide>) -> Result<Self, ReadError> {
         let fault = |error: io::Error| unpack::fault(&error, 0);
         let head = unpack::head(file.open().map_err(fault)?);
         let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
@@ -134,21 +142,49 @@ impl<'a> CsvRows<'a> {
         }
         let input: Box<dyn BufRead + 'a> = Box::new(input);
         // A row may begin at the end of what was read for the one before it.
-        let input = BoundedReader { inner: input, left: 2 * MAX_ROW };
+        let most = if wide.is_some() { MAX_WIDE_ROW } else { MAX_ROW };
+        let input = BoundedReader { inner: input, left: 2 * most, most };
         let reader = csv::ReaderBuilder::new()
             .delimiter(delimiter)
             .flexible(true)
             .has_headers(false)
             .buffer_capacity(MAX_ROW as usize / 4)
             .from_reader(input);
-        let mut rows = Self { reader, names: Vec::new(), record: csv::StringRecord::new() };
-        rows.advance()?;
-        rows.names = rows.record.iter().take(MAX_COLUMNS).map(|name| name.trim().to_owned()).collect();
+        let (names, record) = (Vec::new(), csv::StringRecord::new());
+        let mut rows = Self { reader, names, record, wide, part: None };
+        rows.next_record()?;
+        // The names of a wide table may be repeated like its columns.
+        let most = wide.map_or(MAX_COLUMNS, |Wide { fixed, repeated }| fixed + repeated);
+        rows.names = rows.record.iter().take(most).map(|name| name.trim().to_owned()).collect();
         Ok(rows)
     }
 
     fn advance(&mut self) -> Result<bool, ReadError> {
-        self.reader.get_mut().left = 2 * MAX_ROW;
+        let Some(Wide { fixed, repeated }) = self.wide else { return self.next_record() };
+        loop {
+            let part = self.part.map_or(0, |part| part + 1);
+            let from = fixed + part * repeated;
+            let mut cells = (from..from + repeated).map(|at| self.record.get(at));
+            // Rows end with a separator: a part of empty cells is none.
+            if self.has_row() && cells.all(|cell| cell.is_some_and(|text| !text.trim().is_empty())) {
+                self.part = Some(part);
+                return Ok(true);
+            }
+            if !self.next_record()? {
+                return Ok(false);
+            }
+            self.part = None;
+        }
+    }
+
+    /// Whether the record is one of data, not the names.
+    fn has_row(&self) -> bool {
+        self.record.position().is_some_and(|position| position.record() > 0)
+    }
+
+    fn next_record(&mut self) -> Result<bool, ReadError> {
+        let reader = self.reader.get_mut();
+        reader.left = 2 * reader.most;
         let line = self.reader.position().line();
         let offset = self.reader.position().byte();
         self.reader.read_record(&mut self.record).map_err(|error| {
@@ -161,6 +197,8 @@ impl<'a> CsvRows<'a> {
     }
 
     fn value(&self, column: usize) -> ColumnValue<'_> {
+        let part = self.wide.zip(self.part).filter(|(wide, _)| column >= wide.fixed);
+        let column = part.map_or(column, |(wide, part)| column + part * wide.repeated);
         match self.record.get(column).map(str::trim) {
             None | Some("") => ColumnValue::Nothing,
             Some(text) => ColumnValue::Text(text),

@@ -6,6 +6,7 @@ use crate::format::{ExportOptions, ExportedMotion};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
 use scene::{Agent, AgentType, Conditions, LaneMap, STEP_S, Scene, Size, State, Subtype};
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// A row; values that a future or an unseen road user lacks are `None`.
@@ -141,8 +142,8 @@ pub(super) fn csv(scenes: &[(&Scene, String)], options: &ExportOptions, out: imp
                 Some((sample, mode, p)) => (sample.to_string(), mode.to_string(), decimal(p)),
             };
             let record = [
-                row.scenario,
-                row.agent,
+                &*cell(row.scenario),
+                &*cell(row.agent),
                 row.agent_type,
                 row.subtype,
                 &sample,
@@ -167,6 +168,23 @@ pub(super) fn csv(scenes: &[(&Scene, String)], options: &ExportOptions, out: imp
         })?;
     }
     csv.flush()
+}
+
+/// A text that no spreadsheet runs as a formula: one that begins like one gets a quote before it.
+pub fn cell(text: &str) -> Cow<'_, str> {
+    if is_formula(text) { Cow::Owned(format!("{QUOTE}{text}")) } else { Cow::Borrowed(text) }
+}
+
+/// The text of a cell that [`cell`] made.
+pub(super) fn plain(cell: &str) -> &str {
+    cell.strip_prefix(QUOTE).filter(|text| is_formula(text)).unwrap_or(cell)
+}
+
+/// Begins texts that spreadsheets would run.
+const QUOTE: char = '\'';
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err()
 }
 
 /// To a millionth, without zeros at the end.

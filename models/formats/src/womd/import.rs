@@ -5,7 +5,8 @@ use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, T
 use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::format::EGO;
 use crate::limits::MAX_AGENTS;
-use crate::problem::{ImportWarning, Imported, ReadError, checked};
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::repairs::checked;
 use crate::sentences::{self, subject};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};

@@ -15,6 +15,8 @@ use std::io;
 
 /// Steps of a rollout.
 const STEPS: usize = 80;
+/// Step from which the challenge plans, which is the present of its scenarios.
+const NOW_STEP: usize = 10;
 /// Rollouts that the challenge takes.
 const ROLLOUTS: usize = 32;
 /// The sort of submission, by its number.
@@ -63,6 +65,7 @@ impl Format for SimAgents {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        scenes.iter().try_for_each(|scene| begins_as_asked(scene, options))?;
         let mut losses = BTreeSet::new();
         let submission = SimAgentsChallengeSubmission {
             scenario_rollouts: scenes.iter().map(|scene| rollouts(scene, options, &mut losses)).collect(),
@@ -73,6 +76,25 @@ impl Format for SimAgents {
         };
         Ok(Exported { bytes: submission.encode_to_vec(), losses: losses.into_iter().collect() })
     }
+}
+
+/// Refuses a scene whose present, or whose futures, begin at another step than the challenge's.
+fn begins_as_asked(scene: &Scene, options: &ExportOptions) -> io::Result<()> {
+    let samples = scene.generated.iter().flat_map(|generated| &generated.samples).enumerate();
+    let written = samples.filter(|(i, _)| options.sample.is_none_or(|sample| sample == *i));
+    let futures = written.flat_map(|(_, sample)| sample.agents.values().flat_map(|futures| &futures.modes));
+    let late = futures.map(|future| future.first_step).find(|first| *first > NOW_STEP + 1);
+    let now = scene.time.now_step;
+    if now == NOW_STEP && late.is_none() {
+        return Ok(());
+    }
+    let found = late.map_or(now, |first| first - 1);
+    let detail = format!(
+        "the challenge begins at step {NOW_STEP} (1.0 s), this scene at step {found} ({:.1} s): generate its futures \
+         with --start-time 1.0",
+        found as f64 * STEP_S
+    );
+    Err(io::Error::new(io::ErrorKind::InvalidInput, detail))
 }
 
 fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>) -> ScenarioRollouts {

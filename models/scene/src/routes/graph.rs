@@ -179,6 +179,20 @@ impl LaneGraph {
         graph
     }
 
+    /// Links that the map lacks and the graph rebuilds from the geometry: positions in [`LaneMap::lanes`] of the lane
+    /// before and the lane after.
+    pub fn rebuilt_links(map: &LaneMap) -> Vec<(usize, usize)> {
+        let by_id: HashMap<&str, usize> =
+            map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
+        let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
+        links::record(map, &by_id, &mut lanes);
+        let recorded: Vec<usize> = lanes.iter().map(|lane| lane.successors.len()).collect();
+        links::rebuild(&mut lanes);
+        // A rebuilt link stands behind the recorded ones.
+        let rebuilt = lanes.iter().zip(recorded).enumerate();
+        rebuilt.flat_map(|(i, (lane, from))| lane.successors[from..].iter().map(move |to| (i, *to))).collect()
+    }
+
     /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.
     pub fn lanes(&self) -> &[GraphLane] {
         &self.lanes

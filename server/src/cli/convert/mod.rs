@@ -35,8 +35,9 @@ pub struct ConvertArgs {
     /// Road network of a SUMO recording, or map of an Argoverse scenario.
     #[arg(long, value_name = "FILE")]
     net: Option<PathBuf>,
-    /// JSON file that maps the columns of a table to the names of this program, with units and factors.
-    #[arg(long, value_name = "FILE")]
+    /// JSON file that maps the columns of a table to the names of this program, with units and factors; or a data set
+    /// whose columns are known: citysim, exid, highd, ind, interaction, ngsim, pneuma, round, sind.
+    #[arg(long, value_name = "FILE|SET")]
     columns: Option<PathBuf>,
     /// Scenes to take from each file, counted from 0: a number, or FIRST..LAST (both included). Default: all.
     #[arg(long, value_name = "WHICH", value_parser = values::index)]
@@ -99,7 +100,13 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         let bytes = path.as_deref().map(output::read).transpose()?;
         Ok::<_, Failure>(bytes.map(|bytes| Arc::new(bytes) as Arc<dyn formats::Source>))
     };
-    let beside = Companions { net: file(&args.net)?, columns: file(&args.columns)?, ..companions() };
+    // A file of that name comes before a data set.
+    let named = args.columns.as_deref().filter(|path| !path.exists()).and_then(|path| path.to_str());
+    let columns = match named.and_then(formats::table::preset) {
+        Some(text) => Some(Arc::new(text.as_bytes()) as Arc<dyn formats::Source>),
+        None => file(&args.columns)?,
+    };
+    let beside = Companions { net: file(&args.net)?, columns, ..companions() };
     let reading = Reading { from: args.from.map(str::to_owned), beside, index: args.index.clone() };
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
     let mut losses = Losses::new();
@@ -244,10 +251,27 @@ fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Conv
         }
         converted.lines.extend(notes(source, &item.notes));
         let file = written(&item, args, true, &mut converted)?;
-        converted.parts.push(file.bytes);
+        converted.parts.push(scenario_alone(args, file.bytes)?);
         Ok(())
     });
     if converted.deferred { Ok(converted) } else { read.map(|_| converted) }
+}
+
+/// For an output that is named `.xosc`, the scenario without its zip; the map that it names goes beside it.
+fn scenario_alone(args: &ConvertArgs, bytes: Vec<u8>) -> Result<Vec<u8>, Failure> {
+    let output = args.output.as_deref();
+    let named = output.filter(|path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("xosc")));
+    let Some(path) = named.filter(|_| args.to == "openscenario") else { return Ok(bytes) };
+    let broken = |error: std::io::Error| Failure::new(Exit::Failure, error.to_string());
+    let mut scenario = Vec::new();
+    for (name, bytes) in formats::unzipped(&bytes).map_err(broken)? {
+        if name.ends_with(".xosc") {
+            scenario = bytes;
+        } else {
+            output::write(Some(&path.with_file_name(name)), &bytes, args.force)?;
+        }
+    }
+    Ok(scenario)
 }
 
 /// A file of many scenes, one after the other into the output.

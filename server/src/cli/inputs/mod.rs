@@ -92,7 +92,7 @@ impl Source {
     fn holds_many(bytes: &[u8], reading: &Reading, name: &str) -> bool {
         let format = match &reading.from {
             Some(id) => registry::by_id(known_format(id)),
-            None => registry::sniff(bytes, name),
+            None => registry::identified(&bytes, name).ok(),
         };
         format.is_none_or(|format| format.info().many)
     }

@@ -25,7 +25,7 @@ impl Table {
     /// One more line.
     pub fn add(&mut self, row: &[String]) {
         // All lines are of one length, and a vector takes all bytes.
-        let _ = self.0.write_record(row);
+        let _ = self.0.write_record(row.iter().map(|text| formats::table::cell(text).into_owned()));
     }
 
     /// The file.

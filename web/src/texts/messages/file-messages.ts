@@ -35,6 +35,11 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} drivable area reaches farther than ${v.within_m} from the centre and is left out`,
         other: `${v.count} drivable areas reach farther than ${v.within_m} from the centre and are left out`,
       }),
+    'boxes-across': (v: Values) =>
+      plural(Number(v.count), {
+        one: `The long side of ${v.count} box lies across its motion: length and width may be exchanged`,
+        other: `The long sides of ${v.count} boxes lie across their motion: length and width may be exchanged`,
+      }),
     'columns-missing': (v: Values) =>
       `No column ${v.missing}; there are ${v.columns}. A file of columns can name them.`,
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
@@ -67,7 +72,17 @@ export const SENTENCES = table('file-messages', {
         other: `${v.count} goals are regions; their centres are used`,
       }),
     'headings-derived': 'Headings are derived from the motion; a standing road user keeps its last heading',
-    'headings-in-degrees': 'Headings are in degrees and were converted to radians',
+    'headings-along-degrees': (v: Values) =>
+      `Headings are in degrees and were converted to radians: ${v.agree} of ${v.moving} moving road users go along them`,
+    'headings-along-radians': (v: Values) =>
+      `Headings are in radians where degrees are usual: ${v.agree} of ${v.moving} moving road users go along them`,
+    'headings-in-degrees': (v: Values) =>
+      `Headings are in degrees and were converted to radians: those of ${v.outside} of ${v.found} road users are outside of a turn in radians, or the format has degrees`,
+    'headings-wrapped': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} heading is outside of a turn and was wrapped`,
+        other: `${v.count} headings are outside of a turn and were wrapped`,
+      }),
     'ids-renumbered': "Lanes and junctions have numbers instead of SUMO's ids",
     'ids-replaced': (v: Values) =>
       plural(Number(v.count), {
@@ -109,20 +124,39 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} lanelet with the id of another lanelet is left out`,
         other: `${v.count} lanelets with the id of another lanelet are left out`,
       }),
+    'lanes-bordered': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lane (${Math.round(Number(v.length_m))} m) has borders in a section with widths, which the standard prefers: its borders are left out`,
+        other: `${v.count} lanes (${Math.round(Number(v.length_m))} m) have borders in sections with widths, which the standard prefers: their borders are left out`,
+      }),
     'lanes-closed': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} lane open to no road user (rails, strips) is left out`,
         other: `${v.count} lanes open to no road user (rails, strips) are left out`,
       }),
     'json-syntax': (v: Values) => `Not valid JSON: ${v.fault}.`,
-    'lane-links-derived': 'The file does not link its lanes: a lane that ends where another one begins is linked to it',
+    'lane-links-derived': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} link of lanes is not in the file: a lane that ends where another one begins is linked to it`,
+        other: `${v.count} links of lanes are not in the file: a lane that ends where another one begins is linked to it`,
+      }),
     'lane-segments-unusable': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} lane segment without two sides is left out`,
         other: `${v.count} lane segments without two sides are left out`,
       }),
     'left-hand': 'Traffic keeps to the left, as it does in this region',
-    'left-hand-as-right': 'Traffic keeps to the left; kerbs and middle lines are drawn as for traffic on the right',
+    'left-hand-network': 'Traffic keeps to the left, as the network states',
+    'lines-thinned': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} line has more points than a scene holds and is thinned`,
+        other: `${v.count} lines have more points than a scene holds and are thinned`,
+      }),
+    'links-apart': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} link of lanes is dropped: the ends lie more than a lane's width apart`,
+        other: `${v.count} links of lanes are dropped: the ends lie more than a lane's width apart`,
+      }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} painted line has a type or colour that a scene does not support`,
@@ -210,8 +244,12 @@ export const SENTENCES = table('file-messages', {
         other: `${v.count} points; ${v.least} to ${v.most} expected`,
       }),
     'programs-beyond-last': 'A signal has several programs; the last one is shown',
-    'projection-dropped': 'Positions stay in the frame of the network; its projection is not kept',
     'recording-heights-dropped': 'The recording has heights; the scene is flat',
+    'rows-repeated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} row repeats a road user at the same time; one row of each time is kept`,
+        other: `${v.count} rows repeat a road user at the same time; one row of each time is kept`,
+      }),
     'shapes-boxed': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} obstacle is not rectangular: its bounding box is used`,

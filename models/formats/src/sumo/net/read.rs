@@ -1,8 +1,10 @@
 //! Reads a network in one pass over its elements; unknown elements are dropped.
 
 use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
+use crate::limits::MAX_POLYLINES;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::sumo::SumoError;
+use crate::sumo::kerb::s_curve;
 use crate::sumo::programs::SignalProgram;
 use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
@@ -17,6 +19,12 @@ const MAX_ELEMENTS: usize = 600_000;
 const MAX_ATTRIBUTES: usize = 4_000_000;
 /// Width of a lane that gives none, metres: the default of SUMO.
 const LANE_WIDTH_M: f64 = 3.2;
+
+/// Most characters of a projection.
+const PROJECTION_CHARS: usize = 500;
+/// Ends of lanes this near to each other need no way between them, and farther ones than a junction is wide have
+/// none, metres.
+const WAY_M: (f64, f64) = (0.5, 60.0);
 
 /// The element below the root that is open.
 #[derive(Default)]
@@ -84,8 +92,11 @@ impl Reader {
                 return Err(SumoError::Content { expected: "a SUMO network (<net>)", found });
             }
             (2, "location", _) => {
-                self.net.notes.projected =
-                    !matches!(element.get("projParameter"), None | Some("!" | "-" | ""));
+                let projection = element.get("projParameter").map(str::trim);
+                let projection = projection.filter(|text| !matches!(*text, "!" | "-" | "" | "."));
+                self.net.notes.projection =
+                    projection.map(|text| text.chars().take(PROJECTION_CHARS).collect());
+                self.net.notes.offset = offset(element)?;
             }
             (2, "edge", open) => *open = edge(element)?.map_or(OpenElement::Other, OpenElement::Edge),
             (2, "tlLogic", open) => *open = OpenElement::Program(program(element)?),
@@ -139,7 +150,8 @@ impl Reader {
         for connection in connections {
             let (from, to) = (by_id.get(&connection.from), by_id.get(&connection.to));
             let (Some(&from), Some(&to)) = (from, to) else { continue };
-            let via = connection.via.and_then(|id| by_id.get(&id).copied());
+            let via =
+                connection.via.and_then(|id| by_id.get(&id).copied()).or_else(|| way(&mut net, from, to));
             net.lanes[from].successors.push(via.unwrap_or(to));
             if let Some(via) = via.filter(|_| connection.stops) {
                 net.lanes[via].stops = true;
@@ -162,10 +174,64 @@ impl Reader {
     }
 }
 
+/// A way through a junction between the ends of two lanes, for networks that are written without
+/// (`--no-internal-links`); nothing where the lanes meet or are not for traffic.
+fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
+    let travelled = |lane: usize| {
+        let kind = net.lanes[lane].kind;
+        net.edge_of(lane).function == EdgeFunction::Normal
+            && matches!(kind, LaneKind::Vehicle | LaneKind::Bike | LaneKind::Bus)
+    };
+    if !travelled(from) || !travelled(to) || net.lanes.len() > MAX_POLYLINES {
+        return None;
+    }
+    let ([.., before, end], [start, after, ..]) = (&net.lanes[from].shape[..], &net.lanes[to].shape[..])
+    else {
+        return None;
+    };
+    let gap_m = (start - end).norm();
+    if !(WAY_M.0..=WAY_M.1).contains(&gap_m) {
+        return None;
+    }
+    let reach = |way: Vec2| way * (gap_m / way.norm().max(1e-9));
+    let pieces = gap_m.ceil().clamp(4.0, 60.0) as usize;
+    let shape = s_curve(*end, reach(end - before), *start, reach(after - start), pieces);
+    let (lane, edge) = (net.lanes.len(), net.edges.len());
+    let id = format!(":{}>{}", net.lanes[from].id, net.lanes[to].id);
+    net.edges.push(NetEdge {
+        id: id.clone(),
+        function: EdgeFunction::Internal,
+        from: String::new(),
+        to: String::new(),
+        road_type: String::new(),
+        lanes: vec![lane],
+    });
+    let (first, second) = (&net.lanes[from], &net.lanes[to]);
+    net.lanes.push(NetLane {
+        id,
+        edge,
+        index: 0,
+        kind: if first.kind == LaneKind::Vehicle { second.kind } else { first.kind },
+        speed_mps: first.speed_mps.min(second.speed_mps),
+        width_m: first.width_m.min(second.width_m),
+        shape,
+        successors: vec![to],
+        signal: None,
+        stops: false,
+    });
+    Some(lane)
+}
+
 /// A network of more than a scene holds.
 pub(in crate::sumo) fn too_large(detail: String) -> ReadError {
     let advice = "cut a part out with netconvert --keep-edges.in-boundary";
     FieldProblem::new("", code::MAP_TOO_LARGE, format!("{detail}; {advice}")).into()
+}
+
+/// What was added to the projected coordinates.
+fn offset(location: &Element) -> Result<Vec2, SumoError> {
+    let Some(text) = location.get("netOffset") else { return Ok(Vec2::zeros()) };
+    point(text).map(|(offset, _)| offset).ok_or_else(|| SumoError::value(text, POINT, location.line))
 }
 
 fn owned(element: &Element, attribute: &'static str) -> Result<String, SumoError> {
@@ -296,14 +362,20 @@ fn kind_of(function: EdgeFunction, lane: &Element) -> LaneKind {
     }
 }
 
+/// Words for a point in a message.
+const POINT: &str = "a point such as 1.5,-2.0";
+
+/// A point, and whether it has a height.
+fn point(text: &str) -> Option<(Vec2, bool)> {
+    let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
+    Some((Vec2::new(values.next()??, values.next()??), values.next().is_some()))
+}
+
 fn shape(lane: &Element, heights: &mut bool) -> Result<Vec<Vec2>, SumoError> {
-    let mut point = |text: &str| {
-        let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
-        let point = Vec2::new(values.next()??, values.next()??);
-        *heights |= values.next().is_some();
-        Some(point)
+    let read = |text: &str| {
+        let (point, high) = point(text).ok_or_else(|| SumoError::value(text, POINT, lane.line))?;
+        *heights |= high;
+        Ok(point)
     };
-    let read =
-        |text: &str| point(text).ok_or_else(|| SumoError::value(text, "a point such as 1.5,-2.0", lane.line));
     lane.required("shape")?.split_whitespace().map(read).collect()
 }

@@ -30,6 +30,11 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     };
     let mut losses = losses(scene, &network);
+    let made = |junction: &Junction| never_green(scene, junction, steps).contains(&true);
+    if network.junctions.iter().any(made) {
+        let detail = "lights that are never green turn green for 10 s after the motion";
+        losses.push(Loss::new(code::NO_SIGNAL_STATES, detail));
+    }
     if !scene.agents.is_empty() {
         losses.push(Loss::new(code::NO_ROAD_USERS, "road users and their motion"));
     }
@@ -153,6 +158,19 @@ fn letter(state: SignalState) -> char {
     }
 }
 
+/// Length of the phase in which the lights of a junction turn green that do not while there is motion, seconds.
+const MADE_PHASE_S: f64 = 10.0;
+
+/// Lights of a junction that let nobody pass in so many steps.
+fn never_green(scene: &Scene, junction: &Junction, steps: usize) -> Vec<bool> {
+    let stops = |light: &usize| {
+        let signal = &scene.signals[*light];
+        let begins = signal.runs.iter().map(|run| run.0).filter(|step| *step < steps).chain([0]);
+        begins.into_iter().all(|step| matches!(letter(signal.at(step)), 'r' | 'y'))
+    };
+    junction.lights.iter().map(stops).collect()
+}
+
 /// Signal states of a junction, as a program that begins with the scene. It is as long as the motion, because
 /// SUMO repeats programs.
 fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
@@ -170,6 +188,12 @@ fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
         let shown: String = signals().map(|signal| letter(signal.at(*begin))).collect();
         let duration = decimal((end - begin) as f64 * STEP_S);
         out.empty("phase", &[("duration", &duration), ("state", &shown)]);
+    }
+    // Who waits at a light that the record never shows green would wait for ever.
+    let never = never_green(scene, junction, steps);
+    if never.contains(&true) {
+        let shown: String = never.iter().map(|never| if *never { 'g' } else { 'r' }).collect();
+        out.empty("phase", &[("duration", &decimal(MADE_PHASE_S)), ("state", &shown)]);
     }
     out.close();
 }

@@ -36,6 +36,11 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} befahrbare Fläche reicht weiter als ${v.within_m} von der Mitte und entfällt`,
         other: `${v.count} befahrbare Flächen reichen weiter als ${v.within_m} von der Mitte und entfallen`,
       }),
+    'boxes-across': (v: Values) =>
+      plural(Number(v.count), {
+        one: `Die lange Seite von ${v.count} Box liegt quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
+        other: `Die langen Seiten von ${v.count} Boxen liegen quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
+      }),
     'columns-missing': (v: Values) =>
       `Keine Spalte ${v.missing}; vorhanden sind ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
     'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
@@ -69,7 +74,17 @@ export const german: Said<typeof SENTENCES> = {
         other: `${v.count} Ziele sind Flächen; verwendet wird ihre Mitte`,
       }),
     'headings-derived': 'Richtungen sind aus der Bewegung bestimmt; im Stand bleibt die letzte Richtung',
-    'headings-in-degrees': 'Richtungen stehen in Grad und wurden in Radiant umgerechnet',
+    'headings-along-degrees': (v: Values) =>
+      `Richtungen stehen in Grad und wurden in Radiant umgerechnet: ${v.agree} von ${v.moving} bewegten Verkehrsteilnehmern folgen ihnen`,
+    'headings-along-radians': (v: Values) =>
+      `Richtungen stehen in Radiant, wo Grad üblich sind: ${v.agree} von ${v.moving} bewegten Verkehrsteilnehmern folgen ihnen`,
+    'headings-in-degrees': (v: Values) =>
+      `Richtungen stehen in Grad und wurden in Radiant umgerechnet: Die von ${v.outside} von ${v.found} Verkehrsteilnehmern liegen in Radiant außerhalb einer Umdrehung, oder das Format hat Grad`,
+    'headings-wrapped': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Richtung liegt außerhalb einer Umdrehung und wurde umgerechnet`,
+        other: `${v.count} Richtungen liegen außerhalb einer Umdrehung und wurden umgerechnet`,
+      }),
     'ids-renumbered': 'Spuren und Kreuzungen haben Nummern statt der Kennungen von SUMO',
     'ids-replaced': (v: Values) =>
       plural(Number(v.count), {
@@ -111,21 +126,39 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} Lanelet mit der Kennung eines anderen entfällt`,
         other: `${v.count} Lanelets mit der Kennung eines anderen entfallen`,
       }),
+    'lanes-bordered': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Spur (${Math.round(Number(v.length_m))} m) hat Ränder in einem Abschnitt mit Breiten, die nach der Norm gelten: Ihre Ränder entfallen`,
+        other: `${v.count} Spuren (${Math.round(Number(v.length_m))} m) haben Ränder in Abschnitten mit Breiten, die nach der Norm gelten: Ihre Ränder entfallen`,
+      }),
     'lanes-closed': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Spur, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfällt`,
         other: `${v.count} Spuren, die kein Verkehrsteilnehmer benutzen darf (Gleise, Streifen), entfallen`,
       }),
     'json-syntax': (v: Values) => `Kein gültiges JSON: ${v.fault}.`,
-    'lane-links-derived':
-      'Die Datei verbindet ihre Spuren nicht: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden',
+    'lane-links-derived': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verbindung von Spuren fehlt in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
+        other: `${v.count} Verbindungen von Spuren fehlen in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
+      }),
     'lane-segments-unusable': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Spurabschnitt ohne zwei Seiten entfällt`,
         other: `${v.count} Spurabschnitte ohne zwei Seiten entfallen`,
       }),
     'left-hand': 'Es herrscht Linksverkehr, wie in dieser Gegend üblich',
-    'left-hand-as-right': 'Es herrscht Linksverkehr; Bordsteine und Mittellinien sind wie bei Rechtsverkehr gezeichnet',
+    'left-hand-network': 'Es herrscht Linksverkehr, wie das Netz angibt',
+    'lines-thinned': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Linie hat mehr Punkte, als eine Szene fasst, und wird ausgedünnt`,
+        other: `${v.count} Linien haben mehr Punkte, als eine Szene fasst, und werden ausgedünnt`,
+      }),
+    'links-apart': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Verbindung von Spuren entfällt: Die Enden liegen mehr als eine Spurbreite auseinander`,
+        other: `${v.count} Verbindungen von Spuren entfallen: Die Enden liegen mehr als eine Spurbreite auseinander`,
+      }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Markierung hat eine Art oder Farbe, die eine Szene nicht kennt`,
@@ -213,8 +246,12 @@ export const german: Said<typeof SENTENCES> = {
         other: `${v.count} Punkte; ${v.least} bis ${v.most} erwartet`,
       }),
     'programs-beyond-last': 'Eine Ampel hat mehrere Programme; gezeigt wird das letzte',
-    'projection-dropped': 'Orte bleiben im Bezugssystem des Netzes; seine Projektion geht verloren',
     'recording-heights-dropped': 'Die Aufzeichnung hat Höhen; die Szene ist eben',
+    'rows-repeated': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Zeile wiederholt einen Verkehrsteilnehmer zur selben Zeit; je Zeit bleibt eine Zeile`,
+        other: `${v.count} Zeilen wiederholen einen Verkehrsteilnehmer zur selben Zeit; je Zeit bleibt eine Zeile`,
+      }),
     'shapes-boxed': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Hindernis ist kein Rechteck: Genommen wird ein Rechteck um es`,

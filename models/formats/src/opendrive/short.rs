@@ -1,0 +1,189 @@
+//! Links of lanes through sections that are too short to have lanes. The crate leaves such sections out, and with
+//! them the renumbering that they carry: here the links around them are joined to one.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::ops::Range;
+
+/// Sections shorter than this have no lanes in the crate, metres.
+const SHORT_M: f64 = 1e-3;
+
+/// A `<predecessor>` or `<successor>` of a lane.
+pub(super) struct LaneLink {
+    pub lane: i32,
+    /// The successor.
+    pub after: bool,
+    pub to: i32,
+    /// Place of the element in the text.
+    pub at: Range<usize>,
+}
+
+/// Links of a lane section.
+#[derive(Default)]
+pub(super) struct LinkedSection {
+    pub s_m: f64,
+    /// Sides that the section gives, right and left: the others go on from the section before.
+    pub gives: [bool; 2],
+    pub links: Vec<LaneLink>,
+    pub is_short: bool,
+}
+
+/// Target of a road's end.
+pub(super) struct RoadEnd {
+    pub is_junction: bool,
+    pub id: String,
+    /// The end of that road, else its start.
+    pub at_end: bool,
+}
+
+/// Links of a road.
+#[derive(Default)]
+pub(super) struct RoadLinks {
+    pub sections: Vec<LinkedSection>,
+    /// At the start, at the end.
+    pub ends: [Option<RoadEnd>; 2],
+}
+
+impl RoadLinks {
+    /// Sorts the sections along the road and marks those without lanes.
+    pub fn close(&mut self, length_m: f64) {
+        self.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+        let ends: Vec<f64> = self.sections.iter().skip(1).map(|next| next.s_m).chain([length_m]).collect();
+        for (section, end_m) in self.sections.iter_mut().zip(ends) {
+            section.is_short = end_m.min(length_m) - section.s_m < SHORT_M;
+        }
+    }
+
+    /// The lane behind the short sections from `section` on, and whether it lies beyond the road.
+    fn through(&self, mut section: usize, mut lane: i32, after: bool) -> Option<(i32, bool)> {
+        while let Some(found) = self.sections.get(section) {
+            if !found.is_short {
+                return Some((lane, false));
+            }
+            lane = found.step(lane, after)?;
+            section = if after { section + 1 } else { section.wrapping_sub(1) };
+        }
+        Some((lane, true))
+    }
+
+    /// The lane that carries on a lane of the first or last section, where that section is short.
+    fn inward(&self, at_end: bool, lane: i32) -> Option<i32> {
+        let first = if at_end { self.sections.len().saturating_sub(1) } else { 0 };
+        self.through(first, lane, !at_end).filter(|(_, beyond)| !beyond).map(|(lane, _)| lane)
+    }
+}
+
+impl LinkedSection {
+    fn step(&self, lane: i32, after: bool) -> Option<i32> {
+        if !self.gives[usize::from(lane > 0)] {
+            return Some(lane);
+        }
+        self.links.iter().find(|link| link.lane == lane && link.after == after).map(|link| link.to)
+    }
+}
+
+/// A `<laneLink>` of a junction.
+pub(super) struct JunctionLink {
+    pub junction: String,
+    pub incoming: String,
+    pub connecting: String,
+    /// The connecting road is entered at its end.
+    pub at_end: bool,
+    pub from: i32,
+    pub to: i32,
+    pub at: Range<usize>,
+}
+
+/// Links of a file.
+#[derive(Default)]
+pub(super) struct Links {
+    pub roads: HashMap<String, RoadLinks>,
+    pub junctions: Vec<JunctionLink>,
+}
+
+impl Links {
+    /// Changes of the text: places with what stands there instead.
+    pub fn edits(&self) -> Vec<(Range<usize>, String)> {
+        let mut edits = Vec::new();
+        if !self.roads.values().any(|road| road.sections.iter().any(|section| section.is_short)) {
+            return edits;
+        }
+        for road in self.roads.values() {
+            self.of_road(road, &mut edits);
+        }
+        for link in &self.junctions {
+            let ends = (self.incoming(link), self.inward(&link.connecting, link.at_end, link.to));
+            if ends == (Some(link.from), Some(link.to)) {
+                continue;
+            }
+            let text = match ends {
+                (Some(from), Some(to)) => format!("<laneLink from=\"{from}\" to=\"{to}\"></laneLink>"),
+                _ => String::new(),
+            };
+            edits.push((link.at.clone(), text));
+        }
+        edits
+    }
+
+    fn of_road(&self, road: &RoadLinks, edits: &mut Vec<(Range<usize>, String)>) {
+        for (i, section) in road.sections.iter().enumerate().filter(|(_, section)| !section.is_short) {
+            for link in &section.links {
+                let next = if link.after { i + 1 } else { i.wrapping_sub(1) };
+                let through = road.through(next, link.to, link.after);
+                let to = match (through, &road.ends[usize::from(link.after)]) {
+                    (Some((lane, true)), Some(end)) if !end.is_junction => {
+                        self.inward(&end.id, end.at_end, lane)
+                    }
+                    // Across a junction its own links count.
+                    (_, Some(end)) if end.is_junction && through.is_none_or(|(_, beyond)| beyond) => {
+                        Some(link.to)
+                    }
+                    (through, _) => through.map(|(lane, _)| lane),
+                };
+                if to == Some(link.to) {
+                    continue;
+                }
+                let name = if link.after { "successor" } else { "predecessor" };
+                let mut text = String::new();
+                if let Some(to) = to {
+                    let _ = write!(text, "<{name} id=\"{to}\"></{name}>");
+                }
+                edits.push((link.at.clone(), text));
+            }
+        }
+    }
+
+    /// A lane at an end of a road, inside of its short sections; the lane itself for a road that is not there.
+    fn inward(&self, road: &str, at_end: bool, lane: i32) -> Option<i32> {
+        self.roads.get(road).map_or(Some(lane), |road| road.inward(at_end, lane))
+    }
+
+    /// The lane from which a junction's link leaves.
+    fn incoming(&self, link: &JunctionLink) -> Option<i32> {
+        let connecting = self.roads.get(&link.connecting);
+        let behind = connecting.and_then(|road| road.ends[usize::from(link.at_end)].as_ref());
+        let behind = behind.filter(|end| !end.is_junction && end.id == link.incoming).map(|end| end.at_end);
+        let to_junction = |end: &Option<RoadEnd>| {
+            end.as_ref().is_some_and(|end| end.is_junction && end.id == link.junction)
+        };
+        let own = || self.roads.get(&link.incoming).and_then(|road| road.ends.iter().position(to_junction));
+        let at_end = behind.or_else(|| own().map(|end| end == 1)).unwrap_or(true);
+        self.inward(&link.incoming, at_end, link.from)
+    }
+}
+
+/// The text with its places changed.
+pub(super) fn edited(text: String, mut edits: Vec<(Range<usize>, String)>) -> String {
+    if edits.is_empty() {
+        return text;
+    }
+    edits.sort_by_key(|(at, _)| at.start);
+    let (mut out, mut from) = (String::with_capacity(text.len()), 0);
+    for (at, new) in edits {
+        out.push_str(text.get(from..at.start).unwrap_or_default());
+        out.push_str(&new);
+        from = from.max(at.end);
+    }
+    out.push_str(text.get(from..).unwrap_or_default());
+    out
+}
