@@ -220,7 +220,7 @@ fn what_is_asked_of_single_road_users_is_in_the_scene() {
         "--type",
         "6=vehicle",
         "--goal-from-log",
-        "@moving",
+        "6,11",
         "--goal",
         "6=ahead:20",
         "-o",

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cancel;
 mod clock;
 mod engine;
 pub mod features;
@@ -35,6 +36,7 @@ pub mod sentences;
 pub mod tuning;
 pub mod weights;
 
+pub use cancel::Cancel;
 pub use clock::Clock;
 pub use engine::Engine;
 pub use generator::{Generation, Generator};
@@ -42,9 +44,9 @@ pub use maps::{MapCost, Maps, preparation};
 pub use placement::Placer;
 pub use planning::world::Planning;
 pub use request::{
-    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
-    React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source, Stages,
-    Timings, Warning, WarningCode,
+    Accepted, Answer, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport, React,
+    Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source, Stages, Timings,
+    Warning, WarningCode,
 };
 pub use scene::motion::Limiting;
 pub use tuning::Tuning;

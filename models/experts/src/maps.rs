@@ -1,6 +1,6 @@
 //! Derived data of a map, computed once and shared by generation and placement.
 
-use crate::request::Cancel;
+use crate::cancel::Cancel;
 use lru::LruCache;
 use scene::geometry::crowding::Crowding;
 use scene::routes::LaneGraph;

@@ -12,7 +12,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Agents that may react to the regenerated ones.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -565,20 +564,4 @@ pub enum GenerateError {
     /// Anything the tensor library reports; a defect of the program or its weights.
     #[error("expert failed: {0}")]
     Expert(String),
-}
-
-/// Shared flag that stops a call between steps.
-#[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
-
-impl Cancel {
-    /// Asks the call to stop.
-    pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// True after a call of [`Cancel::cancel`].
-    pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
 }

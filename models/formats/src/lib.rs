@@ -89,3 +89,4 @@ pub use loss::Loss;
 pub use pack::unzipped;
 pub use problem::{FieldProblem, ImportWarning, Imported, ReadError, RefusalKind, never_null, pointer_token};
 pub use source::Source;
+pub use written::is_too_long;

@@ -7,6 +7,11 @@ pub(crate) fn too_long(bytes: u64, most: u64) -> io::Error {
     io::Error::new(io::ErrorKind::FileTooLarge, format!("the file has {bytes} bytes or more; at most {most}"))
 }
 
+/// Whether an export failed because its file would be longer than it may be.
+pub fn is_too_long(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::FileTooLarge
+}
+
 /// A file in memory of at most so many bytes.
 pub(crate) struct BoundedFile {
     /// Its bytes so far.

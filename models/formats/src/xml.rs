@@ -431,7 +431,7 @@ mod tests {
         let text = format!("<!--{}--><a/>", "> - -- <x> ".repeat(1_000));
         assert_eq!(all(&text).unwrap(), "a;");
         let text = format!("<!--{}--><a/>", "- -- <x ".repeat(1_000));
-        let slow = Scanner::new(BufReader::with_capacity(7, text.as_bytes()), 200);
+        let slow = Scanner::new(io::BufReader::with_capacity(7, text.as_bytes()), 200);
         assert_eq!(walk(slow).unwrap(), "a;");
     }
 

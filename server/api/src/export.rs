@@ -4,10 +4,9 @@ use crate::code::Code;
 use crate::english;
 use crate::import::{known, names};
 use crate::problem::Problem;
-use formats::{ExportOptions, ExportedMotion, registry};
+use formats::{ExportOptions, ExportedMotion, is_too_long, registry};
 use scene::Scene;
 use serde::Deserialize;
-use std::io::ErrorKind;
 
 /// A file on its way out.
 pub struct WrittenFile {
@@ -94,11 +93,12 @@ pub fn write_part(
     let options = ExportOptions { motion, gzip: false, sample, label, continued, most_bytes };
     let too_large =
         |detail: String| Problem::new(Code::ReplyTooLarge, detail).limit(most_bytes.unwrap_or_default());
-    let exported =
-        found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| match error.kind() {
-            ErrorKind::FileTooLarge => too_large(error.to_string()),
-            _ => Problem::new(Code::CannotRepresent, error.to_string()),
-        })?;
+    let exported = found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| {
+        match is_too_long(&error) {
+            true => too_large(error.to_string()),
+            false => Problem::new(Code::CannotRepresent, error.to_string()),
+        }
+    })?;
     let bytes = exported.bytes.len() as u64;
     if most_bytes.is_some_and(|most| bytes > most) {
         return Err(too_large(format!("the file has {bytes} bytes")));

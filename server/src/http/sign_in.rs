@@ -3,6 +3,7 @@
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use scene::ContentHash;
 use std::time::Duration;
 
 /// The page; [`STATUS`] in it is replaced.
@@ -29,15 +30,9 @@ pub struct SessionCookie {
 impl SessionCookie {
     /// The cookie for this token.
     pub fn of(token: &str) -> Self {
-        let derived = |purpose: &str| {
-            let key = blake3::derive_key(purpose, token.as_bytes());
-            key.iter().map(|byte| format!("{byte:02x}")).collect::<String>()
-        };
-        let name = derived("dragtraffic session cookie: name");
-        Self {
-            name: format!("dragtraffic-{}", &name[..8]),
-            value: derived("dragtraffic session cookie: value"),
-        }
+        let derived = |purpose: &str| ContentHash::of(&("dragtraffic session cookie", purpose, token));
+        let (name, value) = (derived("name").short(), derived("value").hex());
+        Self { name: format!("dragtraffic-{name}"), value }
     }
 
     /// The request carries this cookie.

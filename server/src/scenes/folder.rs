@@ -19,7 +19,7 @@ const WAITING: usize = 32;
 const PATIENCE: Duration = Duration::from_secs(10);
 const ANSWER: Duration = Duration::from_secs(2);
 
-type Task = Box<dyn FnOnce(&Folder) + Send>;
+type Task = Box<dyn FnOnce(&DataFolder) + Send>;
 
 /// The folder, for any thread.
 #[derive(Clone)]
@@ -31,7 +31,7 @@ impl FolderReader {
     /// # Errors
     /// When it cannot be opened, or the system gives no thread.
     pub fn start(path: &Path) -> io::Result<Self> {
-        let folder = Folder::open(path)?;
+        let folder = DataFolder::open(path)?;
         let (tasks, waiting) = mpsc::sync_channel::<Task>(WAITING);
         let work = move || waiting.into_iter().for_each(|task| task(&folder));
         std::thread::Builder::new().name("data-folder".into()).spawn(work)?;
@@ -42,7 +42,7 @@ impl FolderReader {
     async fn ask<T: Send + 'static>(
         &self,
         patience: Duration,
-        task: impl FnOnce(&Folder) -> T + Send + 'static,
+        task: impl FnOnce(&DataFolder) -> T + Send + 'static,
     ) -> Option<T> {
         let (reply, done) = oneshot::channel();
         let task: Task = Box::new(move |folder| {
@@ -74,14 +74,14 @@ impl FolderReader {
 }
 
 /// A folder with its handle.
-pub struct Folder {
+pub struct DataFolder {
     #[cfg(not(target_os = "linux"))]
     path: PathBuf,
     #[cfg(target_os = "linux")]
     handle: rustix::fd::OwnedFd,
 }
 
-impl Folder {
+impl DataFolder {
     /// Opens a folder.
     ///
     /// # Errors
@@ -184,7 +184,7 @@ impl Folder {
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
-    use super::{Folder, FolderReader};
+    use super::{DataFolder, FolderReader};
     use std::path::Path;
 
     #[test]
@@ -201,7 +201,7 @@ mod tests {
         link(Path::new("/proc/self/fd/0"), "magic");
         let made = std::process::Command::new("mkfifo").arg(at("pipe")).status().unwrap();
         assert!(made.success());
-        let opened = Folder::open(folder.path()).unwrap();
+        let opened = DataFolder::open(folder.path()).unwrap();
         let read =
             |name: &str| opened.read(Path::new(name)).ok().map(|bytes| String::from_utf8(bytes).unwrap());
         assert_eq!(read("inner/a").as_deref(), Some("inside"));

@@ -3,7 +3,7 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
-use super::folder::{Folder, FolderReader};
+use super::folder::{DataFolder, FolderReader};
 use super::item::{Facts, SceneItem};
 use super::weight;
 use crate::base::cache::Cache;
@@ -68,7 +68,7 @@ impl Library {
         let (entries, open) = (RwLock::default(), Cache::new(cached_bytes));
         let library = Self(Arc::new(LibraryState { entries, open, pool, folder: reader }));
         library.add_demos();
-        if let Some(folder) = folder.map(Folder::open).transpose()? {
+        if let Some(folder) = folder.map(DataFolder::open).transpose()? {
             let filled = library.clone();
             std::thread::Builder::new().name("library".into()).spawn(move || filled.add_folder(&folder))?;
         }
@@ -170,7 +170,7 @@ impl Library {
         }
     }
 
-    fn add_folder(&self, folder: &Folder) {
+    fn add_folder(&self, folder: &DataFolder) {
         let mut files = match folder.names() {
             Ok(names) => names,
             Err(error) => {

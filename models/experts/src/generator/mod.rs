@@ -45,10 +45,11 @@ mod workers;
 
 pub use generation::Generation;
 
+use crate::cancel::Cancel;
 use crate::clock::{self, Clock};
 use crate::maps::Maps;
 use crate::net::Expert;
-use crate::request::{Answer, Cancel, Event, GenerateError, Request};
+use crate::request::{Answer, Event, GenerateError, Request};
 use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
 use resources::Resources;

@@ -9,7 +9,8 @@ use super::pose::{Pose, draw_size};
 use super::random;
 use super::region::in_ring;
 use super::request::{Parked, counted};
-use crate::request::{Cancel, GenerateError};
+use crate::cancel::Cancel;
+use crate::request::GenerateError;
 use crate::tuning::placing::parking::{
     ASKEW_RAD, BAY_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, FAST_MPS, KERB_M, LONGEST_M, NEAR_M, NOSE_IN,
     PLACE_M, ROOM_M, WIDEST_M,

@@ -3,8 +3,9 @@
 use super::model::{PlacementInfo, PlacementModel};
 use super::place::place;
 use super::request::{PlaceRequest, Placement};
+use crate::cancel::Cancel;
 use crate::maps::Maps;
-use crate::request::{Cancel, GenerateError};
+use crate::request::GenerateError;
 use crate::weights::WeightsError;
 use std::sync::Arc;
 

@@ -107,11 +107,16 @@ fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
         // The plain parser is twice as fast; the one that tracks places runs only for a fault.
         Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
         // A word that is none of a kind, such as null, is a fault of the text to the plain parser.
-        Err(error) if error.classify() == Category::Data || is_json(open()?) => {
+        Err(error) if error.classify() == Category::Data || lacks_a_word(&error) && is_json(open()?) => {
             Err(locate::<R, T>(open()?, &error))
         }
         Err(error) => Err(ReadError::malformed_json(&error, reason(&error))),
     }
+}
+
+/// Where one of a kind's words is expected, the plain parser refuses other values as broken text.
+fn lacks_a_word(error: &serde_json::Error) -> bool {
+    error.classify() == Category::Syntax && error.to_string().starts_with("expected value")
 }
 
 fn is_json<'de, R: serde_json::de::Read<'de>>(mut parser: Deserializer<R>) -> bool {
@@ -219,17 +224,17 @@ mod tests {
     fn a_value_that_is_no_word_has_a_place_and_is_json() {
         #[derive(Debug, Deserialize)]
         #[serde(rename_all = "snake_case")]
-        enum Kind {
-            Car,
+        enum Colour {
+            Red,
         }
         #[derive(Debug, Deserialize)]
-        struct Agent {
+        struct Worded {
             #[serde(rename = "subtype")]
-            _kind: Kind,
+            _word: Colour,
         }
         for value in ["null", "7", "[]", "true"] {
             let text = format!("[{{\"subtype\":{value}}}]");
-            let refused = from_json::<Vec<Agent>>(text.as_bytes()).unwrap_err();
+            let refused = from_json::<Vec<Worded>>(text.as_bytes()).unwrap_err();
             let fault = refused.problems.first().unwrap();
             assert_eq!(
                 (fault.pointer.as_str(), fault.code.as_ref()),
@@ -237,7 +242,7 @@ mod tests {
                 "{value}"
             );
         }
-        let broken = from_json::<Vec<Agent>>(b"[{\"subtype\":nul}]").unwrap_err();
+        let broken = from_json::<Vec<Worded>>(b"[{\"subtype\":nul}]").unwrap_err();
         assert_eq!(broken.code(), "malformed-json");
     }
 

@@ -184,7 +184,7 @@ pub(super) fn plain(cell: &str) -> &str {
 const QUOTE: char = '\'';
 
 fn is_formula(text: &str) -> bool {
-    text.starts_with(['=', '+', '-', '@', '\t', '\r', QUOTE]) && text.parse::<f64>().is_err()
+    text.starts_with(['=', '+', '-', '@', '\t', '\r', QUOTE])
 }
 
 /// To a millionth, without zeros at the end.

@@ -24,8 +24,12 @@ impl Table {
 
     /// One more line.
     pub fn add(&mut self, row: &[String]) {
+        let is_number = |text: &str| text.parse::<f64>().is_ok();
+        let cell = |text: &String| {
+            if is_number(text) { text.clone() } else { formats::table::cell(text).into_owned() }
+        };
         // All lines are of one length, and a vector takes all bytes.
-        let _ = self.0.write_record(row.iter().map(|text| formats::table::cell(text).into_owned()));
+        let _ = self.0.write_record(row.iter().map(cell));
     }
 
     /// The file.
