@@ -22,7 +22,7 @@ pub const MAX_POLYLINES: usize = 20_000;
 /// Most map points in all.
 pub const MAX_MAP_POINTS: usize = 400_000;
 /// Most corners of all areas of a map.
-pub const MAX_AREA_CORNERS: usize = 20_000;
+pub const MAX_AREA_CORNERS: usize = 250_000;
 /// Most lanes that follow a lane, lead to it or obey a stop sign, and most stretches beside a lane.
 pub const MAX_LANE_LINKS: usize = 64;
 /// Most links of a map's lanes in all: to other lanes, to lines beside them, and of stop signs.
@@ -532,7 +532,7 @@ mod tests {
     #[test]
     fn corners_of_areas_and_lines_over_each_other_are_bounded() {
         let ring = |corners: usize| {
-            let corner = |i: usize| crate::geometry::direction(i as f64 / corners as f64 * 6.28) * 2_000.0;
+            let corner = |i: usize| crate::geometry::direction(i as f64 / corners as f64 * 6.28) * 3_000.0;
             Points::from((0..corners).map(corner).collect::<Vec<_>>())
         };
         let area = |holes: usize| Area {
@@ -541,12 +541,12 @@ mod tests {
             holes: (0..holes).map(|_| ring(4_000)).collect(),
         };
         let with = |holes: usize| refused(LaneMap { driveways: vec![area(holes)], ..LaneMap::default() });
-        assert_eq!((with(4), with(5)), (None, Some(("/map".into(), "map-too-complex"))));
+        assert_eq!((with(61), with(62)), (None, Some(("/map".into(), "map-too-complex"))));
         let lanes = |count: usize, apart_m: f64| {
             let lanes = (0..count).map(|i| street(i, apart_m * i as f64)).collect();
             refused(LaneMap { lanes, ..LaneMap::default() })
         };
         assert_eq!(lanes(5_000, 0.5), None);
-        assert_eq!(lanes(5_000, 0.0), Some(("/map".into(), "map-too-complex")));
+        assert_eq!(lanes(10_000, 0.0), Some(("/map".into(), "map-too-complex")));
     }
 }

@@ -31,13 +31,13 @@ journeys('keeping', (stage) => {
     await e.drag(flag(0), flag(0.4), { moves: 30 });
     await e.release();
     await e.settled();
-    const [before, code] = [await said(e), await e.text('.btn.code')];
+    const [before, code] = [await said(e), await e.code()];
     await e.until(() => /^Saved on this computer/.test(document.querySelector('.title small').textContent));
     const again = await e.killed();
     await again.settled();
     await again.choose(car.id);
     assert.deepEqual(await said(again), before);
-    assert.equal(await again.text('.btn.code'), code);
+    assert.equal(await again.code(), code);
     assert.deepEqual(again.wire.asked.map((a) => a.body.react).filter(Boolean), [], 'nobody is asked anew');
   });
 

@@ -12,14 +12,6 @@ const driving = ({ body }, id) =>
       .map(([other, f]) => [other, JSON.stringify({ ...f, modes: f.modes.map((m) => ({ ...m, faults: undefined })) })]),
   );
 
-/** The code of the result, from the options of Generate. */
-async function codeOf(e) {
-  await e.page.click('[data-menu="generate"]');
-  const code = await e.text('.btn.code');
-  await e.key('Escape');
-  return code;
-}
-
 journeys('picking', (stage) => {
   it('requests only the picked future, and changes road users that react to it', { timeout: 90_000 }, async () => {
     const e = await stage.open();
@@ -55,17 +47,17 @@ journeys('picking', (stage) => {
       answered = answer.map(([id]) => id);
     }
     // A pinned future stays when others are drawn, and is taken again with its goal.
-    const code = await codeOf(e);
+    const code = await e.code();
     assert.match(code, /^[0-9A-Z]{6}$/);
     const goal = await e.goal();
     await e.page.locator('[data-future="B"]').hover();
     await e.key('Shift+P');
     await e.page.waitForSelector('.pinb[aria-pressed="true"]');
-    assert.equal(await codeOf(e), code, 'to pin something changes no result');
+    assert.equal(await e.code(), code, 'to pin something changes no result');
     await e.type('goal-pos', String(goal.x + 9), 0);
     await e.page.waitForSelector('.fu.pinned.misfit');
     assert.match(await e.text('.fu.pinned .why'), /from the goal/);
-    assert.notEqual(await codeOf(e), code);
+    assert.notEqual(await e.code(), code);
     await e.picture('pinned');
     await e.page.reload();
     await e.ready();

@@ -37,7 +37,7 @@ journeys('sharing', (stage) => {
   });
 
   it('reports a truncated link', { timeout: 60_000 }, async () => {
-    const e = await stage.visit(`${stage.program.url}/#s1=q1ZKzs8tKEotLgYA`);
+    const e = await stage.visit(`${stage.program.url}#s1=q1ZKzs8tKEotLgYA`);
     await e.until(() => /The link could not be opened/.test(document.querySelector('.banner')?.textContent));
     assert.match(await e.text('.banner'), /It may have been cut off/);
     await e.page.getByRole('button', { name: 'Close', exact: true }).click();

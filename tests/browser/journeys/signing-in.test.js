@@ -17,7 +17,7 @@ journeys('signing in', (stage) => {
     writeFileSync(file, TOKEN, { mode: 0o600 });
     const program = await Program.start(undefined, ['--token-file', file]);
     try {
-      const e = await stage.visit(`${program.url}/scenes/demo-crossing`, { scene: false });
+      const e = await stage.visit(new URL('/scenes/demo-crossing', program.url).href, { scene: false });
       const enter = async (token) => {
         await e.page.getByLabel('Token').fill(token);
         await e.page.getByRole('button', { name: 'Sign in' }).click();

@@ -268,6 +268,14 @@ export class Editor {
     }
   }
 
+  /** The code of the result, from the options of Generate. */
+  async code() {
+    await this.page.click('[data-menu="generate"]');
+    const code = await this.text('.btn.code');
+    await this.key('Escape');
+    return code;
+  }
+
   async release() {
     await this.page.mouse.up();
     await this.settled();

@@ -104,7 +104,8 @@ impl NearPoints {
     /// Those within the radius of `point`, by rising x; none where they are so many that they say nothing.
     pub(super) fn near(&self, point: Vec2) -> Vec<usize> {
         let (column, row) = self.square(point);
-        let around = (column - 1..=column + 1).flat_map(|c| (row - 1..=row + 1).map(move |r| (c, r)));
+        let beside = |at: i64| at.saturating_sub(1)..=at.saturating_add(1);
+        let around = beside(column).flat_map(|c| beside(row).map(move |r| (c, r)));
         let close = around.filter_map(|square| self.squares.get(&square)).flatten();
         let within = close.filter(|(p, _)| (p.x - point.x).hypot(p.y - point.y) <= self.radius_m);
         let mut found: Vec<(f64, usize)> = within.take(MOST_TOGETHER + 1).map(|(p, i)| (p.x, *i)).collect();

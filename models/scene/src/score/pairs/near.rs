@@ -100,14 +100,10 @@ pub(super) struct Gap {
     pub closing_mps: f64,
 }
 
-/// A near miss. Both move, or one stands in the way for a while, and one of these holds:
-/// - wheels cross wheels close and fast;
-/// - the gap shrinks fast, and one crosses close to the other, or the two meet within the time threshold if both keep
-///   speed and turn rate;
-/// - a generated motion passes another within a hand's breadth at speed.
-///
-/// Left out are two walkers, parked cars, wheels that stand or crawl beside people, one that passes beside another on
-/// its own line, and one that brakes normally behind another.
+/// A near miss: both move (or one stands in the way for a while), the gap shrinks fast, and either they
+/// meet within the time threshold if both go on as they do, round their bends too, or one crosses close
+/// to the other; or made motion all but brushes another at speed. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
+/// passes beside another on its own line, and one that brakes normally behind another.
 pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<NearMissKind> {
     let made = a.mover.generated || b.mover.generated;
     let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
@@ -117,29 +113,21 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     if made && passes && !(a.walks() && b.walks()) {
         return Some(NearMissKind::Gap);
     }
-    if parked || a.walks() && b.walks() {
-        return None;
-    }
-    let moves = |side: Side<'_>| side.moment.speed_mps > limits.moving_mps;
-    let by_gap = gap.gap_m < limits.gap_m && moves(a) && moves(b);
-    let turn = wrap_angle(a.moment.outline.heading_rad() - b.moment.outline.heading_rad()).abs();
-    let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
-    // Where the gap is least it no longer shrinks: wheels that cross fast and close need not close in.
-    let wheels = !a.walks() && !b.walks();
-    if by_gap && crosses && wheels && relative_mps > limits.pass_mps {
-        return Some(NearMissKind::Gap);
-    }
-    if gap.closing_mps <= limits.closing_speed_mps {
+    if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {
         return None;
     }
     let crawls = |wheels: Side<'_>, walker: Side<'_>| walker.walks() && wheels.moment.speed_mps <= CRAWL_MPS;
     if crawls(a, b) || crawls(b, a) {
         return None;
     }
+    let turn = wrap_angle(a.moment.outline.heading_rad() - b.moment.outline.heading_rad()).abs();
     let needed_mps2 = gap.closing_mps.powi(2) / (2.0 * gap.gap_m.max(LEAST_GAP_M));
     if follows(a.moment, b.moment, gap.towards) && needed_mps2 <= limits.follow_brake_mps2 {
         return None;
     }
+    let moves = |side: Side<'_>| side.moment.speed_mps > limits.moving_mps;
+    let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
+    let by_gap = gap.gap_m < limits.gap_m && moves(a) && moves(b);
     let by_time = gap.ttc_s.is_some_and(|t| t < limits.ttc_s);
     if by_gap && crosses {
         return Some(NearMissKind::Gap);

@@ -289,19 +289,6 @@ fn crossing_near_miss_at_its_worst_moment() {
 }
 
 #[test]
-fn passing_close_behind_one_that_draws_away_is_a_near_miss() {
-    // At 3.7 s a's front passes 0.6 m behind b's rear. At the steps before, the gap is above 1 m; from then on it grows.
-    let found = |b_mps: f64, y: f64| {
-        let b = car("b", 39.99, y, FRAC_PI_2, b_mps);
-        plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), b])
-    };
-    let close = found(3.0, -7.5);
-    assert_eq!((close.near_misses.len(), close.collisions.len()), (1, 0));
-    assert!((0.5..0.7).contains(&close.near_misses[0].distance_m), "{close:?}");
-    assert_eq!(found(3.0, -7.0).near_misses, [], "1.1 m behind it");
-}
-
-#[test]
 fn head_on_turned_away_is_a_near_miss() {
     // Both stop 1 m apart after closing at 20 m/s: no collision, but time to collision was short.
     let stop = |from: f64, way: f64| {
