@@ -532,7 +532,9 @@ mod tests {
     #[test]
     fn corners_of_areas_and_lines_over_each_other_are_bounded() {
         let ring = |corners: usize| {
-            let corner = |i: usize| crate::geometry::direction(i as f64 / corners as f64 * 6.28) * 3_000.0;
+            let corner = |i: usize| {
+                crate::geometry::direction(i as f64 / corners as f64 * std::f64::consts::TAU) * 3_000.0
+            };
             Points::from((0..corners).map(corner).collect::<Vec<_>>())
         };
         let area = |holes: usize| Area {

@@ -130,7 +130,7 @@ impl ReplyHead {
 /// opened it. `None` for a request that is no handshake (RFC 6455, 4.2.1).
 pub fn open(mut request: Request<Body>, carrier: Carrier, path: &'static str) -> Option<Response> {
     let accept = HeaderValue::try_from(accept_key(&request)?).ok()?;
-    let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION];
+    let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION, header::COOKIE];
     let given =
         given.into_iter().filter_map(|name| Some((name.clone(), request.headers().get(name)?.clone())));
     let own = [(header::CONTENT_TYPE, "application/json"), (header::ACCEPT, "application/x-ndjson")];

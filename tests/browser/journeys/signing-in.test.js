@@ -28,6 +28,7 @@ journeys('signing in', (stage) => {
       await e.picture('sign-in');
       await enter(TOKEN);
       await e.ready();
+      await e.begin();
       assert.equal(new URL(e.page.url()).pathname, '/scenes/demo-crossing');
       const car = await carOnTheMove(e);
       await e.choose(car.id);
