@@ -103,7 +103,7 @@ impl PoolState {
         if *party == new.party && count <= own + 1 {
             return None;
         }
-        of_party().filter(|job| job.caller.share == *share).next_back().cloned()
+        of_party().rfind(|job| job.caller.share == *share).cloned()
     }
 
     /// A job waits from now on.
