@@ -57,7 +57,10 @@ pub struct MapCost {
 
 /// About how long it takes one thread to work out the lanes and the ground of a map that is not known.
 pub fn preparation(map: &LaneMap) -> Duration {
-    let crowding = Crowding::of(map.outlines());
+    preparation_of(&Crowding::of(map.outlines()))
+}
+
+fn preparation_of(crowding: &Crowding) -> Duration {
     let nanoseconds = CELL_NS * crowding.entries as f64 + PAIR_NS * crowding.pairs as f64;
     Duration::from_nanos(nanoseconds as u64)
 }
@@ -102,8 +105,13 @@ impl Maps {
     /// What work on a map costs.
     pub fn cost(&self, map: &Shared<LaneMap>) -> MapCost {
         let known = self.cached().peek(&map.hash()).map(|known| known.crowding);
-        let preparation = if known.is_some() { Duration::ZERO } else { preparation(map) };
-        let crowding = known.unwrap_or_else(|| Crowding::of(map.outlines()));
+        let (crowding, preparation) = known.map_or_else(
+            || {
+                let crowding = Crowding::of(map.outlines());
+                (crowding, preparation_of(&crowding))
+            },
+            |known| (known, Duration::ZERO),
+        );
         MapCost { preparation, crowded: (crowding.mean() / USUAL_CROWD).max(1.0) }
     }
 

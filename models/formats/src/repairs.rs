@@ -82,14 +82,10 @@ fn lies_across(agent: &Agent) -> bool {
 
 /// Thins lines with more points than a scene holds. Gives how many there were.
 fn thin_lines(map: &mut Shared<LaneMap>) -> usize {
-    let long = |points: &Points| points.xy.len() > MAX_POLYLINE_POINTS;
-    let lines = map.lanes.iter().map(|lane| &lane.points);
-    let lines = lines.chain(map.road_lines.iter().chain(&map.road_edges).map(|line| &line.points));
-    let areas = map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways).chain(&map.drivable);
-    let rings = areas.flat_map(|area| std::iter::once(&area.polygon).chain(&area.holes));
-    if !lines.chain(rings).any(long) {
+    if !map.outlines().any(|(xy, _)| xy.len() > MAX_POLYLINE_POINTS) {
         return 0;
     }
+    let long = |points: &Points| points.xy.len() > MAX_POLYLINE_POINTS;
     let map: &mut LaneMap = map;
     let (mut count, mut kept_of) = (0, HashMap::new());
     for lane in map.lanes.iter_mut().filter(|lane| long(&lane.points)) {

@@ -339,8 +339,8 @@ impl Scene {
             let reason = format!("{links} links of lanes; at most {MAX_MAP_LINKS}");
             problems.push(SceneError::new("/map/lanes", "map-too-complex", reason));
         }
-        let rings = map.areas().flat_map(|area| std::iter::once(&area.polygon).chain(&area.holes));
-        let corners: usize = rings.map(|ring| ring.xy.len()).sum();
+        let rings = map.outlines().filter(|(_, closed)| *closed);
+        let corners: usize = rings.map(|(ring, _)| ring.len()).sum();
         if corners > MAX_AREA_CORNERS {
             let reason = format!("{corners} corners of areas; at most {MAX_AREA_CORNERS}");
             problems.push(SceneError::new("/map", "map-too-complex", reason));

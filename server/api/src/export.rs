@@ -94,10 +94,8 @@ pub fn write_part(
     let too_large =
         |detail: String| Problem::new(Code::ReplyTooLarge, detail).limit(most_bytes.unwrap_or_default());
     let exported = found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| {
-        match is_too_long(&error) {
-            true => too_large(error.to_string()),
-            false => Problem::new(Code::CannotRepresent, error.to_string()),
-        }
+        let detail = error.to_string();
+        if is_too_long(&error) { too_large(detail) } else { Problem::new(Code::CannotRepresent, detail) }
     })?;
     let bytes = exported.bytes.len() as u64;
     if most_bytes.is_some_and(|most| bytes > most) {

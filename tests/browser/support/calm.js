@@ -1,4 +1,5 @@
 // How much a page shows at once: controls in sight, and labels over the road.
+import { pixelsOf } from './pixels.js';
 
 /** Controls that a user sees: in the window, visible, and not under something else. */
 export const controlsInSight = (page) =>
@@ -26,17 +27,9 @@ const LABEL_PX = 13;
  * in a changed square of `LABEL_PX`. The square leaves out paths, which are narrower. Both pictures show the same part
  * of the map.
  */
-export const underLabels = (page, before, after) =>
+export const underLabels = async (page, before, after) =>
   page.evaluate(
-    async ([a, b, side]) => {
-      const read = async (base64) => {
-        const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-        const bitmap = await createImageBitmap(new Blob([bytes]));
-        const g = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-        g.drawImage(bitmap, 0, 0);
-        return g.getImageData(0, 0, bitmap.width, bitmap.height);
-      };
-      const [p, q] = [await read(a), await read(b)];
+    ([p, q, side]) => {
       const { width: w, height: h } = p;
       const style = getComputedStyle(document.documentElement);
       const road = ['--map-asphalt', '--map-crosswalk', '--map-bike'].map((name) => {
@@ -69,5 +62,5 @@ export const underLabels = (page, before, after) =>
       }
       return { all, share: under / all };
     },
-    [before, after, LABEL_PX].map((v) => (typeof v === 'number' ? v : v.toString('base64'))),
+    [await pixelsOf(page, before), await pixelsOf(page, after), LABEL_PX],
   );

@@ -28,7 +28,7 @@ export class Pixels {
 
   /** Are two alike, and where not? The share of differing pixels, and their place in words. */
   async differing(a, b) {
-    const [p, q] = [a, b].map((bytes) => bytes.toString('base64'));
+    const [p, q] = [await pixelsOf(this.#page, a), await pixelsOf(this.#page, b)];
     const { share, square, box } = await this.#page.evaluate(differing, [p, q, SAME_COLOUR, SQUARE_PX]);
     const [x0, y0, x1, y1] = (box ?? []).map((v) => Math.round(v / SCALE));
     return {
@@ -38,6 +38,18 @@ export class Pixels {
       where: box ? ` within x ${x0} to ${x1}, y ${y0} to ${y1}` : '',
     };
   }
+}
+
+/** A handle of a picture's pixels in a page. */
+export const pixelsOf = (page, picture) => page.evaluateHandle(decoded, picture.toString('base64'));
+
+/** Runs in the page. */
+async function decoded(base64) {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes]));
+  const g = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+  g.drawImage(bitmap, 0, 0);
+  return g.getImageData(0, 0, bitmap.width, bitmap.height);
 }
 
 /** Runs in the page. */
@@ -57,15 +69,7 @@ async function shrink([base64, scale, quality]) {
 }
 
 /** Runs in the page: share of differing pixels of two pictures, of the worst square, and their bounding rectangle. */
-async function differing([a, b, same, side]) {
-  const read = async (base64) => {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes]));
-    const g = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-    g.drawImage(bitmap, 0, 0);
-    return g.getImageData(0, 0, bitmap.width, bitmap.height);
-  };
-  const [p, q] = [await read(a), await read(b)];
+function differing([p, q, same, side]) {
   if (p.width !== q.width || p.height !== q.height) return { share: 1, square: 1, box: null };
   let count = 0;
   const across = Math.ceil(p.width / side);

@@ -1,25 +1,10 @@
 // Traffic signals at the stop line. Red is a solid bar, green a row of dots, so that colour is not needed.
 import type { Pen } from './pen';
 import { pointAt, type Vec } from '../model/base/geometry';
-import { STEP_S } from '../model/base/motion';
-import type { Scene, Signal } from '../model/document/scene';
+import type { Scene } from '../model/document/scene';
+import { lightAt, stopOf, type Light } from '../model/physics/signals';
 import { colours } from './theme';
 import type { View } from './view';
-
-type Light = 'stop' | 'caution' | 'go' | 'unknown';
-
-function stateAt(s: Signal, t: number): Light {
-  const step = Math.floor(t / STEP_S + 1e-6);
-  let state = 'unknown';
-  for (const [first, name] of s.states) if (first <= step) state = name;
-  return state.includes('stop')
-    ? 'stop'
-    : state.includes('caution')
-      ? 'caution'
-      : state.includes('go')
-        ? 'go'
-        : 'unknown';
-}
 
 export function paintSignals(g: Pen, v: View, scene: Scene, t: number): void {
   if (v.z < 3) return;
@@ -28,20 +13,20 @@ export function paintSignals(g: Pen, v: View, scene: Scene, t: number): void {
   const done = new Set<string>();
   for (const s of scene.signals) {
     const lane = scene.map.lanes.get(s.lane);
-    const entry = lane ? pointAt(lane.line, 0) : null;
-    const at = s.stop ?? (entry ? ([entry.x, entry.y] as const) : null);
+    const at = stopOf(s, lane);
     if (!at || (lane && lane.kind === 'walk')) continue;
     // Several turns share one stop line; one bar for each lane is enough.
     const key = `${Math.round(at[0] * 2)},${Math.round(at[1] * 2)}`;
     if (done.has(key)) continue;
     done.add(key);
-    const light = stateAt(s, t);
+    const light = lightAt(s, t);
     if (!lane) {
       // A pedestrian signal, or one whose lane is not on the map: no direction, so a disc.
       disc(g, ...v.to(at[0], at[1]), Math.max(3.2, 0.4 * v.z), light, paint[light]);
       continue;
     }
-    const nearStart = entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
+    const entry = pointAt(lane.line, 0);
+    const nearStart = Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
     const heading = pointAt(lane.line, nearStart ? 0 : lane.line.length).heading;
     bar(
       g,

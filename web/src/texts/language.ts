@@ -53,6 +53,9 @@ export const plural = (n: number, forms: Forms): string => forms[rules.select(n)
 export const inSentence = (title: string): string =>
   LANGUAGE === 'de' ? title : title.charAt(0).toLowerCase() + title.slice(1);
 
+/** Words at the start of a sentence. */
+export const capitalised = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
+
 /** Texts of another language; null where they stay unchanged. */
 interface Change {
   area(area: string, english: Words): Words;

@@ -163,10 +163,7 @@ impl LaneGraph {
 
     /// As [`Self::new`]; `None` once the work is cancelled.
     pub fn unless(map: &LaneMap, is_cancelled: &dyn Fn() -> bool) -> Option<Self> {
-        let by_id: HashMap<&str, usize> =
-            map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
-        let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
-        links::record(map, &by_id, &mut lanes);
+        let (by_id, mut lanes) = Self::recorded(map);
         links::rebuild(&mut lanes);
         walks::append(map, &mut lanes);
         for sign in &map.stop_signs {
@@ -190,15 +187,21 @@ impl LaneGraph {
     /// Links that the map lacks and the graph rebuilds from the geometry: positions in [`LaneMap::lanes`] of the lane
     /// before and the lane after.
     pub fn rebuilt_links(map: &LaneMap) -> Vec<(usize, usize)> {
-        let by_id: HashMap<&str, usize> =
-            map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
-        let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
-        links::record(map, &by_id, &mut lanes);
+        let (_, mut lanes) = Self::recorded(map);
         let recorded: Vec<usize> = lanes.iter().map(|lane| lane.successors.len()).collect();
         links::rebuild(&mut lanes);
         // A rebuilt link stands behind the recorded ones.
         let rebuilt = lanes.iter().zip(recorded).enumerate();
         rebuilt.flat_map(|(i, (lane, from))| lane.successors[from..].iter().map(move |to| (i, *to))).collect()
+    }
+
+    /// The lanes of a map with their recorded links, and their positions by id.
+    fn recorded(map: &LaneMap) -> (HashMap<&str, usize>, Vec<GraphLane>) {
+        let by_id: HashMap<&str, usize> =
+            map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
+        let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
+        links::record(map, &by_id, &mut lanes);
+        (by_id, lanes)
     }
 
     /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.

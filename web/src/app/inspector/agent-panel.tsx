@@ -19,6 +19,7 @@ import { GoalSection, StartSection } from './part-sections';
 import { ViasSection } from './vias-section';
 import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/panels/agent';
 
 // In one script with the panel: a selection needs both at once.
@@ -62,8 +63,6 @@ const appearsAt = (a: Agent): string => seconds((a.log.valid[0]?.[0] ?? 0) / 10)
 
 const whyNot = (a: Agent): string => (a.type === 'other' ? TEXTS.objectsOfThis : TEXTS.onlyRoadUsers(appearsAt(a)));
 
-const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
-
 function Head({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const kind = useComputed(() => agent.value.kind).value;
@@ -72,7 +71,7 @@ function Head({ agent }: { agent: LiveAgent }) {
     const a = agent.value;
     const p = startPose(a);
     if (!p) return TEXTS.appearsAt(appearsAt(a));
-    const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
+    const place = a.parked ? TEXTS.parked : capitalised(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
     const until = seenUntil(editor.scene.value!, editor.answers.motion.value, a);
     const seen = until === null ? place : TEXTS.seenUntil(seconds(until), place);
     // If the name already has the id, the place gets the space.

@@ -10,6 +10,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/rounds.css';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/panels/rounds-panel';
 
 export default function RoundsPanel() {
@@ -26,7 +27,7 @@ export default function RoundsPanel() {
         <div class="grow">
           <h2>{TEXTS.preferences}</h2>
           <p>
-            {upper(a.name)}, {TEXTS.answers(answers.length)}
+            {capitalised(a.name)}, {TEXTS.answers(answers.length)}
           </p>
         </div>
         <button type="button" class="btn i" aria-label={TEXTS.closeTheRounds} onClick={() => rounds.close()}>
@@ -50,8 +51,6 @@ export default function RoundsPanel() {
 interface Of {
   readonly subject: Subject;
 }
-
-const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
 /** For whole-scene cards speeds use the unit of vehicles. */
 function unitFor(e: Editor, { id }: Subject): SpeedUnit {

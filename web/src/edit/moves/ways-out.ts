@@ -10,6 +10,7 @@ import { crossingWords } from '../../model/words/verdict-words';
 import type { Editor } from '../session/editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/editing/moves';
 
 /** The route by the road: to the nearest goal it leads to, else the future that reaches the goal by it. */
@@ -102,5 +103,5 @@ export function leaveGiven(e: Editor, a: Agent): Leave | null {
   const { may, mayNot } = crossingWords(e.scene.value!.map, a.goal.mayCross);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([]) };
   const command = goalStep(a, goal, `${a.name} ${mayNot}`);
-  return { words: may.charAt(0).toUpperCase() + may.slice(1), command };
+  return { words: capitalised(may), command };
 }

@@ -4,6 +4,7 @@ import { patchAgents, patchScene, type Command } from './commands';
 import { answerTo, following, MOST_ANSWERS, MOST_WISHES, NO_FEEDBACK, SAME_M, sameTrait, traitOf } from './feedback';
 import type { Answer, Asked, Feedback, Places, Trait, Verdict, Wish } from './feedback';
 import type { Agent, Scene } from './scene';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/scene/feedback';
 
 type Schemas = components['schemas'];
@@ -55,8 +56,6 @@ function shortPlaces(all: Places): Places {
 const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): Command =>
   a.say(name, Object.freeze({ ...(a.feedback ?? NO_FEEDBACK), asked, ...patch }));
 
-const upper = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
-
 /** Keeps or rejects a card; null clears the verdict. */
 export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
   const was = answerTo(a.feedback, asked, of.card);
@@ -73,7 +72,8 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
   const next = answers.toSpliced(at, was ? 1 : 0, ...(said ? [Object.freeze(said)] : []));
   const word = verdict === null ? TEXTS.openAgain : verdict === 'keep' ? TEXTS.kept : TEXTS.rejected;
   const what = a.id === null ? TEXTS.card : TEXTS.future;
-  const step = was && was.verdict === verdict ? TEXTS.whyWas(what, letter, word) : `${upper(what)} ${letter} ${word}`;
+  const step =
+    was && was.verdict === verdict ? TEXTS.whyWas(what, letter, word) : `${capitalised(what)} ${letter} ${word}`;
   return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
 }
 

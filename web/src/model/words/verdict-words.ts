@@ -15,6 +15,7 @@ import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
 import { acceleration, degrees, metres, seconds, speedInUse } from '../base/units';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/scene/verdicts';
 
 /** A gap that rounds to 0.0 m is not written as that. */
@@ -75,8 +76,6 @@ export interface Headline {
 
 const SIX = ['', TEXTS.one, TEXTS.two, TEXTS.three, TEXTS.four, TEXTS.five, TEXTS.six];
 
-const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
-
 /**
  * The headline on the futures of one road user, of which `chosen` is shown; null where none is needed. `goalTime`:
  * seconds; null without a goal position.
@@ -99,7 +98,7 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
   const at = TEXTS.at(seconds(worst.time));
   const missed = about.faults.find((x) => x.kind === 'goal_missed');
   const toGoal = hasGoal && !missed && !isOpen(chosen);
-  if (worst.kind === 'goal_missed') return { mark, title: TEXTS.ofTheGoal(upper(word)), words, at: worst.time };
+  if (worst.kind === 'goal_missed') return { mark, title: TEXTS.ofTheGoal(capitalised(word)), words, at: worst.time };
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
   const only = ONLY[worst.kind];
   const title =
@@ -107,7 +106,7 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
       ? only(seconds(worst.time))
       : toGoal
         ? TEXTS.reached(word, at)
-        : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
+        : `${capitalised(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
   return { mark, title, words, at: worst.time };
 }
 

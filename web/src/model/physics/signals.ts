@@ -1,0 +1,35 @@
+// Traffic signals of a scene: the light at a time, and the place of the stop line.
+import { pointAt, type Vec } from '../base/geometry';
+import { STEP_S } from '../base/motion';
+import type { Lane } from '../document/lanemap';
+import type { Signal } from '../document/scene';
+
+export type Light = 'stop' | 'caution' | 'go' | 'unknown';
+
+const LIGHTS = ['stop', 'caution', 'go'] as const;
+
+/** The step of a time, seconds. */
+const stepAt = (time: number): number => Math.floor(time / STEP_S + 1e-6);
+
+const nameAt = ({ states }: Signal, step: number): string =>
+  states.findLast(([first]) => first <= step)?.[1] ?? 'unknown';
+
+export function lightAt(signal: Signal, time: number): Light {
+  const name = nameAt(signal, stepAt(time));
+  return LIGHTS.find((light) => name.includes(light)) ?? 'unknown';
+}
+
+/** When the next state begins, seconds; null for the last one. */
+export function changesAt(signal: Signal, time: number): number | null {
+  const step = stepAt(time);
+  const now = nameAt(signal, step);
+  const next = signal.states.find(([first, name]) => first > step && name !== now);
+  return next ? next[0] * STEP_S : null;
+}
+
+/** Where its lane is stopped: as recorded, else where the lane begins. */
+export function stopOf({ stop }: Signal, lane: Lane | undefined): Vec | null {
+  if (stop || !lane) return stop;
+  const { x, y } = pointAt(lane.line, 0);
+  return [x, y];
+}
