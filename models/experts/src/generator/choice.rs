@@ -195,7 +195,7 @@ pub(super) fn price(a: &SweptBoxes, b: &SweptBoxes, tuning: &ChoiceTuning) -> f6
         return tuning.overlap + tuning.close;
     }
     let close = if found.close { tuning.close } else { 0.0 };
-    let danger = if tuning.near_miss > 0.0 { dangerous_moments(a, b) } else { 0 };
+    let danger = if tuning.near_miss > 0.0 { dangerous_moments(a, b).count() } else { 0 };
     close + tuning.near_miss * (danger as f64).min(MOST_MOMENTS) / MOST_MOMENTS
 }
 

@@ -130,7 +130,8 @@ impl<'a> Going<'a> {
         OrientedBox::new(center, self.outline.half_length_m(), self.outline.half_width_m(), heading)
     }
 
-    /// They touch soon if both go on as they do, and no easy braking of a follower prevents it.
+    /// They pass or cross within the gap of a near miss, or touch soon if both go on as they do and no easy braking of a
+    /// follower prevents it.
     fn threatens(&self, other: &Self, limits: &Thresholds) -> bool {
         let relative = self.velocity - other.velocity;
         let speed = relative.norm();
@@ -139,6 +140,9 @@ impl<'a> Going<'a> {
             return false;
         }
         let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
+        if gap_m < limits.pass_gap_m && speed > limits.pass_mps {
+            return true;
+        }
         let closing = relative.dot(&towards);
         if closing <= least_mps {
             return false;
@@ -148,38 +152,32 @@ impl<'a> Going<'a> {
         if follows && closing * closing / (2.0 * gap_m.max(0.05)) <= limits.follow_brake_mps2 {
             return false;
         }
+        let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
+        let moves = |one: &Self| one.velocity.norm() > limits.moving_mps;
+        if crosses && gap_m < limits.gap_m && moves(self) && moves(other) {
+            return true;
+        }
         LOOKS_S.iter().any(|t| overlaps(&self.later(*t), &other.later(*t), 0.0))
     }
 }
 
 /// Moments at which two motions, neither of them parked, would soon touch if both went on as they do then: what scores
 /// call a near miss, at the boxes of the choice.
-pub fn dangerous_moments(a: &SweptBoxes, b: &SweptBoxes) -> usize {
+pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
-    if walks(a) && walks(b) {
-        return 0;
-    }
     let parked = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
     let limits = Thresholds::default();
     let margin_m = limits.ttc_s * (a.top_mps + b.top_mps);
-    if parked(a) || parked(b) || !a.whole.near(&b.whole, margin_m) {
-        return 0;
-    }
-    let mut found = 0;
-    for (chunk, (in_a, in_b)) in a.chunks.iter().zip(&b.chunks).enumerate() {
-        if !in_a.near(in_b, margin_m) {
-            continue;
-        }
-        let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
-        found += moments
-            .filter(|&i| {
-                let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
-                pair.is_some_and(|(a, b)| a.threatens(&b, &limits))
-            })
-            .count();
-    }
-    found
+    let possible =
+        !(walks(a) && walks(b) || parked(a) || parked(b)) && a.whole.near(&b.whole, margin_m);
+    let chunks = a.chunks.iter().zip(&b.chunks).enumerate().filter(move |_| possible);
+    let near = chunks.filter(move |(_, (in_a, in_b))| in_a.near(in_b, margin_m));
+    let moments = near.flat_map(|(chunk, _)| chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len()));
+    moments.filter(move |&i| {
+        let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
+        pair.is_some_and(|(a, b)| a.threatens(&b, &limits))
+    })
 }
 
 /// Overlap of two motions at their common moments. Motions with separate bounding rectangles cost four

@@ -4,7 +4,7 @@ use crate::planning::{INSTANTS, PER_INSTANT, STAYS_WITHIN_M};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::Trace;
 use scene::motion::Trajectory;
-use scene::score::{CLOSE_M, SweptBoxes, overlap};
+use scene::score::{CLOSE_M, SweptBoxes, dangerous_moments, overlap};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 use std::sync::OnceLock;
 
@@ -127,6 +127,16 @@ impl Sweep {
         };
         let moment = (0..a.len()).find(|i| near(*i))?;
         Some(STRIDE * (moment + 1))
+    }
+
+    /// The first step at which two motions touch, or would soon if both went on as they do then.
+    pub(in crate::generator) fn first_danger(&self, other: &Self) -> Option<usize> {
+        let touch = |step: &usize| {
+            self.at(*step).zip(other.at(*step)).is_some_and(|(a, b)| overlaps(a, b, 0.0))
+        };
+        let touched = self.meets(other).then(|| (1..self.states.len()).find(touch)).flatten();
+        let danger = dangerous_moments(self.swept(), other.swept()).next();
+        touched.into_iter().chain(danger.map(|moment| STRIDE * (moment + 1))).min()
     }
 
     /// The agent is present and stays within [`STAYS_WITHIN_M`] of its first place.

@@ -1,19 +1,21 @@
 //! One future for each actor, once the drafts are refined.
 
-use super::candidates::{CandidateOrigin, MotionCandidate, own, shown};
-use super::choice::{Choice, JointOption};
-use super::costs::{Yardstick, options};
-use super::decisions::{Decided, Decisions};
-use super::guidance::guided;
-use super::joint_drafts::JointDrafts;
-use super::motion::Sweep;
-use super::others::{ChangedMotion, Reacted, caused, following, reaction_of};
-use super::replan::{ReplanField, stop_before, swerve};
-use super::repulsion::{Outline, outlines};
-use super::road_rules::{is_against_traffic, leaves_the_road};
-use super::slot::Slot;
-use super::trajectory::{Rollout, short_along};
-use super::verdict::{faults, window_judge};
+mod conflicts;
+
+use crate::generator::candidates::{CandidateOrigin, MotionCandidate, own, shown};
+use crate::generator::choice::{Choice, JointOption};
+use crate::generator::costs::{Yardstick, options};
+use crate::generator::decisions::{Decided, Decisions};
+use crate::generator::guidance::guided;
+use crate::generator::joint_drafts::JointDrafts;
+use crate::generator::motion::Sweep;
+use crate::generator::others::{ChangedMotion, Reacted, caused, following, reaction_of};
+use crate::generator::replan::{ReplanField, stop_before, swerve};
+use crate::generator::repulsion::{Outline, outlines};
+use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
+use crate::generator::slot::Slot;
+use crate::generator::trajectory::{Rollout, short_along};
+use crate::generator::verdict::{faults, window_judge};
 use crate::features::agent::AgentPlan;
 use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
@@ -62,6 +64,7 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
         })
     };
     let settled = replan_rounds(rounds, &mut table, first, replan, OptionTable::settled);
+    let settled = if rounds > 0 { table.resolve(settled) } else { settled };
     let settled = table.without_fault(settled);
     table.decisions(settled, &blockers)
 }
@@ -289,7 +292,7 @@ impl OptionTable<'_> {
         let own = &settled.changed[i].sweep;
         let is_met = |o: &Sweep| own.starts_apart(o) && own.meets(o);
         let met = others.iter().find(|(_, sweep)| is_met(sweep));
-        let endangers = |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()) > 0;
+        let endangers = |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()).next().is_some();
         let collides = met.is_some() || all.iter().any(|o| is_met(o));
         let meets = collides || all.iter().any(endangers);
         // Without a goal nothing is missed by waiting behind an agent in the lawful way.
@@ -323,7 +326,7 @@ impl OptionTable<'_> {
         let tried = order.into_iter().filter_map(|o| Some((o, candidates[o].origin.slot()?)));
         for (o, slot) in tried.take(MOST_TRIED) {
             let states = &candidates[o].motion.states;
-            found.extend(self.follows(i, o, slot, &all));
+            found.extend(self.follows(i, o, &all));
             let mut add = |origin, motion: Option<Rollout>| {
                 found.extend(motion.map(|motion| MotionCandidate { probability: 0.0, origin, motion }));
             };
@@ -343,32 +346,33 @@ impl OptionTable<'_> {
         let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
         let meant =
             meant.filter(|o| *o != settled.chosen[i] && self.of.actors[i].plan.target.position.is_none());
-        let slot = |o: usize| Some((o, self.candidates[i][o].origin.slot()?));
-        let found = meant.and_then(slot).and_then(|(o, slot)| self.follows(i, o, slot, all));
-        found.into_iter().collect()
+        meant.and_then(|meant| self.follows(i, meant, all)).into_iter().collect()
     }
 
     /// The motion of an option, driven behind the agents that it meets with as little braking as that takes.
-    fn follows(&self, i: usize, option: usize, slot: Slot, all: &[&Sweep]) -> Option<MotionCandidate> {
-        let plan = &self.of.actors[i].plan;
-        if plan.model.kind != MotionKind::Drive {
-            return None;
-        }
+    fn follows(&self, i: usize, option: usize, all: &[&Sweep]) -> Option<MotionCandidate> {
+        let size = &self.of.actors[i].plan.present.size;
+        let is_met = |sweep: &Sweep| all.iter().any(|o| sweep.starts_apart(o) && sweep.first_danger(o).is_some());
+        let motions = self.behind(i, option, all);
+        motions.into_iter().find(|c| !is_met(&Sweep::of_rollout(&c.motion.states, size)))
+    }
+
+    /// The motion of an option, driven behind the agents that it meets, from easy to hard braking.
+    fn behind(&self, i: usize, option: usize, all: &[&Sweep]) -> Vec<MotionCandidate> {
+        let (plan, candidate) = (&self.of.actors[i].plan, &self.candidates[i][option]);
         let own = &self.choice.agents[i][option].sweep;
-        let is_met = |sweep: &Sweep| {
-            let met = |o: &Sweep| sweep.meets(o) || dangerous_moments(sweep.swept(), o.swept()) > 0;
-            all.iter().any(|o| own.starts_apart(o) && met(o))
+        let is_met = |o: &&Sweep| own.starts_apart(o) && own.first_danger(o).is_some();
+        let Some(slot) = candidate.origin.slot().filter(|_| plan.model.kind == MotionKind::Drive) else {
+            return Vec::new();
         };
-        if !is_met(own) {
-            return None;
+        if !all.iter().any(is_met) {
+            return Vec::new();
         }
-        let brakes = BRAKES.map(|share| share * plan.model.limits.brake_mps2);
-        let mut motions =
-            brakes.into_iter().filter_map(|brake| Some(driven(plan, &following(own, all, brake)?)));
-        let motion =
-            motions.find(|motion| !is_met(&Sweep::of_rollout(&motion.states, &plan.present.size)))?;
-        let motion = motion.with_reason_of(self.candidates[i][option].motion.reach);
-        Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Following(slot), motion })
+        let brakes = BRAKES.iter().map(|share| share * plan.model.limits.brake_mps2);
+        let motions = brakes.filter_map(|brake| Some(driven(plan, &following(own, all, brake)?)));
+        let origin = CandidateOrigin::Following(slot);
+        let reach = candidate.motion.reach;
+        motions.map(|motion| MotionCandidate { probability: 0.0, origin, motion: motion.with_reason_of(reach) }).collect()
     }
 
     /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each
@@ -471,7 +475,7 @@ fn driven(plan: &AgentPlan, states: &[State]) -> Rollout {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::generator::*;
 
     fn settled(chosen: Vec<usize>) -> Settled {
         Settled { chosen, causes: Vec::new(), changed: Vec::new(), reacted: Vec::new() }

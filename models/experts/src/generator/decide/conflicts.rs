@@ -1,0 +1,118 @@
+//! Conflicts that the joint choice leaves to drivers without goals, resolved in the order of time: one of the two drives
+//! behind the other.
+
+use super::{OptionTable, Settled};
+use crate::generator::candidates::MotionCandidate;
+use crate::generator::choice::price;
+use crate::generator::motion::Sweep;
+use scene::motion::MotionKind;
+use std::sync::Arc;
+
+/// How often one driver decides again.
+const MOST_DECISIONS: usize = 3;
+
+/// The motions of a scene as far as they are decided.
+struct Decision<'a> {
+    /// Index of the candidate of each actor.
+    chosen: Vec<usize>,
+    sweeps: Vec<Arc<Sweep>>,
+    /// The motions of the agents that do not act.
+    fixed: Vec<&'a Sweep>,
+    /// The first dangerous step of each actor with each other actor, then with each fixed motion.
+    dangers: Vec<Vec<Option<usize>>>,
+    /// Decisions that are left to each actor.
+    left: Vec<usize>,
+}
+
+impl Decision<'_> {
+    /// All motions but that of one actor.
+    fn others(&self, but: usize) -> Vec<&Sweep> {
+        let actors = self.sweeps.iter().enumerate().filter(|(j, _)| *j != but).map(|(_, sweep)| &**sweep);
+        self.fixed.iter().copied().chain(actors).collect()
+    }
+
+    /// Works out the dangers of one actor again.
+    fn update(&mut self, i: usize) {
+        let own = &self.sweeps[i];
+        let with = |other: &Sweep| own.first_danger(other);
+        let actors = self.sweeps.iter().enumerate().map(|(j, other)| if j == i { None } else { with(other) });
+        self.dangers[i] = actors.chain(self.fixed.iter().map(|other| with(other))).collect();
+        for j in (0..self.sweeps.len()).filter(|j| *j != i) {
+            self.dangers[j][i] = self.dangers[i][j];
+        }
+    }
+
+    /// The two of the earliest danger in which one of them may still decide; the second may be a fixed motion.
+    fn earliest(&self) -> Option<(usize, usize)> {
+        let of = |i: usize| self.dangers[i].iter().enumerate().filter_map(move |(j, step)| Some((*step.as_ref()?, i, j)));
+        let deciding = (0..self.sweeps.len()).filter(|i| self.left[*i] > 0);
+        deciding.flat_map(of).min().map(|(_, i, j)| (i, j))
+    }
+}
+
+impl OptionTable<'_> {
+    /// The choice in which drivers without goals that still meet another one drive behind it, where that costs less.
+    pub(super) fn resolve(&mut self, settled: Settled) -> Settled {
+        let of = self.of;
+        let yields = |i: &usize| {
+            let actor = &of.actors[*i];
+            let drives = actor.plan.model.kind == MotionKind::Drive && actor.plan.target.position.is_none();
+            drives && actor.kept.is_none() && !actor.keeps_still()
+        };
+        let left: Vec<usize> =
+            of.indices().iter().map(|i| if yields(i) { MOST_DECISIONS } else { 0 }).collect();
+        if left.iter().all(|left| *left == 0) {
+            return settled;
+        }
+        let others = of.others.with(&settled.reacted);
+        let sweeps: Vec<Arc<Sweep>> = settled.changed.iter().map(|changed| Arc::clone(&changed.sweep)).collect();
+        let fixed: Vec<&Sweep> = others.iter().map(|(_, sweep)| sweep.as_ref()).collect();
+        let dangers = vec![vec![None; sweeps.len() + fixed.len()]; sweeps.len()];
+        let mut now = Decision { chosen: settled.chosen.clone(), sweeps, fixed, dangers, left };
+        for i in of.indices() {
+            now.update(i);
+        }
+        while let Some((i, j)) = now.earliest() {
+            let pair = [i, j];
+            let deciding = pair.into_iter().filter(|k| now.left.get(*k).is_some_and(|left| *left > 0));
+            let deciding: Vec<usize> = deciding.collect();
+            let mut best: Option<(f64, usize, usize)> = None;
+            for k in deciding {
+                now.left[k] -= 1;
+                let Some((gain, option)) = self.yielding(k, &now) else { continue };
+                if best.is_none_or(|(most, ..)| gain > most) {
+                    best = Some((gain, k, option));
+                }
+            }
+            if let Some((_, k, option)) = best {
+                now.chosen[k] = option;
+                now.sweeps[k] = Arc::clone(&self.choice.agents[k][option].sweep);
+                now.update(k);
+            }
+        }
+        let chosen = now.chosen;
+        if chosen == settled.chosen { settled } else { self.settled(chosen) }
+    }
+
+    /// The best option of a driver behind those it meets, as what it saves and its index; `None` where none saves anything.
+    fn yielding(&mut self, i: usize, now: &Decision<'_>) -> Option<(f64, usize)> {
+        let all = now.others(i);
+        let total = |table: &Self, option: usize| {
+            let option = &table.choice.agents[i][option];
+            let own = option.sweep.swept();
+            option.cost + all.iter().map(|other| price(own, other.swept(), table.choice.tuning)).sum::<f64>()
+        };
+        let options = &self.choice.agents[i];
+        let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost))?;
+        let before = total(self, now.chosen[i]);
+        let mut bases = vec![now.chosen[i]];
+        bases.extend(Some(meant).filter(|meant| *meant != now.chosen[i]));
+        let found: Vec<MotionCandidate> =
+            bases.into_iter().flat_map(|option| self.behind(i, option, &all)).collect();
+        let from = self.candidates[i].len();
+        self.candidates[i].extend(found);
+        self.choice.agents[i] = self.options(i);
+        let found = (from..self.candidates[i].len()).map(|option| (before - total(self, option), option));
+        found.filter(|(gain, _)| *gain > 1e-9).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
+    }
+}
