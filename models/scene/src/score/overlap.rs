@@ -1,7 +1,7 @@
 //! Do two motions overlap? The quick answer that the choice of futures asks for thousands of pairs.
 
 use super::input::Thresholds;
-use super::pairs::PARKED_M;
+use super::pairs::{BRUSH_M, PARKED_M};
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, overlaps};
 use crate::geometry::{Vec2, rotate, wrap_angle};
 use crate::{Size, State};
@@ -130,6 +130,12 @@ impl<'a> Going<'a> {
         OrientedBox::new(center, self.outline.half_length_m(), self.outline.half_width_m(), heading)
     }
 
+    /// They pass each other at speed within this gap.
+    fn passes(&self, other: &Self, gap_m: f64, limits: &Thresholds) -> bool {
+        let is_fast = (self.velocity - other.velocity).norm() > limits.pass_mps;
+        is_fast && gap_and_direction(self.outline, other.outline).0 < gap_m
+    }
+
     /// They pass or cross within the gap of a near miss, or touch soon if both go on as they do and no easy braking of a
     /// follower prevents it.
     fn threatens(&self, other: &Self, limits: &Thresholds) -> bool {
@@ -140,7 +146,7 @@ impl<'a> Going<'a> {
             return false;
         }
         let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
-        if gap_m < limits.pass_gap_m && speed > limits.pass_mps {
+        if self.passes(other, limits.pass_gap_m, limits) {
             return true;
         }
         let closing = relative.dot(&towards);
@@ -161,22 +167,25 @@ impl<'a> Going<'a> {
     }
 }
 
-/// Moments at which two motions, neither of them parked, would soon touch if both went on as they do then: what scores
+/// Moments at which two motions pass or cross too near, or would soon touch if both went on as they do then: what scores
 /// call a near miss, at the boxes of the choice.
 pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
-    let parked = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
+    let stays = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
+    let parked = stays(a) || stays(b);
     let limits = Thresholds::default();
-    let margin_m = limits.ttc_s * (a.top_mps + b.top_mps);
-    let possible =
-        !(walks(a) && walks(b) || parked(a) || parked(b)) && a.whole.near(&b.whole, margin_m);
+    let brush_m = BRUSH_M.min(limits.pass_gap_m);
+    let margin_m = if parked { brush_m } else { limits.ttc_s * (a.top_mps + b.top_mps) };
+    let possible = !(walks(a) && walks(b)) && a.whole.near(&b.whole, margin_m);
     let chunks = a.chunks.iter().zip(&b.chunks).enumerate().filter(move |_| possible);
     let near = chunks.filter(move |(_, (in_a, in_b))| in_a.near(in_b, margin_m));
     let moments = near.flat_map(|(chunk, _)| chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len()));
     moments.filter(move |&i| {
         let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
-        pair.is_some_and(|(a, b)| a.threatens(&b, &limits))
+        pair.is_some_and(|(a, b)| {
+            if parked { a.passes(&b, brush_m, &limits) } else { a.threatens(&b, &limits) }
+        })
     })
 }
 

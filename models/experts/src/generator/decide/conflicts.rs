@@ -3,8 +3,9 @@
 
 use super::{OptionTable, Settled};
 use crate::generator::candidates::MotionCandidate;
-use crate::generator::choice::price;
+use crate::generator::choice::{JointOption, price};
 use crate::generator::motion::Sweep;
+use crate::tuning::fixed::giving_way::PASSED_ON;
 use scene::motion::MotionKind;
 use std::sync::Arc;
 
@@ -90,8 +91,21 @@ impl OptionTable<'_> {
                 now.update(k);
             }
         }
-        let chosen = now.chosen;
-        if chosen == settled.chosen { settled } else { self.settled(chosen) }
+        let Decision { chosen, fixed, .. } = now;
+        let worse = self.joint_cost(&chosen, &fixed) > self.joint_cost(&settled.chosen, &fixed) - 1e-9;
+        if worse { settled } else { self.settled(chosen) }
+    }
+
+    /// Cost of a choice: that of each option by itself, and of all pairs that meet.
+    fn joint_cost(&self, chosen: &[usize], fixed: &[&Sweep]) -> f64 {
+        let options: Vec<&JointOption> =
+            chosen.iter().zip(&self.choice.agents).map(|(option, agent)| &agent[*option]).collect();
+        let met = |a: &JointOption, b: &Sweep| price(a.sweep.swept(), b.swept(), self.choice.tuning);
+        let one = |(i, option): (usize, &&JointOption)| {
+            let later: f64 = options[i + 1..].iter().map(|other| met(option, &other.sweep)).sum();
+            option.cost + later + fixed.iter().map(|other| met(option, other)).sum::<f64>()
+        };
+        options.iter().enumerate().map(one).sum()
     }
 
     /// The best option of a driver behind those it meets, as what it saves and its index; `None` where none saves anything.
@@ -99,8 +113,11 @@ impl OptionTable<'_> {
         let all = now.others(i);
         let total = |table: &Self, option: usize| {
             let option = &table.choice.agents[i][option];
-            let own = option.sweep.swept();
-            option.cost + all.iter().map(|other| price(own, other.swept(), table.choice.tuning)).sum::<f64>()
+            let met = |other: &Sweep| price(option.sweep.swept(), other.swept(), table.choice.tuning);
+            let fixed: f64 = now.fixed.iter().map(|other| met(other)).sum();
+            let actors = now.sweeps.iter().enumerate().filter(|(j, _)| *j != i);
+            let actors = actors.map(|(j, other)| if now.left[j] > 0 { PASSED_ON } else { 1.0 } * met(other));
+            option.cost + fixed + actors.sum::<f64>()
         };
         let options = &self.choice.agents[i];
         let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost))?;

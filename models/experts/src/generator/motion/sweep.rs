@@ -76,6 +76,12 @@ impl Sweep {
         self.boxes().get(step)?.as_ref()
     }
 
+    /// Box so many seconds after the last step, if the agent is there then and goes on straight.
+    pub(in crate::generator) fn beyond(&self, time_s: f64) -> Option<OrientedBox> {
+        let last = self.at(HORIZON_STEPS)?;
+        Some(last.about(last.center() + self.velocity(HORIZON_STEPS) * time_s))
+    }
+
     /// The boxes that the choice compares.
     pub(in crate::generator) fn swept(&self) -> &SweptBoxes {
         self.swept.get_or_init(|| {

@@ -6,12 +6,15 @@ use crate::tuning::fixed::blocks::{CLEAR_M, LINE_BESIDE_M, LINE_GAP_M, LINE_TURN
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
-use scene::{HORIZON_STEPS, Size, Vec2};
+use scene::{HORIZON_STEPS, STEP_S, Size, Vec2};
 
 /// Distance between the places at which a path is sampled, metres.
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
+/// How long others are looked at after the window, seconds, and how often, steps.
+const BEYOND_S: f64 = 2.0;
+const BEYOND_STRIDE: usize = 3;
 /// An agent that is out of the way for fewer steps has not left.
 const FLICKER: usize = 3;
 
@@ -103,7 +106,19 @@ impl Corridor {
             }
             away = 0;
         }
+        if out.last().is_none_or(|block| block.from + block.taken.len() <= HORIZON_STEPS) {
+            out.extend(self.block_beyond(other));
+        }
         out
+    }
+
+    /// Where another agent comes into the way soon after the window, if it goes on as it does at its end.
+    fn block_beyond(&self, other: &Sweep) -> Option<PathBlock> {
+        let steps = 1..=(BEYOND_S / STEP_S) as usize;
+        steps.step_by(BEYOND_STRIDE).find_map(|later| {
+            let taken = self.taken(&other.beyond(later as f64 * STEP_S)?)?;
+            Some(PathBlock { from: HORIZON_STEPS + later, taken: vec![taken] })
+        })
     }
 
     /// Where the path passes a stop line of a lane: progress at which its front is there.

@@ -177,9 +177,7 @@ pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldMa
         let paced = Paced::behind(path, &waited.collect::<Vec<_>>(), manner);
         let mut turned = false;
         for (block, yields) in blocks.iter().zip(&mut yields).filter(|(b, y)| !**y && counts(b)) {
-            let at = block.from.saturating_sub(path.enters);
-            let along = paced.along_m.get(at).copied().unwrap_or(f64::INFINITY);
-            if !block.comes_behind(along) {
+            if !block.comes_behind(paced.along_at(path, block.from)) {
                 *yields = true;
                 turned = true;
             }

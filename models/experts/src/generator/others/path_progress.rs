@@ -99,10 +99,12 @@ impl PathProgress {
         self.enters + self.states.len() - 1
     }
 
-    /// Progress at a step of the window, that of the ends outside them.
+    /// Progress at a step of the window, that of the ends outside them; after the window it goes on as it does then.
     pub(super) fn along_at(&self, step: usize) -> f64 {
-        let i = step.saturating_sub(self.enters).min(self.along_m.len() - 1);
-        self.along_m[i]
+        let last = self.along_m.len() - 1;
+        let i = step.saturating_sub(self.enters).min(last);
+        let beyond_s = step.saturating_sub(HORIZON_STEPS) as f64 * STEP_S;
+        self.along_m[i] + beyond_s * self.states[last].speed_mps()
     }
 
     /// Length of the motion's path, metres.

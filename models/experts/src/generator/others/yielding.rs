@@ -87,11 +87,15 @@ impl ProgressBounds {
     }
 }
 
-/// For blocks that are still there when the window ends: their bound, and the speed at which they move on.
+/// For blocks that are still there when the window ends, or come after it: their bound, and the speed at which they move
+/// on.
 fn after(blocks: &[&PathBlock], gap_m: f64) -> Vec<(f64, f64)> {
     let there = blocks.iter().filter(|b| b.from + b.taken.len() > HORIZON_STEPS);
     let bound = |b: &&PathBlock| {
         let (last, _) = *b.taken.last()?;
+        if b.from > HORIZON_STEPS {
+            return Some(((last - gap_m).max(0.0), 0.0));
+        }
         let earlier = b.taken.len().saturating_sub(1 + SECOND);
         let (before, _) = *b.taken.get(earlier)?;
         let seconds = (b.taken.len() - 1 - earlier).max(1) as f64 * STEP_S;
@@ -103,7 +107,7 @@ fn after(blocks: &[&PathBlock], gap_m: f64) -> Vec<(f64, f64)> {
 /// Bounds on progress that keep an agent behind these blocks.
 fn behind(blocks: &[&PathBlock], gap_m: f64) -> Vec<f64> {
     let mut at_m = vec![f64::INFINITY; HORIZON_STEPS + 1];
-    for block in blocks {
+    for block in blocks.iter().filter(|block| block.from <= HORIZON_STEPS) {
         for (i, (first, _)) in block.taken.iter().enumerate() {
             let step = block.from + i;
             let from = step.saturating_sub(TIME_GAP);
@@ -211,6 +215,15 @@ impl Paced {
     fn push(&mut self, along_m: f64, speed_mps: f64) {
         self.along_m.push(along_m);
         self.speed_mps.push(speed_mps);
+    }
+
+    /// Progress at a step of the window; infinite once the agent has left. After the window it goes on as it does then.
+    pub(super) fn along_at(&self, path: &PathProgress, step: usize) -> f64 {
+        let at = |step: usize| step.saturating_sub(path.enters);
+        let beyond_s = step.saturating_sub(HORIZON_STEPS) as f64 * STEP_S;
+        let i = at(step.min(HORIZON_STEPS));
+        let there = self.along_m.get(i).zip(self.speed_mps.get(i));
+        there.map_or(f64::INFINITY, |(along_m, speed_mps)| along_m + beyond_s * speed_mps)
     }
 
     /// The agent keeps its own timing to the end.

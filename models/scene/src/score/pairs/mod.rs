@@ -16,7 +16,7 @@ pub use log::{SAME_GAP_M, SAME_S};
 pub use measures::Measures;
 pub(super) use mover::Rectangle;
 pub(crate) use mover::{Mover, MoverState};
-pub(super) use near::PARKED_M;
+pub(super) use near::{BRUSH_M, PARKED_M};
 use near::{Gap, Nearest, Side, near_miss};
 pub(super) use tally::PairTally;
 

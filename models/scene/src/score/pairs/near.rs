@@ -13,7 +13,7 @@ pub(in crate::score) const PARKED_M: f64 = 1.0;
 const CRAWL_MPS: f64 = 1.5;
 
 /// A parked road user is passed nearer than others: cars stand beside every lane, metres.
-const BRUSH_M: f64 = 0.15;
+pub(in crate::score) const BRUSH_M: f64 = 0.15;
 
 /// A gap counts as no less than this where it divides, metres.
 pub(super) const LEAST_GAP_M: f64 = 0.05;
