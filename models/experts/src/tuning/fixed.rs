@@ -119,6 +119,10 @@ numbers! {
     blocks {
         /// Boxes come no nearer than this, metres: a little more than what the choice calls close.
         CLEAR_M: f64 = CLOSE_M + 0.05;
+        /// Room to what crosses the path, metres: nearer is a near miss.
+        CROSSING_M: f64 = 1.1;
+        /// As long as it is faster than this, m/s.
+        CROSSING_MPS: f64 = 0.5;
         /// A stop line belongs to a path that passes it nearer than this, metres.
         LINE_BESIDE_M: f64 = 2.0;
         /// The same for the angle between the path and the lane of the line, radians.

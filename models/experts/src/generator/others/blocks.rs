@@ -2,11 +2,12 @@
 
 use super::path_progress::{BEYOND_M, PathProgress};
 use crate::generator::motion::Sweep;
-use crate::tuning::fixed::blocks::{CLEAR_M, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD};
+use crate::tuning::fixed::blocks::{CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
 use scene::{HORIZON_STEPS, STEP_S, Size, Vec2};
+use std::f64::consts::FRAC_PI_6;
 
 /// Distance between the places at which a path is sampled, metres.
 const SPACING_M: f64 = 0.5;
@@ -55,12 +56,18 @@ impl Corridor {
         Self { enters: path.enters, outlines, chunks }
     }
 
-    /// First and last progress, of the places in a row that this box takes first.
-    fn taken(&self, other: &OrientedBox) -> Option<(f64, f64)> {
+    /// First and last progress, of the places in a row that this box takes first; what crosses on its way takes more.
+    fn taken(&self, other: &OrientedBox, velocity: Vec2) -> Option<(f64, f64)> {
+        let moves = velocity.norm() > CROSSING_MPS;
+        let clear_m = |outline: &OrientedBox| {
+            let turn = wrap_angle(outline.heading_rad() - other.heading_rad()).abs();
+            let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
+            if moves && crosses { CROSSING_M } else { CLEAR_M }
+        };
         let own = self.outlines.first()?.radius_m();
         let mut found: Option<(usize, usize)> = None;
         for (c, (middle, radius)) in self.chunks.iter().enumerate() {
-            let reach = radius + own + other.radius_m() + CLEAR_M;
+            let reach = radius + own + other.radius_m() + CROSSING_M;
             if (middle - other.center()).norm_squared() > reach * reach {
                 if found.is_some() {
                     break;
@@ -70,7 +77,7 @@ impl Corridor {
             let from = c * CHUNK;
             for (i, outline) in self.outlines[from..].iter().take(CHUNK).enumerate() {
                 match &mut found {
-                    _ if !overlaps(outline, other, CLEAR_M) => {
+                    _ if !overlaps(outline, other, clear_m(outline)) => {
                         if found.is_some() {
                             return found.map(Self::progress);
                         }
@@ -92,7 +99,7 @@ impl Corridor {
         let mut out: Vec<PathBlock> = Vec::new();
         let mut away = FLICKER;
         for step in self.enters..=HORIZON_STEPS {
-            let Some(taken) = other.at(step).and_then(|other| self.taken(other)) else {
+            let Some(taken) = other.at(step).and_then(|b| self.taken(b, other.velocity(step.max(1)))) else {
                 away += 1;
                 continue;
             };
@@ -116,7 +123,7 @@ impl Corridor {
     fn block_beyond(&self, other: &Sweep) -> Option<PathBlock> {
         let steps = 1..=(BEYOND_S / STEP_S) as usize;
         steps.step_by(BEYOND_STRIDE).find_map(|later| {
-            let taken = self.taken(&other.beyond(later as f64 * STEP_S)?)?;
+            let taken = self.taken(&other.beyond(later as f64 * STEP_S)?, other.velocity(HORIZON_STEPS))?;
             Some(PathBlock { from: HORIZON_STEPS + later, taken: vec![taken] })
         })
     }
