@@ -85,19 +85,19 @@ function connect(c: Context): void {
   lookAtMade(c);
   keepInView(c);
   keepInSight(c);
-  stage.onFrame = (now) => {
+  stage.framed.listen((now) => {
     gestures.frame(now);
     playback.frame(now);
     followSelected(c);
-  };
+  });
   // For screen readers and for scripts: the shown state is not final yet.
   effect(() => {
     const loading = editor.answers.status.value.kind === 'loading';
     const busy = editor.asking() || loading || gliding.value || editor.reading.throttle.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
-  gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
-  gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
+  gestures.tapped.listen((fingers) => perform(c, fingers === 2 ? 'undo' : 'redo'));
+  gestures.menu.listen((at, on, future) => ui.openContextMenu({ ...at, on, future }));
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
   library.askBy((missing) => {
     // Events of the recording; with changes from an earlier session their answer has the events.

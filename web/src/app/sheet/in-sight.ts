@@ -16,7 +16,7 @@ type Shown = readonly (readonly [Agent, OnLine])[];
 
 export function keepInSight(c: Opening): void {
   const { editor, stage } = c;
-  stage.onCovered = (before) => {
+  stage.covered.listen((before) => {
     const ids = editor.selected.peek();
     const seen = shownOf(c, ids).some(([, p]) => before.shows(p.x, p.y));
     // A road user that is dragged at once stays under the pointer.
@@ -25,7 +25,7 @@ export function keepInSight(c: Opening): void {
       panTo(c, ids);
       whenItsEndIsKnown(c, ids, () => panTo(c, ids));
     });
-  };
+  });
 }
 
 function shownOf({ editor }: Opening, ids: readonly string[]): Shown {
