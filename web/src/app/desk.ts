@@ -17,6 +17,7 @@ import { HttpGenerator } from '../net/http-generator';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
+import { measureCards } from './hud/cards-over';
 import { followView, gliding } from './hud/view-tick';
 import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
@@ -41,6 +42,7 @@ function makeParts(o: Opening): Context {
     overlays,
     (a) => picture.poseNow(a),
     () => picture.taken,
+    measureCards(stage),
   );
   stage.painter('overlay', (g, v) => {
     overlay.paint(g, v);
