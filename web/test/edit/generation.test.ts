@@ -565,9 +565,11 @@ describe('the shown future of a drag', () => {
     expect(anchors()).toEqual([5, 4, 3, 2, 1, 0]);
     const chances = editor.reading.futures.peek()!.modes.map((m) => m.probability);
     expect(chances).toEqual([...chances].sort((a, b) => b - a));
-    // The bold one is the same, under its new letter.
+    // The bold one is the same, under its new letter, which is not that of the likeliest.
     expect(editor.reading.futures.peek()!.modes[editor.reading.chosen.peek()].anchor).toBe(0);
-    expect(editor.answers.remark.peek()).toBeNull();
+    expect(editor.answers.remark.peek()?.words).toBe(
+      'F is shown: lower cost for all road users together than A, the likeliest.',
+    );
   });
 
   it('has the names of rest while the drag pauses', () => {

@@ -1,14 +1,26 @@
 // Changes of start and goal, shared by handles, keys and typed values.
 import { deg, rad, wrapAngle, type Pose, type Vec } from '../../model/base/geometry';
 import { nearestLanes } from '../../model/document/lanemap';
-import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
+import {
+  choose,
+  goalStep,
+  inOneStep,
+  setGoal,
+  setLength,
+  setSize,
+  setStart,
+  type Command,
+} from '../../model/document/commands';
+import { leavesRoad, type FaultKind } from '../../model/document/future-facts';
 import { LETTERS } from '../../model/document/futures';
 import { limitsOf, topSpeed } from '../../model/base/domain';
 import { poseAt } from '../../model/base/motion';
-import { shortfall } from '../../model/physics/reach';
+import { drivingTime } from '../../model/physics/driving-time';
+import { pathTo, shortfall } from '../../model/physics/reach';
 import { localReach } from '../../model/words/reach-words';
 import {
   GOAL_TIME,
+  LENGTHS,
   startPose,
   type Agent,
   type GoalSpec,
@@ -18,7 +30,7 @@ import {
 import { inTenths, metres, seconds, speedLabel, toUnit } from '../../model/base/units';
 import type { Editor, Field } from '../session/editor';
 import type { HandlePart } from '../session/drag';
-import { knownReach } from './goal-verdict';
+import { knownReach, outOfReach, verdictsHold } from './goal-verdict';
 import { lanesFor } from './snap';
 import { TEXTS } from '../../texts/editing/moves';
 
@@ -188,7 +200,7 @@ export function takeFuture(e: Editor, a: Agent, index: number): void {
 
 export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
 
-/** One of three remedies for an unreachable goal. */
+/** A change that makes a goal reachable. */
 export interface Remedy {
   readonly label: string;
   readonly note: string;
@@ -197,12 +209,47 @@ export interface Remedy {
   readonly command: Command;
 }
 
+/** Kinds of faults that a late goal avoids: the way was too long, or its bends too tight, for the time. */
+const OF_HASTE: readonly FaultKind[] = ['speeding', 'harsh_braking', 'harsh_steering', 'running'];
+/** Time is offered in steps of half a second; less of it than this makes no difference. */
+const STEPS_PER_S = 2;
+const LEAST_MORE_S = 0.5;
+
+/**
+ * More time, where the way to the goal takes longer than the goal allows, and the goal is unreachable or reached only
+ * by haste or by a short cut off the lanes. A goal after the end of the planned time makes that longer.
+ */
+export function moreTime(e: Editor, a: Agent): Remedy | null {
+  const [scene, start, { pos }] = [e.scene.value, startPose(a), a.goal];
+  if (!scene || !start || !pos || e.drag.active.value) return null;
+  const faults = (verdictsHold(e) && e.reading.futures.value?.modes[e.reading.chosen.value]?.about?.faults) || [];
+  const cannot = outOfReach(e, a) !== null;
+  if (!cannot && !faults.some((f) => OF_HASTE.includes(f.kind) || leavesRoad(f))) return null;
+  const heading = a.goal.heading ?? Math.atan2(pos[1] - start.y, pos[0] - start.x);
+  const way = pathTo(scene.map, a, start, { x: pos[0], y: pos[1], heading });
+  // A short cut off the lanes takes no longer than the way around only where that way is known.
+  if (!way.lanes.length && !cannot && a.type !== 'pedestrian') return null;
+  const needs = drivingTime(a, way, start.speed, a.goal.speed ?? undefined);
+  const time = Math.ceil(needs * STEPS_PER_S) / STEPS_PER_S;
+  const length = LENGTHS.find((l) => l >= time);
+  if (needs < a.goal.time + LEAST_MORE_S || !length) return null;
+  const later = withField(a, 'goal', { time });
+  const longer = length > scene.length;
+  return {
+    label: TEXTS.allowMoreTime,
+    note: longer ? TEXTS.sceneOf(seconds(time), length) : seconds(time),
+    icon: 'clock',
+    primary: true,
+    command: longer ? inOneStep(setLength(scene, length), later, later.name) : later,
+  };
+}
+
 export function remedies(e: Editor, a: Agent): Remedy[] {
   const scene = e.scene.value,
     start = startPose(a);
   if (!scene || !start || !a.goal.pos) return [];
   const unit = e.view.unitOf(a);
-  const local = localReach(scene.map, a, start, a.goal, unit, scene.length);
+  const local = localReach(scene.map, a, start, a.goal, unit);
   const verdict = knownReach(e, a);
   const out: Remedy[] = [];
   const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
@@ -216,7 +263,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
       // A fixed speed changes too, so the note reports it.
       note: [TEXTS.afterWay(metres(gets, 0)), ...(speed === null ? [] : [speedLabel(speed, unit)])].join(', '),
       icon: 'flag',
-      primary: true,
+      primary: !moreTime(e, a),
       command: goalStep(
         a,
         { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed },
@@ -232,14 +279,6 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
       icon: 'lock',
       primary: false,
       command: withField(a, 'goal', { heading: null }),
-    });
-  if (local?.time && local.time > a.goal.time)
-    out.push({
-      label: TEXTS.allowMoreTime,
-      note: seconds(local.time),
-      icon: 'clock',
-      primary: false,
-      command: withField(a, 'goal', { time: local.time }),
     });
   if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
     const faster = local.kind === 'far';

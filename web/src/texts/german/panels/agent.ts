@@ -90,7 +90,7 @@ export const german: Said<typeof TEXTS> = {
   happenedNearMiss: 'Beinahe-Unfall',
   shortOfIt: 'vor dem Ziel',
   endsAt: (what: string, time: string) => `Endet ${what} bei ${time}`,
-  reachedAt: (what: string, time: string) => `Erreicht, ${what} bei ${time}`,
+  reachedAt: (what: string, time: string) => `${what} bei ${time}, Ziel erreicht`,
   theClosestEnds: (letter: string, d: string) => `Am nächsten kommt ${letter}, bis auf ${d}.`,
   noFutureReaches: 'Keine Zukunft erreicht das Ziel',
   allWithinAt: (count, furthest, time) =>
