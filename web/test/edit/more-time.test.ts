@@ -6,7 +6,7 @@ import type { Futures } from '../../src/model/document/futures';
 import { readFutures } from '../../src/model/words/named-futures';
 import { startPose, type Agent } from '../../src/model/document/scene';
 import { Editor } from '../../src/edit/session/editor';
-import { moreTime, remedies } from '../../src/edit/moves/moves';
+import { moreTime, remedies } from '../../src/edit/moves/remedies';
 import { crossing, crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';
 

@@ -1,7 +1,8 @@
 // The verdict on the goal, and the remedies for an unreachable one.
 import { useComputed } from '@preact/signals';
 import { actionOf, perform } from '../../actions/registry';
-import { moreTime, remedies, snapToNearest } from '../../edit/moves/moves';
+import { snapToNearest } from '../../edit/moves/moves';
+import { moreTime, remedies } from '../../edit/moves/remedies';
 import { leaveToCross, roadWay } from '../../edit/moves/ways-out';
 import { seconds } from '../../model/base/units';
 import type { Command } from '../../model/document/commands';
