@@ -37,7 +37,7 @@ journeys('files and outages', (stage) => {
       assert.equal(await e.page.locator('[data-action="layer-log"]').getAttribute('aria-pressed'), 'true');
       await e.key('Escape');
       await e.settled();
-      assert.match(await e.text('.hint'), /Compared with the log.*Largest distance: [\d.]+ m at \d\.\d s/s);
+      assert.match(await e.text('.hint'), /Compared with the recording.*Largest distance: [\d.]+ m at \d\.\d s/s);
       const playhead = e.page.getByRole('slider', { name: 'Playhead' });
       for (let i = 0; i < 5; i++) await playhead.press('Shift+ArrowRight');
       assert.match(await e.text('.tm'), /^5\.0 s/);

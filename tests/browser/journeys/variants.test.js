@@ -326,7 +326,7 @@ journeys('variants', (stage) => {
       // Variants made so far are shown, with their events.
       const here = await e.page.locator('.vcard.arrived').allInnerTexts();
       assert.equal(here.length, Number((await e.text('.strip [role="status"]')).split(' ')[0]));
-      for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule broken|Goal missed/);
+      for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule violation|Goal missed/);
       await e.page.getByRole('button', { name: 'Resume' }).click();
       await allMade(e);
       // All of it is one step.
