@@ -69,7 +69,7 @@ describe('history', () => {
   it('drops the oldest steps in batches, and the document before the first advances', () => {
     const h = new History(file(), () => 0);
     let shorter = 0;
-    h.onChange = (c) => (shorter += c.shorter ? 1 : 0);
+    h.changed.listen((c) => (shorter += c.shorter ? 1 : 0));
     const last = 2 * MOST_STEPS + 5;
     for (let i = 1; i <= last; i++) h.run(setSeed(i));
     expect(shorter).toBeGreaterThan(0);

@@ -13,7 +13,7 @@ import { readFutures, withNames, readGenerated } from '../src/model/words/named-
 import { metAnew, withMeetingsOf } from '../src/model/physics/verdict-updates';
 import { heldStill } from '../src/model/base/motion';
 import { nameIn, startPose, withAgents } from '../src/model/document/scene';
-import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/words/verdict-words';
+import { headline, placeWord, whyAnother, whyNotLikeliest, type Walker } from '../src/model/words/verdict-words';
 import { generatedJson, writeScene } from '../src/model/document/scene-writer';
 import { FrozenNames } from '../src/edit/asking/frozen-names';
 import { outcome } from '../src/edit/asking/outcome-words';
@@ -115,13 +115,13 @@ describe('verdicts', () => {
   it('are summed up by the worst of the shown one, and by letter', () => {
     expect(headline(six(), 0, 8, who)).toEqual({
       mark: 'rule',
-      title: 'Reached, over the median at 3.2 s',
+      title: 'Over the median at 3.2 s, goal reached',
       words: 'A, B, C and D cross the median. E reaches the goal by road. F misses the goal.',
       at: 3.2,
     });
     expect(headline(six(true), 0, 8, who)).toMatchObject({
       mark: 'collision',
-      title: 'Reached, hits Car 2 at 5.4 s',
+      title: 'Hits Car 2 at 5.4 s, goal reached',
       words: 'A hits Car 2. B, C and D cross the median. E reaches the goal by road. F misses the goal.',
     });
     expect(headline(six(), 4, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
@@ -367,7 +367,11 @@ describe('letters and ranks', () => {
 
   it('report why another is shown than the one before', () => {
     const f = six(true);
-    expect([whyNot(f, 0, 2, nameOf), whyNot(f, 1, 2, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
+    expect([whyNotLikeliest(f, 2, nameOf), whyNotLikeliest(f, 0, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
+    const alike = { ...f, modes: f.modes.map((m) => ({ ...m, about: f.modes[2].about })) };
+    expect(whyNotLikeliest(alike, 1, nameOf)).toBe(
+      'B is shown: lower cost for all road users together than A, the likeliest',
+    );
     expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
     expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B crosses the median');
     expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: more likely than C');
@@ -461,7 +465,7 @@ describe('events', () => {
     expect(met.modes.map((m) => m.about!.faults.map((x) => [x.kind, x.with]))).toEqual([[['collision', '2']], []]);
     expect(met.modes[0].sent!.faults).toHaveLength(1);
     expect(met.modes[1]).toBe(f.modes[1]);
-    expect(headline(met, 0, 8, who)!.title).toMatch(/^Reached, hits Car 2 at 3\.\d s$/);
+    expect(headline(met, 0, 8, who)!.title).toMatch(/^Hits Car 2 at 3\.\d s, goal reached$/);
     expect(headline(met, 1, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
     // Removed again, no fault remains; an unchanged one is skipped; no road user meets itself.
     expect(metAnew(own, met, there(400)).modes[0].about!.faults).toEqual([]);

@@ -34,7 +34,7 @@ journeys(
       await e.page.waitForSelector('.toast');
       assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved\\.`));
       assert.ok((await pixels.differing(still, dragged)).share > 0.01, 'the flag and the futures moved in the picture');
-      assert.ok((await said()).some((words) => /Refining|First guess|Six futures/.test(words)));
+      assert.ok((await said()).some((words) => /Refining|First draft|Six futures/.test(words)));
       const after = await e.goal();
       assert.ok(distance(after, before) > 3, 'the flag has moved');
       await e.picture('firefox-released');

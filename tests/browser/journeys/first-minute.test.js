@@ -114,7 +114,7 @@ journeys('the first minute', (stage) => {
     assert.deepEqual(foreseen.at(-1).body.conditions, previews.at(-1).body.conditions);
     const wouldChange = await e.page.locator('.foreseen .ch').allInnerTexts();
     // The status line is not updated sixty times a second, but follows.
-    const heard = (await said()).filter((words) => /(?:First guess|Refining|Six futures).* ms/.test(words));
+    const heard = (await said()).filter((words) => /(?:First draft|Refining|Six futures).* ms/.test(words));
     assert.ok(new Set(heard).size > 2, heard.join('; '));
     // As many drafts as a screen can show before the answer: none where that comes at once.
     for (const names of previews.map((a) => a.events().map((v) => `${v.event} ${v.step ?? ''}`.trim()))) {

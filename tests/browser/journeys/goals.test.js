@@ -18,7 +18,45 @@ async function middleOf(e, { id }) {
   return [x_m[x_m.length >> 1], y_m[y_m.length >> 1]];
 }
 
+/** The followed motions of the last complete answer to a change, and the result code. */
+async function resultOf(e) {
+  const answer = e.wire.asked.findLast((a) => a.body.react !== false && a.event('final')).event('final');
+  return { code: await e.code(), sample: answer.samples[0] };
+}
+
 journeys('goals and values', (stage) => {
+  it('gives a quick and a slow drag to one place the same futures', { timeout: 120_000 }, async () => {
+    const e = await stage.visit(`${stage.program.url}/?scene=demo-roundabout`);
+    await e.begin();
+    const walkers = (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.5);
+    let compared = 0;
+    for (const { id, name } of walkers) {
+      await e.choose(id);
+      await e.key('z');
+      await e.settled();
+      const [start, goal] = [await e.pose('Start'), await e.pose('Goal')];
+      const ahead = Math.atan2(goal.y - start.y, goal.x - start.x) - 0.4;
+      const away = distance(start, goal);
+      const [from, to] = [
+        await e.at(goal.x, goal.y),
+        await e.at(start.x + away * Math.cos(ahead), start.y + away * Math.sin(ahead)),
+      ].map(([x, y]) => [x + 9, y - 26]);
+      if (away < 4 || !(await e.open(from)) || !(await e.open(to))) continue;
+      const results = [];
+      for (const moves of [3, 40]) {
+        await e.drag(from, to, { moves });
+        if (moves > 3) await e.settled();
+        await e.release();
+        results.push(await resultOf(e));
+        await e.key('Control+z');
+        await e.settled();
+      }
+      assert.deepEqual(results[1], results[0], name);
+      compared++;
+    }
+    assert.ok(compared >= 3, `${compared} road users with a flag in view`);
+  });
+
   it('explains an unreachable goal and fixes it with one click, in German too', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();

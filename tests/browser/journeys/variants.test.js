@@ -163,6 +163,31 @@ journeys('variants', (stage) => {
     assert.ok(now.every((p, i) => p !== start[i]));
   });
 
+  it('shows the variant of the future that was shown', { timeout: 120_000 }, async () => {
+    const e = await begin(stage);
+    const shown = () => e.page.locator('.fu[aria-checked="true"]').getAttribute('data-future');
+    let letter = 'A';
+    for (const { id, speed } of (await e.roadUsers()).filter((u) => u.kind === 'Car')) {
+      if (!(speed > 2)) continue;
+      await e.choose(id);
+      const { x, y } = await e.pose('Start');
+      await e.type('goal-pos', String(Math.round(x)), 0);
+      await e.type('goal-pos', String(Math.round(y + 45)), 1);
+      letter = await shown();
+      if (letter !== 'A') break;
+      await leave(e);
+      for (let i = 0; i < 2; i++) await e.key('Control+z');
+      await e.settled();
+      await e.letGo();
+    }
+    assert.notEqual(letter, 'A', 'the likeliest future is shown of each car');
+    await leave(e);
+    await make(e);
+    assert.equal(await shown(), letter);
+    const [card] = (await cards(e)).filter((c) => c.shown);
+    assert.equal(card.name, await e.text(`[data-future="${letter}"] .nm`));
+  });
+
   it('makes a variant of each future of a road user, and compares two', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
     const car = await carOnTheMove(e);
@@ -301,7 +326,7 @@ journeys('variants', (stage) => {
       // Variants made so far are shown, with their events.
       const here = await e.page.locator('.vcard.arrived').allInnerTexts();
       assert.equal(here.length, Number((await e.text('.strip [role="status"]')).split(' ')[0]));
-      for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule broken|Goal missed/);
+      for (const words of here) assert.match(words, /No conflict|Close|Collision|Near miss|Rule violation|Goal missed/);
       await e.page.getByRole('button', { name: 'Resume' }).click();
       await allMade(e);
       // All of it is one step.

@@ -326,7 +326,7 @@ export const STATES = [
       // The first draft is on the page, and nothing after it.
       door.lets = 0;
       await e.drag(flag(car, 0), flag(car, 0.2), { moves: 1 });
-      await e.until(() => /first guess|step \d/.test(document.querySelector('.insp').textContent));
+      await e.until(() => /first draft|step \d/.test(document.querySelector('.insp').textContent));
       await e.frames(6);
     },
     { holds: true },

@@ -17,6 +17,7 @@ import { HttpGenerator } from '../net/http-generator';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
+import { measureCards } from './hud/cards-over';
 import { followView, gliding } from './hud/view-tick';
 import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
@@ -41,6 +42,7 @@ function makeParts(o: Opening): Context {
     overlays,
     (a) => picture.poseNow(a),
     () => picture.taken,
+    measureCards(stage),
   );
   stage.painter('overlay', (g, v) => {
     overlay.paint(g, v);
@@ -85,19 +87,19 @@ function connect(c: Context): void {
   lookAtMade(c);
   keepInView(c);
   keepInSight(c);
-  stage.onFrame = (now) => {
+  stage.framed.listen((now) => {
     gestures.frame(now);
     playback.frame(now);
     followSelected(c);
-  };
+  });
   // For screen readers and for scripts: the shown state is not final yet.
   effect(() => {
     const loading = editor.answers.status.value.kind === 'loading';
     const busy = editor.asking() || loading || gliding.value || editor.reading.throttle.waiting.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
-  gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
-  gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
+  gestures.tapped.listen((fingers) => perform(c, fingers === 2 ? 'undo' : 'redo'));
+  gestures.menu.listen((at, on, future) => ui.openContextMenu({ ...at, on, future }));
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
   library.askBy((missing) => {
     // Events of the recording; with changes from an earlier session their answer has the events.

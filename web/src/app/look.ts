@@ -173,15 +173,15 @@ export function keepInView(c: Opening): void {
   const v = stage.view;
   const corner = (): Corner => ({ at: v.from(0, 0), z: v.z });
   let back: { readonly to: Corner; readonly from: Corner } | null = null;
-  stage.onSmaller = (before) => {
+  stage.shrunk.listen((before) => {
     const all = editor.chosenOnes.flatMap((a) => poseShown(editor, a) ?? []);
     const seen = (by: View): boolean => all.every((p) => by.isClear(p.x, p.y, EDGE_PX));
     if (!seen(before) || seen(v) || editor.drag.active.peek()) return;
     const to = corner();
     bringIn(c, editor.selected.peek());
     back = { to, from: corner() };
-  };
-  stage.onLarger = () => {
+  });
+  stage.grown.listen(() => {
     const now = corner();
     const stayed = back?.from.z === now.z && v.away(back.from.at, { x: 0, y: 0 }) < 1;
     if (back && stayed) {
@@ -190,7 +190,7 @@ export function keepInView(c: Opening): void {
       stage.viewChanged();
     }
     back = null;
-  };
+  });
 }
 
 /**

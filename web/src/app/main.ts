@@ -76,11 +76,11 @@ function connect(o: Opening): void {
     const left = INSET_LEFT[drawer ?? 'rail'];
     const before = stage.view.copy();
     stage.view.inset = form.sheet.value ? insetBesideSheet(o, INSET, INSET_LEFT.rail) : { ...INSET, left };
-    if (stage.view.inset.bottom > before.inset.bottom) stage.onCovered?.(before);
+    if (stage.view.inset.bottom > before.inset.bottom) stage.covered.emit(before);
     stage.element.dataset.drawer = drawer ?? '';
   });
   effect(() => followForm(o));
-  library.onOpen = (scene, again) => {
+  library.opened.listen((scene, again) => {
     nameInAddress(o, scene.id);
     if (!again) {
       // An empty scene has suggestions over the picture, and an open sheet would leave no room for them.
@@ -89,7 +89,7 @@ function connect(o: Opening): void {
       lookAtOpened(o);
     }
     ui.showEvents(false);
-  };
+  });
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
 }
 

@@ -164,7 +164,10 @@ function arrowHead(g: Pen, [x, y]: Vec, angle: number, s: HandleStyle, k: number
   g.restore();
 }
 
-export const FLAG_HEIGHT = 36;
+/** The flag at a goal with its foot on the place, pixels before `View.grip`; `cloth`: height of its cloth. */
+export const FLAG = { height: 36, width: 22, cloth: 17 } as const;
+/** From its foot to the middle of its cloth, right and down. */
+export const PENNANT: Vec = [FLAG.width / 2, FLAG.cloth / 2 - FLAG.height];
 
 /** A flag with its foot at a place, scaled by a factor. */
 export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, free: boolean, k: number): void {
@@ -179,7 +182,7 @@ export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, f
   g.ellipse(x, y, 3.6 * k, 1.8 * k, 0, 0, Math.PI * 2);
   g.fillStyle = colour;
   g.fill();
-  const top = y - FLAG_HEIGHT * k;
+  const top = y - FLAG.height * k;
   const pole = () => {
     g.beginPath();
     g.moveTo(x, y);
@@ -191,10 +194,10 @@ export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, f
   g.stroke();
   g.beginPath();
   g.moveTo(x, top);
-  g.lineTo(x + 22 * k, top + 4 * k);
+  g.lineTo(x + FLAG.width * k, top + 4 * k);
   g.lineTo(x + 16 * k, top + 9 * k);
-  g.lineTo(x + 22 * k, top + 15 * k);
-  g.lineTo(x, top + 17 * k);
+  g.lineTo(x + FLAG.width * k, top + 15 * k);
+  g.lineTo(x, top + FLAG.cloth * k);
   g.closePath();
   g.lineWidth = 4;
   g.stroke();
@@ -209,8 +212,12 @@ export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, f
   g.lineWidth = 2.2;
   g.stroke();
   g.restore();
-  labels.block(x - 4 * k, top, 28 * k, FLAG_HEIGHT * k);
+  blockFlag(labels, [x, y], k);
 }
+
+/** No label lies on a flag with its foot at a place. */
+export const blockFlag = (labels: Labels, [x, y]: Vec, k: number): void =>
+  labels.block(x - 4 * k, y - FLAG.height * k, (FLAG.width + 6) * k, FLAG.height * k);
 
 /** A dotted line to the pointer, in pixels. */
 export function paintString(g: Pen, from: Vec, hand: Vec): void {

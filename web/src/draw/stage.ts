@@ -6,6 +6,7 @@ import { Glide } from './glide';
 import type { Pen } from './pen';
 import { opaquePen, paintOn } from './recording/replay';
 import { Screen } from './recording/screen';
+import { Emitter } from '../model/base/emitter';
 import type { Point, Vec } from '../model/base/geometry';
 import { View } from './view';
 import { readPalette } from './theme';
@@ -32,15 +33,16 @@ export class Stage {
   /** A frame was skipped because the screen was busy; it follows after the next shown picture. */
   private owed = false;
   private hurried = false;
-  /** Called with the former view when a panel, or a smaller window, has taken room from the picture. */
-  onSmaller: ((before: View) => void) | null = null;
-  /** Called when the picture has got room. */
-  onLarger: (() => void) | null = null;
-  /** Called with the former view when a sheet has covered a part of the picture. */
-  onCovered: ((before: View) => void) | null = null;
-  /** Called once per frame before painting, for animation. */
-  onFrame: ((now: number) => void) | null = null;
-  readonly #watchers = new Set<() => void>();
+  /** A panel, or a smaller window, has taken room from the picture; with the former view. */
+  readonly shrunk = new Emitter<[before: View]>();
+  /** The picture has got room. */
+  readonly grown = new Emitter();
+  /** A sheet has covered a part of the picture; with the former view. */
+  readonly covered = new Emitter<[before: View]>();
+  /** Once per frame before painting, for animation; with the time of the frame in milliseconds. */
+  readonly framed = new Emitter<[now: number]>();
+  /** The view has changed. */
+  readonly moved = new Emitter();
   readonly #size: ResizeObserver;
 
   constructor(readonly element: HTMLElement) {
@@ -53,16 +55,6 @@ export class Stage {
     this.#size = new ResizeObserver(() => this.resize());
     this.#size.observe(element);
     this.resize();
-  }
-
-  /** Calls `hear` after each change of the view, until the returned function is called. */
-  watchView(hear: () => void): () => void {
-    this.#watchers.add(hear);
-    return () => void this.#watchers.delete(hear);
-  }
-
-  #viewMoved(): void {
-    for (const hear of this.#watchers) hear();
   }
 
   /** Stops painting. */
@@ -113,9 +105,9 @@ export class Stage {
     // A panel below takes or gives room: what is seen above it stays where it is.
     if (was && w === was.w) v.put([0, 0], was.from(0, 0));
     this.invalidate(...LAYERS);
-    this.#viewMoved();
-    if (was && (w < was.w || h < was.h)) this.onSmaller?.(was);
-    else if (was) this.onLarger?.();
+    this.moved.emit();
+    if (was && (w < was.w || h < was.h)) this.shrunk.emit(was);
+    else if (was) this.grown.emit();
   }
 
   invalidate(...layers: LayerName[]): void {
@@ -140,7 +132,7 @@ export class Stage {
     clearTimeout(this.rest);
     this.rest = window.setTimeout(() => this.invalidate('map'), REST_MS);
     this.request();
-    this.#viewMoved();
+    this.moved.emit();
   }
 
   /** Sets the cursor over the picture; empty for the default one. */
@@ -174,7 +166,7 @@ export class Stage {
   private tick(now: number): void {
     this.frame = 0;
     this.glide.frame();
-    this.onFrame?.(now);
+    this.framed.emit(now);
     this.paint();
   }
 

@@ -527,7 +527,7 @@ describe('the shown future of a drag', () => {
     generation.preview('1');
   };
 
-  it('is sent with the next question and with the release, and with nothing else', () => {
+  it('is sent with the frames of a drag, and with nothing else', () => {
     expect(generator.last.options.shown).toBeUndefined();
     dragTo(10);
     const { x_m, y_m, anchor } = generator.last.options.shown!['1'];
@@ -536,8 +536,13 @@ describe('the shown future of a drag', () => {
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
     editor.drag.end(goal(10));
     rest();
-    expect(generator.last.options).toMatchObject({ score: true, shown: { '1': { anchor: 1 } } });
+    expect(generator.last.options.score).toBe(true);
+    // The release follows from the document alone, as a typed goal does.
+    expect(generator.last.options.shown).toBeUndefined();
     generator.last.on.final(final(sent('BACDEF', 0)), 5);
+    dragTo(15);
+    expect(generator.last.options).toMatchObject({ score: false, shown: { '1': { anchor: 1 } } });
+    editor.drag.cancel();
     editor.commits.run(goal(20));
     rest();
     expect(generator.last.options.shown).toBeUndefined();
@@ -560,9 +565,11 @@ describe('the shown future of a drag', () => {
     expect(anchors()).toEqual([5, 4, 3, 2, 1, 0]);
     const chances = editor.reading.futures.peek()!.modes.map((m) => m.probability);
     expect(chances).toEqual([...chances].sort((a, b) => b - a));
-    // The bold one is the same, under its new letter.
+    // The bold one is the same, under its new letter, which is not that of the likeliest.
     expect(editor.reading.futures.peek()!.modes[editor.reading.chosen.peek()].anchor).toBe(0);
-    expect(editor.answers.remark.peek()).toBeNull();
+    expect(editor.answers.remark.peek()?.words).toBe(
+      'F is shown: lower cost for all road users together than A, the likeliest.',
+    );
   });
 
   it('has the names of rest while the drag pauses', () => {
@@ -599,7 +606,8 @@ describe('the shown future of a drag', () => {
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
     generator.last.on.final(final(sent('BACDEF', 0)), 12);
     await Promise.resolve();
-    expect(others.last.options).toMatchObject({ react: true, shown: { '1': { anchor: 1 } } });
+    expect(others.last.options.react).toBe(true);
+    expect(others.last.options.shown).toBeUndefined();
     others.last.on.final(final(sent('FBACDE', 2)), 20);
     editor.drag.end(goal(10));
     rest();

@@ -8,7 +8,9 @@ import { startPose, type Agent } from '../../src/model/document/scene';
 import { Copying, removeSelected } from '../../src/edit/moves/copying';
 import { placeGhost } from '../../src/edit/gestures/placing';
 import { touching } from '../../src/model/physics/boxes';
+import { alongLine, overArea } from '../../src/edit/moves/placing';
 import { inTheWay, standing } from '../../src/edit/moves/room';
+import { View } from '../../src/draw/view';
 import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, swapTwo, withRoom } from '../../src/edit/moves/several';
 import { requestForChange } from '../../src/edit/asking/request-for-change';
 import { Pointer } from './pointer';
@@ -338,6 +340,26 @@ describe('placing', () => {
       expect(p.editor.document.undoName.peek()).toBe('20 pedestrians placed');
       p.editor.commits.undo();
       expect(all()).toHaveLength(n);
+    }
+  });
+
+  it('puts nobody from an area or a line into a road user, nor where a moving one cannot stop', () => {
+    const scene = p.editor.scene.peek()!;
+    const { x, y, heading, speed } = startPose(agent('1'))!;
+    expect(speed).toBeGreaterThan(8);
+    const ahead = (d: number) => [x + d * Math.cos(heading), y + d * Math.sin(heading)] as const;
+    const choice = { kind: 'pedestrian', size: PRESETS.pedestrian[0], count: 30 } as const;
+    const put = [
+      ...overArea(scene, { ...choice, spread: 'area' }, new View().frame([x - 12, y - 12], [x + 12, y + 12]), 10),
+      ...alongLine(scene, { ...choice, spread: 'line' }, ahead(-10), ahead(20), 10),
+    ];
+    expect(put.length).toBeGreaterThan(20);
+    const most = speed ** 2 / (2 * 3.8) + agent('1').length / 2;
+    for (const n of put) {
+      const along = (n.pose.x - x) * Math.cos(heading) + (n.pose.y - y) * Math.sin(heading);
+      const aside = Math.abs((n.pose.y - y) * Math.cos(heading) - (n.pose.x - x) * Math.sin(heading));
+      expect(inTheWay(n, standing(scene))).toBeUndefined();
+      expect(along < 0 || along > most || aside > agent('1').width / 2).toBe(true);
     }
   });
 

@@ -13,7 +13,7 @@ export const turnAtRest: ReadonlySignal<number> = turned;
 
 export function followView(stage: Stage): void {
   let queued = false;
-  stage.watchView(() => {
+  stage.moved.listen(() => {
     if (queued) return;
     queued = true;
     requestAnimationFrame(() => {

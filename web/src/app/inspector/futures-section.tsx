@@ -7,7 +7,7 @@ import { takePin, unpin } from '../../model/document/pins';
 import { endsBefore } from '../../model/base/motion';
 import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene } from '../../model/document/scene';
 import { seconds } from '../../model/base/units';
-import { placeWord } from '../../model/words/verdict-words';
+import { placeWord, whyNotLikeliest } from '../../model/words/verdict-words';
 import { perform } from '../../actions/registry';
 import { verdictsHold } from '../../edit/moves/goal-verdict';
 import { takeFuture } from '../../edit/moves/moves';
@@ -48,12 +48,19 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** Why the shown future is not the one that was bold in the drag. */
+/** Why the shown future is not the one that was bold in the drag, or not the likeliest. */
 function Remark({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const words = useComputed(() => {
+    const a = agent.value;
     const r = editor.answers.remark.value;
-    return r?.id === agent.value.id ? r.words : '';
+    if (r?.id === a.id) return r.words;
+    const f = editor.reading.toldFutures.value;
+    const settled = f && isSettled(f) && !editor.drag.active.value && verdictsHold(editor);
+    // A pick, a drawn curve or the recording needs no reason.
+    if (!settled || a.chosen !== null || editor.reading.replays.value) return '';
+    const why = whyNotLikeliest(f, editor.reading.toldChosen.value, nameIn(editor.scene.value!));
+    return why === null ? '' : `${why}.`;
   }).value;
   return words ? <p class="note remark">{words}</p> : null;
 }

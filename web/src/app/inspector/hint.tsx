@@ -1,7 +1,8 @@
 // The verdict on the goal, and the remedies for an unreachable one.
 import { useComputed } from '@preact/signals';
 import { actionOf, perform } from '../../actions/registry';
-import { remedies, snapToNearest } from '../../edit/moves/moves';
+import { snapToNearest } from '../../edit/moves/moves';
+import { moreTime, remedies } from '../../edit/moves/remedies';
 import { leaveToCross, roadWay } from '../../edit/moves/ways-out';
 import { seconds } from '../../model/base/units';
 import type { Command } from '../../model/document/commands';
@@ -27,6 +28,7 @@ export function Hint({ agent }: { agent: LiveAgent }) {
           {v.words ? <div class="tx">{v.words}</div> : null}
         </div>
       </div>
+      <MoreTime agent={agent} />
       <WaysOut agent={agent} />
       {v.remedies ? <Remedies agent={agent} /> : null}
       {v.snap ? <SnapButton agent={agent} /> : null}
@@ -49,16 +51,29 @@ function Title({ verdict: { title, at } }: { verdict: Verdict }) {
   );
 }
 
+/** Before all else: without time the others only move the goal or break rules. */
+function MoreTime({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const remedy = useComputed(() => moreTime(editor, agent.value)).value;
+  if (!remedy) return null;
+  return (
+    <div class="stack">
+      <RemedyButton remedy={remedy} />
+    </div>
+  );
+}
+
 /** By road first; then permission to cross the edge. */
 function WaysOut({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const road = useComputed(() => roadWay(editor, agent.value)).value;
   const leave = useComputed(() => leaveToCross(editor, agent.value)).value;
+  const hurried = useComputed(() => moreTime(editor, agent.value) !== null).value;
   const dragging = editor.drag.active.value;
   if (!road && !leave) return null;
   return (
     <div class="stack">
-      {road ? <WayOut id="by-road" primary {...road} cap="Enter" /> : null}
+      {road ? <WayOut id="by-road" primary={!hurried} {...road} cap="Enter" /> : null}
       {leave ? <WayOut id="may-cross" {...leave} cap={dragging ? 'Alt' : undefined} /> : null}
     </div>
   );

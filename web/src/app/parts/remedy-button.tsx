@@ -1,5 +1,5 @@
 // A remedy as a button: hover shows the outcome, a press is one step.
-import type { Remedy } from '../../edit/moves/moves';
+import type { Remedy } from '../../edit/moves/remedies';
 import type { Outcome } from '../../edit/asking/remedy-outcomes';
 import { useApp } from './app-context';
 import { Icon } from './icons';

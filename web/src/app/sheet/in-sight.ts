@@ -1,6 +1,6 @@
 // Moves the selected road user out from under an opening sheet, by the least distance.
 import type { Opening } from '../../actions/context';
-import { FLAG_HEIGHT } from '../../draw/handles';
+import { FLAG } from '../../draw/handles';
 import type { View } from '../../draw/view';
 import { poseShown } from '../../edit/overlay/frame';
 import { boxOf, type OnLine, type Vec } from '../../model/base/geometry';
@@ -9,14 +9,12 @@ import { endShown, whenItsEndIsKnown } from '../look';
 
 /** Nearer to the edge of the sheet than this a road user counts as covered, pixels. */
 const EDGE_PX = 20;
-/** Width of a flag beside its foot, unscaled pixels. */
-const FLAG_WIDTH = 26;
 
 type Shown = readonly (readonly [Agent, OnLine])[];
 
 export function keepInSight(c: Opening): void {
   const { editor, stage } = c;
-  stage.onCovered = (before) => {
+  stage.covered.listen((before) => {
     const ids = editor.selected.peek();
     const seen = shownOf(c, ids).some(([, p]) => before.shows(p.x, p.y));
     // A road user that is dragged at once stays under the pointer.
@@ -25,7 +23,7 @@ export function keepInSight(c: Opening): void {
       panTo(c, ids);
       whenItsEndIsKnown(c, ids, () => panTo(c, ids));
     });
-  };
+  });
 }
 
 function shownOf({ editor }: Opening, ids: readonly string[]): Shown {
@@ -64,6 +62,6 @@ function flagAt(v: View, end: Vec): readonly Vec[] {
   const [x, y] = v.to(...end);
   return [
     [x, y],
-    [x + FLAG_WIDTH * v.grip, y - FLAG_HEIGHT * v.grip],
+    [x + FLAG.width * v.grip, y - FLAG.height * v.grip],
   ];
 }

@@ -76,7 +76,7 @@ function Pane({ now }: { now: Compared }) {
       own.viewChanged();
     };
     follow();
-    const end = c.stage.watchView(follow);
+    const end = c.stage.moved.listen(follow);
     return () => {
       end();
       own.close();

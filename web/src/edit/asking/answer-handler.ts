@@ -16,7 +16,7 @@ import { goesOneWay } from '../../model/document/reaction-records';
 import { readFutures, withNames } from '../../model/words/named-futures';
 import { findChanges } from '../../model/words/change-words';
 import { nameIn, sceneKey, startPose, touchedIn, type Agent, type Scene } from '../../model/document/scene';
-import { whyAnother, whyNot } from '../../model/words/verdict-words';
+import { whyAnother, whyNotLikeliest } from '../../model/words/verdict-words';
 import type { Handlers } from '../../net/generator';
 import { inWords } from '../../net/refusal';
 import type { DraftEvent, FinalEvent, Problem } from '../../net/types';
@@ -145,8 +145,9 @@ export class AnswerHandler {
     const { editor } = this;
     const f = id !== null && editor.answers.motion.peek().futures.get(id);
     if (!f || editor.answers.motion.peek().stale || scene.agents.get(id)!.chosen !== null) return;
-    const was = bold === null ? 0 : ideas(f.modes).indexOf(bold);
-    const why = (bold === null ? whyNot : whyAnother)(f, was, f.chosen, nameIn(scene));
+    const nameOf = nameIn(scene);
+    const moved = bold !== null && whyAnother(f, ideas(f.modes).indexOf(bold), f.chosen, nameOf);
+    const why = moved || whyNotLikeliest(f, f.chosen, nameOf);
     editor.answers.explain(why === null ? null : { id, words: `${why}.` });
     if (why) editor.notices.say(`${why}.`);
   }

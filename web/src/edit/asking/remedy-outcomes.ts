@@ -7,7 +7,7 @@ import type { MotionSet } from '../../model/document/futures';
 import type { Scene } from '../../model/document/scene';
 import type { Editor } from '../session/editor';
 import { eventRemedies } from '../moves/event-remedies';
-import type { Remedy } from '../moves/moves';
+import type { Remedy } from '../moves/remedies';
 import { triedChange, type WhatIf } from './what-if';
 import { TEXTS } from '../../texts/panels/events-panel';
 

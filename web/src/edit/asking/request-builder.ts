@@ -159,13 +159,12 @@ const sizeAndType = (c: ConditionJson): ConditionJson =>
 const someStill = (s: Scene): boolean =>
   s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');
 
-/** Only a drag and its release continue from the shown future; other answers do not depend on earlier ones. */
-type Shown = Pick<GenerateOptions, 'shown'>;
-
-function shownOf(editor: Pick<Editor, 'answers' | 'drag' | 'reading' | 'selection'>, w: Wanted): Shown {
-  const drags =
-    editor.drag.active.peek() || (w.step !== null && editor.answers.draft.peek()?.id === editor.selection.peek());
-  const shown = drags && !w.pinned ? shownFuture(editor, w.agents) : undefined;
+/**
+ * Only the frames of a drag continue from the future shown before, for steadiness. The answer to a release, and its
+ * preview, follow from the document alone: no speed of the hand decides, and a typed goal has the same futures.
+ */
+function shownOf(editor: Pick<Editor, 'drag' | 'reading' | 'selection'>, w: Wanted): Pick<GenerateOptions, 'shown'> {
+  const shown = editor.drag.active.peek() && w.step === null ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};
 }
 

@@ -1,4 +1,5 @@
-// The last bold future, for the generator: it is kept unless another is better by the cost of switching.
+// The bold future of a drag's last frame, for the generator: it is kept unless another is better by the cost of
+// switching.
 import type { ShownJson } from '../../model/document/scene-json';
 import { isJudged } from '../../model/document/futures';
 import type { Editor } from '../session/editor';

@@ -1,5 +1,6 @@
 // Steps of the open scene, stored on this computer one by one, so that undo and redo survive a reload.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
+import { Emitter } from '../../model/base/emitter';
 import {
   History,
   isSameDocument,
@@ -94,6 +95,7 @@ function standingOf(
 export class Journal {
   readonly #keeping = signal<Keeping>('kept');
   #history: History | null = null;
+  #unfollow: (() => void) | null = null;
   #scene = '';
   /** The document before the first step, where the file has changed since. */
   #base: SceneState | null = null;
@@ -105,8 +107,8 @@ export class Journal {
   #gap = true;
 
   readonly keeping: ReadonlySignal<Keeping> = this.#keeping;
-  /** Called when a step is stored. */
-  onKept: (() => void) | null = null;
+  /** A step is stored. */
+  readonly stored = new Emitter();
 
   constructor(private readonly store: StepStore) {}
 
@@ -130,7 +132,8 @@ export class Journal {
     this.#sent.set(scene, [...(kept?.place.sent ?? []), ...(this.#sent.get(scene) ?? [])].slice(-MOST_SENT));
     this.#base = kept?.base ?? (own ? stateOf(history.first()) : null);
     this.#gap = kept === null;
-    history.onChange = (change) => this.#changed(change);
+    this.#unfollow?.();
+    this.#unfollow = history.changed.listen((change) => this.#changed(change));
   }
 
   /** Stores the motion of all road users for the current step. */
@@ -145,7 +148,7 @@ export class Journal {
 
   /** Another tab stores them now. */
   letGo(): void {
-    if (this.#history) this.#history.onChange = null;
+    this.#unfollow?.();
     this.#history = null;
   }
 
@@ -243,7 +246,7 @@ export class Journal {
     this.#writing = this.#writing.then(write).then(
       () => {
         this.#keeping.value = 'kept';
-        this.onKept?.();
+        this.stored.emit();
       },
       (e: unknown) => {
         this.#gap = true;

@@ -4,6 +4,7 @@ import { Away, Refused, type Client } from '../../net/client';
 import { keep } from '../../net/storage';
 import type { KeptScene } from '../../net/step-store';
 import { SceneTurns, type TurnEvents } from '../../net/scene-lock';
+import { Emitter } from '../../model/base/emitter';
 import type { Committed } from '../../model/document/history';
 import { isMapRef, type MapJson, type SceneJson } from '../../model/document/scene-json';
 import { readScene, SceneError } from '../../model/document/scene-reader';
@@ -44,8 +45,8 @@ export class Library {
 
   /** Why the last scene could not be opened. */
   readonly openError: ReadonlySignal<string | null> = this.#openError;
-  /** Called when another scene is shown; `again` when it is a newer version of the same one. */
-  onOpen: ((scene: Scene, again: boolean) => void) | null = null;
+  /** Another scene is shown; `again` when it is a newer version of the same one. */
+  readonly opened = new Emitter<[scene: Scene, again: boolean]>();
   /** Requests the missing answers of the shown scene. */
   #ask: ((missing: Missing) => void) | null = null;
   #missing: Missing | null = null;
@@ -66,7 +67,7 @@ export class Library {
       // A scene left here may wait to be saved: the tab that has it now saves it, with the stored steps.
       changed: (id) => (this.#isOpen(id) ? void this.again() : this.saving.letGo(id)),
     });
-    journal.onKept = () => this.#turns.tellChanged();
+    journal.stored.listen(() => this.#turns.tellChanged());
   }
 
   /** While another scene is being opened the tab waits for its lock, with this one still open. */
@@ -226,7 +227,7 @@ export class Library {
     const { session } = this;
     const unanswered = !answered && (scene.drawn > 0 || [...scene.agents.values()].some(touched));
     if (unanswered) session.answers.outdate();
-    this.onOpen?.(scene, again);
+    this.opened.emit(scene, again);
     this.#missing = !unanswered ? 'none' : scene.drawn > 0 ? 'everybody' : 'changed';
     this.#askNow();
   }

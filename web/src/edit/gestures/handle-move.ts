@@ -3,7 +3,7 @@ import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../.
 import { setBoth, setGoal, setStart, type Command } from '../../model/document/commands';
 import { topSpeed } from '../../model/base/domain';
 import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/document/scene';
-import { speedForTip } from '../../draw/handles';
+import { PENNANT, speedForTip } from '../../draw/handles';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import type { Grip } from '../session/drag';
@@ -31,12 +31,9 @@ const WHOLE_SECOND_S = 0.15;
 /** A goal further from the start than this prefers lanes that lead away from the start, in metres. */
 const LEADS_AWAY_M = 6;
 
-/** From the foot of a flag to its pennant, pixels. */
-const PENNANT_PX = [9, -26] as const;
-
 /** The tag at the edge is dragged as the flag itself: its pennant comes to the hand. */
 function pennantOf(view: View, { x, y }: Pose): Vec {
-  const [dx, dy] = view.way(...PENNANT_PX);
+  const [dx, dy] = view.way(PENNANT[0] * view.grip, PENNANT[1] * view.grip);
   return [x + dx, y + dy];
 }
 

@@ -2,7 +2,7 @@
 import { insideBox, type OnLine, type Vec } from '../../model/base/geometry';
 import type { Motion } from '../../model/base/motion';
 import { canChange, startPose, type Agent } from '../../model/document/scene';
-import { FLAG_HEIGHT, handlePoints } from '../../draw/handles';
+import { FLAG, handlePoints } from '../../draw/handles';
 import type { Rect } from '../../draw/labels';
 import { sizeOnScreen } from '../../draw/sprites';
 import type { Chip } from '../../draw/strokes';
@@ -25,13 +25,17 @@ export const inRect = (r: Rect, x: number, y: number): boolean =>
 /** A finger takes objects within this many pixels. */
 const FINGER_PX = 24;
 
+/** A flag is grabbed within this many pixels around it. */
+const AROUND_FLAG_PX = 4;
+
 /** Is a place on a flag with this foot? */
 const onFlag = (v: View, foot: Vec, x: number, y: number): boolean => flagAway(v, foot, x, y) === 0;
 
 /** Distance of a place from a flag, in pixels. */
 function flagAway({ grip: k }: View, [fx, fy]: Vec, x: number, y: number): number {
-  const dx = Math.max(fx - 6 - x, 0, x - (fx + 26 * k));
-  const dy = Math.max(fy - (FLAG_HEIGHT + 2) * k - y, 0, y - (fy + 5));
+  const around = AROUND_FLAG_PX * k;
+  const dx = Math.max(fx - around - x, 0, x - (fx + FLAG.width * k + around));
+  const dy = Math.max(fy - FLAG.height * k - around - y, 0, y - (fy + around));
   return Math.hypot(dx, dy);
 }
 

@@ -1,4 +1,5 @@
 // The page's pointer and keys, passed to the state chart. Moves are collected and handled once a frame.
+import { Emitter } from '../../model/base/emitter';
 import type { Point } from '../../model/base/geometry';
 import type { Stage } from '../../draw/stage';
 import type { Placement } from '../moves/placement';
@@ -47,9 +48,9 @@ function firstOf<T, R>(all: readonly T[], of: (each: T) => R | null | undefined)
 export class Gestures {
   readonly chart: Chart;
   /** A menu is requested. */
-  onMenu: ((at: Point, on: MenuOn, future: number | null) => void) | null = null;
+  readonly menu = new Emitter<[at: Point, on: MenuOn, future: number | null]>();
   /** Several fingers were tapped at once. */
-  onTap: ((fingers: number) => void) | null = null;
+  readonly tapped = new Emitter<[fingers: number]>();
   /** Did the finger that is down open a menu? */
   #asked = false;
   #inside = false;
@@ -83,9 +84,9 @@ export class Gestures {
       },
       menu: (at, on, future) => {
         this.#asked = true;
-        this.onMenu?.(at, on, future);
+        this.menu.emit(at, on, future);
       },
-      tapped: (fingers) => this.onTap?.(fingers),
+      tapped: (fingers) => this.tapped.emit(fingers),
       tool: (name) => this.#tool(name),
     });
     this.#listen(stage.element);

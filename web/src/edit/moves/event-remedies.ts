@@ -6,7 +6,8 @@ import { LETTERS, type Future } from '../../model/document/futures';
 import { canMove, startPose, type Agent } from '../../model/document/scene';
 import { speedLabel } from '../../model/base/units';
 import type { Editor } from '../session/editor';
-import { withField, type Remedy } from './moves';
+import { withField } from './moves';
+import type { Remedy } from './remedies';
 import { TEXTS } from '../../texts/editing/moves';
 
 /** A slower start delays the arrival at the place by this, seconds. */

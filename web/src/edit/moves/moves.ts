@@ -1,12 +1,10 @@
 // Changes of start and goal, shared by handles, keys and typed values.
 import { deg, rad, wrapAngle, type Pose, type Vec } from '../../model/base/geometry';
 import { nearestLanes } from '../../model/document/lanemap';
-import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
+import { choose, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
 import { LETTERS } from '../../model/document/futures';
-import { limitsOf, topSpeed } from '../../model/base/domain';
+import { topSpeed } from '../../model/base/domain';
 import { poseAt } from '../../model/base/motion';
-import { shortfall } from '../../model/physics/reach';
-import { localReach } from '../../model/words/reach-words';
 import {
   GOAL_TIME,
   startPose,
@@ -15,10 +13,8 @@ import {
   type Scene,
   type StartSpec,
 } from '../../model/document/scene';
-import { inTenths, metres, seconds, speedLabel, toUnit } from '../../model/base/units';
 import type { Editor, Field } from '../session/editor';
 import type { HandlePart } from '../session/drag';
-import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
 import { TEXTS } from '../../texts/editing/moves';
 
@@ -187,71 +183,3 @@ export function takeFuture(e: Editor, a: Agent, index: number): void {
 }
 
 export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
-
-/** One of three remedies for an unreachable goal. */
-export interface Remedy {
-  readonly label: string;
-  readonly note: string;
-  readonly icon: string;
-  readonly primary: boolean;
-  readonly command: Command;
-}
-
-export function remedies(e: Editor, a: Agent): Remedy[] {
-  const scene = e.scene.value,
-    start = startPose(a);
-  if (!scene || !start || !a.goal.pos) return [];
-  const unit = e.view.unitOf(a);
-  const local = localReach(scene.map, a, start, a.goal, unit, scene.length);
-  const verdict = knownReach(e, a);
-  const out: Remedy[] = [];
-  const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
-  if (nearest) {
-    const gets =
-      shortfall(start, a.goal.pos, nearest, local)?.gets ?? Math.hypot(nearest.x - start.x, nearest.y - start.y);
-    const heading = a.goal.heading === null ? null : nearest.heading;
-    const speed = a.goal.speed === null ? null : nearest.speed;
-    out.push({
-      label: TEXTS.useNearestReachable,
-      // A fixed speed changes too, so the note reports it.
-      note: [TEXTS.afterWay(metres(gets, 0)), ...(speed === null ? [] : [speedLabel(speed, unit)])].join(', '),
-      icon: 'flag',
-      primary: true,
-      command: goalStep(
-        a,
-        { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed },
-        TEXTS.goalOfMovedTo(a.name),
-      ),
-    });
-  }
-  const bend = verdict?.limiting === 'lateral' || verdict?.limiting === 'curvature' || local?.kind === 'sharp';
-  if (bend && a.goal.heading !== null)
-    out.push({
-      label: TEXTS.leaveTheHeading,
-      note: TEXTS.widerGoal,
-      icon: 'lock',
-      primary: false,
-      command: withField(a, 'goal', { heading: null }),
-    });
-  if (local?.time && local.time > a.goal.time)
-    out.push({
-      label: TEXTS.allowMoreTime,
-      note: seconds(local.time),
-      icon: 'clock',
-      primary: false,
-      command: withField(a, 'goal', { time: local.time }),
-    });
-  if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
-    const faster = local.kind === 'far';
-    const v = Math.min(limitsOf(a).speed_mps, local.speed);
-    const note = inTenths(unit) ? speedLabel(v, unit) : `${Math.ceil(toUnit(v, unit))} ${unit}`;
-    out.push({
-      label: faster ? TEXTS.startFaster : TEXTS.startSlower,
-      note,
-      icon: 'play',
-      primary: false,
-      command: withField(a, 'start', { speed: faster && !inTenths(unit) ? Math.ceil(v * 3.6) / 3.6 : v }),
-    });
-  }
-  return out;
-}

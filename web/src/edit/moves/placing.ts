@@ -17,7 +17,7 @@ import { newcomer, type Newcomer } from '../../model/document/newcomer';
 import { startPose, type Scene } from '../../model/document/scene';
 import { areaText, lengthText } from '../../model/base/units';
 import type { Footprint } from '../../model/physics/boxes';
-import { inTheWay, standing } from './room';
+import { inTheWay, standing, stopping } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
 
 /** A road user about to be placed. */
@@ -197,7 +197,7 @@ export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, z
     return turned(on, on.lane || choice.kind === 'pedestrian' ? on.pose.heading || way : way);
   };
   const even = Array.from({ length: choice.count }, (_, i) => at((line.length * i) / Math.max(1, choice.count - 1)));
-  const taken = standing(scene);
+  const taken = stopping(scene);
   if (fitted(taken, even).every((g) => g.fits)) return even;
   const out: Newcomer[] = [];
   const full: Footprint[] = [...taken];
@@ -216,7 +216,7 @@ export function overArea(scene: Scene, choice: PlacingChoice, area: Quad, zoom: 
   /** A point of it, from 0 to 1 along each of its sides. */
   const at = (u: number, w: number): Vec => [x + (ax - x) * u + (bx - x) * w, y + (ay - y) * u + (by - y) * w];
   const middle = at(0.5, 0.5);
-  const taken: Footprint[] = standing(scene);
+  const taken = stopping(scene);
   const out: Newcomer[] = [];
   // Halton points keep clear of each other better than random ones; occupied ones are skipped.
   for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {

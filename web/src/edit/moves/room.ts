@@ -1,16 +1,26 @@
 // Space for road users: what occupies a place, and where there is room instead.
+import { limitsOf } from '../../model/base/domain';
 import { touching, type Footprint } from '../../model/physics/boxes';
-import type { Vec } from '../../model/base/geometry';
+import type { Pose, Vec } from '../../model/base/geometry';
 import type { Newcomer } from '../../model/document/newcomer';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
 
 /** Boxes of all road users present at the start of a scene. */
-export function standing(scene: Scene): (Footprint & { readonly agent: Agent })[] {
+export function standing(scene: Scene): (Footprint & { readonly agent: Agent; readonly pose: Pose })[] {
   return [...scene.agents.values()].flatMap((agent) => {
     const pose = startPose(agent);
     return pose ? [{ agent, pose, length: agent.length, width: agent.width }] : [];
   });
 }
+
+/** The same, each with the way ahead that it needs to stop: several road users put there at once would be hit. */
+export const stopping = (scene: Scene): Footprint[] =>
+  standing(scene).map(({ agent, pose, length, width }) => {
+    const way = pose.speed ** 2 / (2 * limitsOf(agent).hurried.brake_mps2);
+    const { x, y, heading } = pose;
+    const middle = { x: x + (way / 2) * Math.cos(heading), y: y + (way / 2) * Math.sin(heading), heading };
+    return { pose: middle, length: length + way, width };
+  });
 
 /** The box that overlaps this one. */
 export const inTheWay = (f: Footprint, taken: readonly Footprint[]): Footprint | undefined =>

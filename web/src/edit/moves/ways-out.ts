@@ -63,7 +63,7 @@ function pathBy(e: Editor, a: Agent, modes: readonly Future[], to: OnLine): read
   if (best && best.short <= PASSES_M) return best.path;
   const start = startPose(a);
   const way = start && pathTo(e.scene.value!.map, a, start, to);
-  return way?.onLanes ? way.line.pts : (best?.path ?? []);
+  return way?.lanes.length ? way.line.pts : (best?.path ?? []);
 }
 
 /** A motion up to its nearest point to a place, and the remaining distance, metres. */

@@ -6,7 +6,7 @@ import { comparedWithLog } from '../../model/words/change-words';
 import type { Futures } from '../../model/document/futures';
 import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../../model/document/scene';
 import { metres, seconds, speedLabel } from '../../model/base/units';
-import { Labels, pill, tag, type Taken } from '../../draw/labels';
+import { Labels, pill, tag, type Rect, type Taken } from '../../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../../draw/handles';
 import { colourKey, sizeOnScreen, stamp } from '../../draw/sprites';
 import { paintChips, paintFutures, polyline, trail, type Chip } from '../../draw/strokes';
@@ -32,18 +32,14 @@ import { TEXTS } from '../../texts/editing/picture';
 /** Alpha of earlier refinement steps, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
-/** Lower end of the tool rail, pixels; the free part of the picture shows whether the rail and a drawer are open. */
-const RAIL_H = 190;
-const RAIL_W = 62;
-const DRAG_HELP_W = 650;
-/** Above the zoom control, or above the + button on a small page. */
-const COMPASS_PX = 84;
-/** The ring around the handle that keys move, outside the handle itself. */
+/** Radius of the ring around the handle that keys move, outside the handle itself, pixels. */
 const KEYED_PX = 15;
-const RAIL_LEAST = 40;
-const RAIL_MOST = 140;
-/** About as wide as a toast is, pixels. */
-const TOAST_W = 420;
+
+/** Cards over the picture, in its pixels: labels never cover the fixed ones, and passing ones only for want of room. */
+export interface CardsOver {
+  readonly fixed: readonly Rect[];
+  readonly passing: readonly Rect[];
+}
 
 export class Overlay {
   /** Painted places of the letters, for the pointer. */
@@ -63,6 +59,7 @@ export class Overlay {
     private readonly poseNow: (a: Agent) => Pose | null,
     /** Areas of the picture underneath to be kept free. */
     private readonly below: () => Taken,
+    private readonly cards: () => CardsOver,
   ) {
     this.goal = new GoalOverlay(editor, this.labels, () => this.isDecided);
     this.events = new EventsOverlay(editor, this.labels, poseNow);
@@ -108,12 +105,15 @@ export class Overlay {
       top: 0,
       bottom: 0,
     });
-    for (const r of this.panels(v)) this.labels.block(...r);
+    const cards = this.cards();
+    for (const { x, y, w, h } of cards.fixed) this.labels.block(x, y, w, h);
     if (alone || !scene) {
       alone?.paint?.(g, v, this.labels);
       return;
     }
     this.labels.hold();
+    this.labels.keepOffAll(this.below());
+    for (const card of cards.passing) this.labels.keepOff(card);
     this.paintScene(g, v, scene);
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     g.globalAlpha = 1;
@@ -122,12 +122,6 @@ export class Overlay {
 
   private paintScene(g: Pen, v: View, scene: Scene): void {
     const { editor: e } = this;
-    this.labels.keepOffAll(this.below());
-    if (e.notices.toast.value) {
-      const { left } = v.inset;
-      const middle = (v.w + (left > 100 ? left : 0)) / 2;
-      this.labels.keepOff({ x: middle - TOAST_W / 2, y: v.h - 100, w: TOAST_W, h: 48 });
-    }
     this.paintHover(g, v);
     const a = e.agent.value;
     const beside = e.view.beside.value;
@@ -148,27 +142,6 @@ export class Overlay {
     this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
     this.paintMeasure(g, v);
-  }
-
-  /** Rectangles of the panels over the picture, which labels keep clear of. */
-  private panels(v: View): (readonly [number, number, number, number])[] {
-    const { left, right, bottom } = v.inset;
-    // Above a sheet they are higher.
-    const y = v.h - (bottom > 60 ? bottom + 44 : 52);
-    const drawer = left > RAIL_MOST ? left - 12 : 0;
-    // On a small page there is no rail.
-    const rail = left < RAIL_LEAST ? 0 : drawer ? RAIL_W : left - 6;
-    return [
-      [drawer, y, 400, v.h - y],
-      // The help of a drag is longer than the usual content.
-      ...(this.editor.drag.info.value ? ([[v.w - DRAG_HELP_W, y, DRAG_HELP_W, v.h - y]] as const) : []),
-      [v.w - 160, y, 160, v.h - y],
-      [v.w - 260, 0, 260, 52],
-      // The compass, while visible.
-      ...(v.turn ? ([[v.w - right - COMPASS_PX, y - COMPASS_PX, COMPASS_PX, COMPASS_PX]] as const) : []),
-      [0, 0, rail, RAIL_H],
-      [drawer ? RAIL_W : 0, 0, drawer, drawer ? v.h : 0],
-    ];
   }
 
   private paintMeasure(g: Pen, v: View): void {

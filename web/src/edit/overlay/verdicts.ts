@@ -7,7 +7,7 @@ import type { Vec } from '../../model/base/geometry';
 import { nameIn, type Agent } from '../../model/document/scene';
 import { placeWord } from '../../model/words/verdict-words';
 import { paintBroken, paintGround, type Stretch } from '../../draw/broken';
-import { FLAG_HEIGHT, paintFlag, paintGhost } from '../../draw/handles';
+import { blockFlag, paintFlag, paintGhost } from '../../draw/handles';
 import { pill, type Labels, type PillStyle, type Rect } from '../../draw/labels';
 import { modeStyle, polyline } from '../../draw/strokes';
 import { colours } from '../../draw/theme';
@@ -87,9 +87,7 @@ export class VerdictOverlay {
     if (!way) return;
     polyline(g, v, way.path, colours().goal, Math.max(6, a.width * 1.5 * v.z), 0.2, [], 'round');
     // Labels placed before the flag is painted leave space for it.
-    if (!way.to) return;
-    const [x, y] = v.to(way.to.x, way.to.y);
-    this.labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
+    if (way.to) blockFlag(this.labels, v.to(way.to.x, way.to.y), v.grip);
   }
 
   /** The goal of that route, hollow: a click takes it. */

@@ -89,7 +89,7 @@ export class Reading {
     const s = this.of.scene.value;
     const start = a && startPose(a);
     if (!a || !s || !start || !a.goal.pos) return null;
-    return localReach(s.map, a, start, a.goal, this.of.view.unitOf(a), s.length);
+    return localReach(s.map, a, start, a.goal, this.of.view.unitOf(a));
   });
   /** Index of the future in force for the selected road user. */
   readonly chosen = computed<number>(() => {

@@ -76,6 +76,12 @@ export const markOf = (about: FutureFacts): Mark => (about.faults.length ? fault
 /** Below 0: the first is worse. */
 export const compareMarks = (a: Mark, b: Mark): number => MARKS.indexOf(a) - MARKS.indexOf(b);
 
+/** The same of the worst faults of two futures: of two violations one may be the worse kind. */
+export const compareFaults = ({ faults: [a] }: FutureFacts, { faults: [b] }: FutureFacts): number => {
+  const rank = (f: Fault | undefined): number => (f ? FAULT_KINDS.indexOf(f.kind) : FAULT_KINDS.length);
+  return rank(a) - rank(b);
+};
+
 /** Does it leave the area of its kind: over a median, off the road, against the traffic? */
 export const leavesRoad = (f: Pick<Fault, 'kind'>): boolean =>
   f.kind === 'over_median' || f.kind === 'off_road' || f.kind === 'wrong_way';

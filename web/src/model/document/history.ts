@@ -1,4 +1,5 @@
 // Undo and redo of committed changes. Steps form a tree: a change after an undo starts a branch, and no step is lost.
+import { Emitter } from '../base/emitter';
 import type { Command } from './commands';
 import type { Scene } from './scene';
 import { applyDiff, diffOf, isEmptyDiff, type SceneDiff } from './scene-diff';
@@ -80,8 +81,8 @@ export class History {
   #committed: Committed;
   #folds: { readonly id: number; readonly fold: string; readonly at: number } | null = null;
 
-  /** Called after every change of the steps or of the current one. */
-  onChange: ((change: HistoryChange) => void) | null = null;
+  /** The steps or the current one have changed. */
+  readonly changed = new Emitter<[change: HistoryChange]>();
   /** Returns the current camera. */
   camera: () => Camera | null = () => null;
 
@@ -197,7 +198,7 @@ export class History {
     this.#folds = fold === undefined ? null : { id: added.id, fold, at };
     const shorter = this.#steps.size >= MOST_STEPS + SLACK;
     if (shorter) this.#drop();
-    this.onChange?.(shorter ? { shorter: true } : { added });
+    this.changed.emit(shorter ? { shorter: true } : { added });
     return after;
   }
 
@@ -220,7 +221,7 @@ export class History {
     const step = this.step(this.#head);
     if (!step) return null;
     this.#back(step);
-    this.onChange?.({});
+    this.changed.emit({});
     return step;
   }
 
@@ -228,7 +229,7 @@ export class History {
     const step = this.step(this.#ahead.get(this.#head) ?? null);
     if (!step) return null;
     this.#forth(step);
-    this.onChange?.({});
+    this.changed.emit({});
     return step;
   }
 
@@ -239,7 +240,7 @@ export class History {
     const meant = new Set(there.map((s) => s.id));
     for (let s = this.step(this.#head); s && !meant.has(s.id); s = this.step(this.#head)) this.#back(s);
     for (const s of there.slice(this.#path(this.#head).length)) this.#forth(s);
-    this.onChange?.({});
+    this.changed.emit({});
     return this.scene;
   }
 
@@ -249,7 +250,7 @@ export class History {
     if (!s) return;
     const added = { ...s, title: title || undefined };
     this.#steps.set(id, added);
-    this.onChange?.({ added });
+    this.changed.emit({ added });
   }
 
   #back(step: HistoryStep): void {

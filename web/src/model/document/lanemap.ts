@@ -208,12 +208,14 @@ export interface Route {
   readonly line: Line;
   readonly length: number;
   readonly lanes: readonly Lane[];
+  /** Where each of them ends along the line, metres. */
+  readonly ends: readonly number[];
 }
 
 /** Shortest route along the lanes from one hit to another, without lane changes. */
 export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400): Route | null {
   if (from.lane === to.lane && to.s >= from.s - 0.5)
-    return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane]);
+    return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane], [to.s - from.s]);
   interface Node {
     lane: Lane;
     cost: number;
@@ -240,23 +242,29 @@ export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400)
     const chain: Lane[] = [];
     for (let n: Node | null = end; n; n = n.back) chain.unshift(n.lane);
     const pts: Vec[] = [];
+    const ends: number[] = [];
     chain.forEach((lane, i) => {
-      const piece = sliceLine(lane.line, i === 0 ? a.s : 0, i === chain.length - 1 ? b.s : lane.line.length);
+      const [s0, s1] = [i === 0 ? a.s : 0, i === chain.length - 1 ? b.s : lane.line.length];
+      const piece = sliceLine(lane.line, s0, s1);
       pts.push(...(i ? piece.slice(1) : piece));
+      ends.push((ends.at(-1) ?? 0) + s1 - s0);
     });
-    return routeOf(pts, chain);
+    return routeOf(pts, chain, ends);
   }
 }
 
-function routeOf(pts: Vec[], lanes: readonly Lane[]): Route {
+function routeOf(pts: Vec[], lanes: readonly Lane[], ends: readonly number[]): Route {
   const line = makeLine(pts);
-  return { line, length: line.length, lanes };
+  return { line, length: line.length, lanes, ends };
 }
 
-/** Sharpest bend of a line as a radius, measured over stretches of about 4 m. */
-export function tightestRadius(line: Line): number {
-  let best = Infinity;
+/** Sharpest bend of a line as a radius, metres. */
+export const tightestRadius = (line: Line): number => Math.min(...radii(line));
+
+/** Radii of a line about every 2 m from its start on, measured over stretches of about 4 m; its ends are straight. */
+export function radii(line: Line): number[] {
   const n = Math.max(2, Math.floor(line.length / 2));
+  const out = new Array<number>(n + 1).fill(Infinity);
   const at = (i: number): Vec => {
     const p = pointAt(line, (line.length * i) / n);
     return [p.x, p.y];
@@ -267,7 +275,7 @@ export function tightestRadius(line: Line): number {
       c = at(i);
     const t = Math.abs(wrapAngle(Math.atan2(c[1] - b[1], c[0] - b[0]) - Math.atan2(b[1] - a[1], b[0] - a[0])));
     const d = line.length / n;
-    if (t > 1e-3) best = Math.min(best, d / t);
+    if (t > 1e-3) out[i - 1] = d / t;
   }
-  return best;
+  return out;
 }

@@ -1,5 +1,5 @@
 // A short code of a scene's result: recorded and placed road users, conditions, options, seed, engine, and the motions
-// that are followed. A drag continues from the future shown before, so its motions do not follow from the scene alone.
+// that are followed. Road users keep motions from earlier changes, so motions do not follow from the scene alone.
 // The same code in two windows means the same scene and motions; name, notes and view do not affect it.
 import { VERSION } from '../base/domain';
 import type { Motion } from '../base/motion';

@@ -10,9 +10,10 @@ import {
   type Pose,
   type Vec,
 } from '../base/geometry';
+import type { Way } from './driving-time';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
 import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
-import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
+import type { Agent, GoalSpec } from '../document/scene';
 
 /** Furthest distance in `t` seconds from speed `v`: at full acceleration, then at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
@@ -39,8 +40,7 @@ export interface GoalReach {
   readonly max: number;
   readonly min: number;
   readonly nearest: Pose | null;
-  /** Values that would make it reachable: seconds, start speed in m/s. */
-  readonly time: number | null;
+  /** Start speed that would make it reachable, m/s. */
   readonly speed: number | null;
 }
 
@@ -55,7 +55,7 @@ export function pathTo(
   a: Pick<Agent, 'type'>,
   start: Pose,
   goal: { x: number; y: number; heading: number },
-): { line: Line; onLanes: boolean } {
+): Way {
   if (a.type !== 'pedestrian') {
     const fit = fitsAgent(a);
     const from = nearestLanes(map, start.x, start.y, start.heading, 3, fit).slice(0, 4);
@@ -64,33 +64,29 @@ export function pathTo(
       for (const f of from) {
         const r = findRoute(map, f, b);
         if (r && r.line.pts.length > 1 && r.length < 1.9 * Math.hypot(goal.x - start.x, goal.y - start.y) + 12)
-          return { line: r.line, onLanes: true };
+          return r;
       }
   }
-  if (a.type === 'pedestrian')
-    return {
-      line: makeLine([
-        [start.x, start.y],
-        [goal.x, goal.y],
-      ]),
-      onLanes: false,
-    };
-  return { line: makeLine(curveBetween(start, goal)), onLanes: false };
+  const straight: Vec[] = [
+    [start.x, start.y],
+    [goal.x, goal.y],
+  ];
+  return { line: makeLine(a.type === 'pedestrian' ? straight : curveBetween(start, goal)), lanes: [], ends: [] };
 }
 
 /** Is a goal reachable in its time by the limits of motion only? Null without a goal position. */
-export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, latest = GOAL_TIME): GoalReach | null {
+export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec): GoalReach | null {
   if (!goal.pos) return null;
   const l = limitsOf(a),
     t = goal.time,
     v = start.speed;
   const heading = goal.heading ?? Math.atan2(goal.pos[1] - start.y, goal.pos[0] - start.x);
   const target: Pose = { x: goal.pos[0], y: goal.pos[1], heading, speed: goal.speed ?? v };
-  const { line, onLanes } = pathTo(map, a, start, target);
+  const { line, lanes } = pathTo(map, a, start, target);
   const along = line.length;
   const max = furthestReach(l, v, t),
     min = leastReach(l, v, t);
-  const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
+  const base = { path: line, onLanes: lanes.length > 0, along, max, min, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
   // No path is shorter than the straight line: only beyond it the goal is certainly too far.
   const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
@@ -99,7 +95,6 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, l
       ...base,
       kind: 'far',
       nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
-      time: timeFor(l, v, along, latest),
       speed: speedFor(l, t, along),
     };
   }
@@ -144,11 +139,6 @@ export function shortfall(
     return { gets, beyond: Math.hypot(goal[0] - start.x, goal[1] - start.y) - gets };
   }
   return local?.kind === 'far' ? { gets: local.max, beyond: local.along - local.max } : null;
-}
-
-function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
-  for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;
-  return null;
 }
 
 function speedFor(l: Limits, t: number, d: number): number | null {

@@ -1,7 +1,7 @@
 // Reachability of a goal in words: by the server's verdict, or by the limits of motion until it arrives.
 import { isBlocked, type Reach } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
-import { GOAL_TIME, type Agent, type GoalSpec } from '../document/scene';
+import type { Agent, GoalSpec } from '../document/scene';
 import type { Pose, Vec } from '../base/geometry';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
@@ -34,16 +34,9 @@ export interface LocalReach extends GoalReach {
   readonly words: string;
 }
 
-/** Reachability of a goal in words; `latest` is the longest time to suggest, seconds. */
-export function localReach(
-  map: LaneMap,
-  a: Agent,
-  start: Pose,
-  goal: GoalSpec,
-  unit: SpeedUnit,
-  latest = GOAL_TIME,
-): LocalReach | null {
-  const r = goalReach(map, a, start, goal, latest);
+/** Reachability of a goal in words. */
+export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: SpeedUnit): LocalReach | null {
+  const r = goalReach(map, a, start, goal);
   return r && { ...r, ...wordsOf(r, a, start.speed, goal.time, unit) };
 }
 

@@ -1,6 +1,6 @@
 // Faults of futures in words: one at the place, one in a headline, and a summary by letter.
 import {
-  compareMarks,
+  compareFaults,
   faultMark,
   leavesRoad,
   markOf,
@@ -10,7 +10,7 @@ import {
   type Mark,
 } from '../document/future-facts';
 import { THRESHOLDS } from '../base/domain';
-import { LETTERS, type Futures } from '../document/futures';
+import { LETTERS, rankOf, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
@@ -105,7 +105,7 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
     toGoal && all && only
       ? only(seconds(worst.time))
       : toGoal
-        ? TEXTS.reached(word, at)
+        ? TEXTS.butReached(capitalised(word), at)
         : `${capitalised(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
   return { mark, title, words, at: worst.time };
 }
@@ -237,14 +237,21 @@ export function crossingWords(map: LaneMap, edges: readonly string[]): typeof TE
 // -------------------------------------------------------------- reasons for another future
 
 /** Why the future at `shown` is shown instead of the one at `was`: the worse fault of that one; null without one. */
-export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
+function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
-  if (!old || !now || compareMarks(markOf(old), markOf(now)) >= 0) return null;
+  if (!old || !now || compareFaults(old, now) >= 0) return null;
   const [worst] = old.faults;
   return TEXTS.isShown(LETTERS[shown], LETTERS[was], WHY[faultMark(worst)](worst, nameOf));
 }
 
-/** The same where another future was bold before, and a sentence is needed in any case. */
+/** Why the shown future is not the likeliest; null where it is. */
+export function whyNotLikeliest(f: Futures, shown: number, nameOf: NameOf): string | null {
+  const first = f.modes.findIndex((_, i) => rankOf(f.modes, i) === 1);
+  if (first === shown || !f.modes[first]?.about || !f.modes[shown]) return null;
+  return whyNot(f, first, shown, nameOf) ?? TEXTS.costsLess(LETTERS[shown], LETTERS[first]);
+}
+
+/** Why another future is shown than the bold one before, in any case. */
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;

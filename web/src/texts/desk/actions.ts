@@ -4,7 +4,7 @@ export const TEXTS = table('actions', {
   noSceneIsOpen: 'No scene is open.',
   selectARoadUser: 'Select a road user first.',
   thisOneCanBe: 'This road user cannot be edited.',
-  itIsLockedCtrl: 'It is locked. Ctrl L unlocks.',
+  itIsLockedCtrl: 'Locked. Ctrl L unlocks.',
   selectRoadUsers: 'Select road users first.',
   findACase: 'Find a case',
   selectOneOrTwo: 'Select one or two road users first.',

@@ -73,7 +73,7 @@ export const TEXTS = table('hud', {
   ms: (ms: string) => `${ms} ms`,
   refining: (part: string, after: string) => `Refining ${part} · ${after}`,
   refiningStep: (step: number, steps: number, after: string) => `Refining, step ${step} of ${steps} · ${after}`,
-  firstGuess: (after: string) => `First guess · ${after}`,
+  firstGuess: (after: string) => `First draft · ${after}`,
   computingFutures: 'Computing futures …',
   loadingTheScene: 'Loading the scene …',
   youCanKeepDragging: ' You can keep dragging.',
@@ -91,7 +91,7 @@ export const TEXTS = table('hud', {
     plural(count, { one: `Map ready · ${count} lane`, other: `Map ready · ${count} lanes` }),
   readyRoadUsers: (size: number) =>
     plural(size, { one: `Ready · ${size} road user`, other: `Ready · ${size} road users` }),
-  logShownDashed: (edited: number, size: number) => `Log shown dashed · ${edited} of ${size} road users edited`,
+  logShownDashed: (edited: number, size: number) => `Recording shown dashed · ${edited} of ${size} road users edited`,
   done: 'Done',
   zoom: 'Zoom',
   sketchNotWorked: 'Sketch, not computed yet',

@@ -48,7 +48,7 @@ export const TEXTS = table('keeping', {
   savedWithout: (n: number, what: string) =>
     plural(n, { one: `${what} saved, ${n} detail not exported.`, other: `${what} saved, ${n} details not exported.` }),
   saved: (what: string) => `${what} saved.`,
-  thereIsNoWhole: 'The link has no complete scene.',
+  thereIsNoWhole: 'The link does not contain a complete scene.',
   sharedScene: 'Shared scene',
   thisSceneCame: 'This scene was opened from a link and is read-only.',
   makeACopy: 'Make a copy',

@@ -27,6 +27,7 @@ export const TEXTS = table('moves', {
   leaveTheHeading: 'Leave the heading free',
   widerGoal: 'wider goal',
   allowMoreTime: 'Allow more time',
+  sceneOf: (time: string, length: number) => `${time}, scene ${length} s`,
   startFaster: 'Start faster',
   startSlower: 'Start slower',
   roadUsers: (count: number) => plural(count, { one: `${count} road user`, other: `${count} road users` }),

@@ -20,5 +20,5 @@ export const TEXTS = table('pins', {
   endsAt: (speed: string) => `ends at ${speed}`,
   missesVia: 'misses a via point',
   noLongerFits: (name: string, why: string) =>
-    `${name}: ${why}, so it no longer fits. Choosing it restores its start and goal.`,
+    `${name} no longer fits: ${why}. Choosing this future restores its start and goal.`,
 });

@@ -35,7 +35,7 @@ export const TEXTS = table('inspector', {
   minimumPet: 'Minimum PET',
   goalsReached: 'Goals reached',
   countOf: (reached: number, count: number) => `${reached} of ${count}`,
-  largestDistance: 'Largest distance from the log',
+  largestDistance: 'Largest distance from the recording',
   noneToCheck: 'No road users to check.',
   unknownWhileOffline: 'Unknown while the generator is offline',
   notComputedYet: 'Not computed yet',

@@ -2,7 +2,7 @@ import { plural, table } from '../table';
 
 export const TEXTS = table('variants-panel', {
   collision: 'Collision',
-  ruleBroken: 'Rule broken',
+  ruleBroken: 'Rule violation',
   nearMiss: 'Near miss',
   goalMissed: 'Goal missed',
   noConflict: 'No conflict',

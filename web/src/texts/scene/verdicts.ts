@@ -25,7 +25,7 @@ export const TEXTS = table('verdicts', {
     off_road: (time: string) => `Not reachable without leaving the road (${time})`,
     wrong_way: (time: string) => `Not reachable without going the wrong way (${time})`,
   },
-  reached: (word: string, at: string) => `Reached, ${word}${at}`,
+  butReached: (word: string, at: string) => `${word}${at}, goal reached`,
   reachedInAll: (six: string) => `Reached in all ${six}`,
   reachedIn: (good: string) => `Reached in ${good}`,
   plannedUpTo: (letters: string, n: number, until: string) =>
@@ -77,6 +77,8 @@ export const TEXTS = table('verdicts', {
   previousIsGone: (letter: string) => `${letter} is shown: the previous future is gone`,
   isLikelier: (letter: string, was: string) => `${letter} is shown: more likely than ${was}`,
   wasInTheDrag: (letter: string, was: string) => `${letter} is shown; ${was} was shown in the drag`,
+  costsLess: (letter: string, first: string) =>
+    `${letter} is shown: lower cost for all road users together than ${first}, the likeliest`,
   ends: (placeWord: string) => `ends ${placeWord}`,
   crossesTheMedian: 'crosses the median',
   aRoadUser: 'a road user',

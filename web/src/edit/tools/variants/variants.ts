@@ -4,7 +4,7 @@ import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/si
 import { inOneStep } from '../../../model/document/commands';
 import { counted, worstOf } from '../../../model/physics/events';
 import { readEvents } from '../../../model/words/event-words';
-import type { Futures, MotionSet } from '../../../model/document/futures';
+import { ideas, type Futures, type MotionSet } from '../../../model/document/futures';
 import { sceneKey, touchedIn, type Agent, type Scene, type Variant } from '../../../model/document/scene';
 import {
   countOf,
@@ -350,8 +350,8 @@ export class Variants {
     const { notices } = editor;
     const now = editor.scene.peek()!;
     const motion = editor.answers.motion.peek();
-    // The user's own work is replaced by the first variant, and can be kept beside the new ones. Values of a range are
-    // shown beside the document's own.
+    // The user's own work is replaced by the variant of the shown future, else by the first, and can be kept beside the
+    // new ones. Values of a range are shown beside the document's own.
     // A chosen future stays the scene's own, and the variants are beside it.
     const stays = ranged || (subject !== null && now.agents.get(subject)?.chosen != null);
     const isWork = !stays && this.shown.peek() === null && !motion.stale && touchedIn(now).length > 0;
@@ -360,7 +360,8 @@ export class Variants {
       this.#keepSets(takes);
       const states = takes.map((t) => stateOfVariant(t.scene, subject));
       const put = replaceVariants(now, states);
-      editor.commits.run(stays ? put : inOneStep(put, takeVariant(now, states[0], put.name)));
+      const shown = states[subject === null ? 0 : Math.max(0, likeShown(motion, takes, subject))];
+      editor.commits.run(stays ? put : inOneStep(put, takeVariant(now, shown, put.name)));
       this.#current.value = null;
     }
     const n = takes.length;
@@ -604,6 +605,16 @@ export class Variants {
       this.#picked.value = null;
     });
   }
+}
+
+/** The take that picks the shown future of the subject; -1 for none. */
+function likeShown(now: MotionSet, takes: readonly Take[], subject: string): number {
+  const picked = (set: MotionSet, index: number | null): string | undefined => {
+    const f = set.futures.get(subject);
+    return f && ideas(f.modes)[index ?? f.chosen];
+  };
+  const shown = picked(now, null);
+  return takes.findIndex((t) => picked(t.set, t.scene.agents.get(subject)?.chosen ?? null) === shown);
 }
 
 /** Clears the pick of the subject: the variants pick for it. */

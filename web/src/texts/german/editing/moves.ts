@@ -29,6 +29,7 @@ export const german: Said<typeof TEXTS> = {
   leaveTheHeading: 'Richtung frei lassen',
   widerGoal: 'weiteres Ziel',
   allowMoreTime: 'Mehr Zeit geben',
+  sceneOf: (time, length) => `${time}, Szene ${length} s`,
   startFaster: 'Schneller starten',
   startSlower: 'Langsamer starten',
   roadUsers: (count) => `${count} Verkehrsteilnehmer`,

@@ -20,5 +20,5 @@ export const german: Said<typeof TEXTS> = {
   endsTurned: 'endet mit anderer Richtung',
   endsAt: (speed) => `endet mit ${speed}`,
   missesVia: 'verfehlt einen Zwischenpunkt',
-  noLongerFits: (name, why) => `${name}: ${why}, passt also nicht mehr. Wählen stellt Start und Ziel wieder her.`,
+  noLongerFits: (name, why) => `${name} passt nicht mehr: ${why}. Auswählen stellt Start und Ziel wieder her.`,
 };

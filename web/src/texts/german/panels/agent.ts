@@ -90,15 +90,15 @@ export const german: Said<typeof TEXTS> = {
   happenedNearMiss: 'Beinahe-Unfall',
   shortOfIt: 'vor dem Ziel',
   endsAt: (what: string, time: string) => `Endet ${what} bei ${time}`,
-  reachedAt: (what: string, time: string) => `Erreicht, ${what} bei ${time}`,
-  theClosestEnds: (letter: string, d: string) => `Am nächsten kommt ${letter}, bis auf ${d}.`,
+  reachedAt: (what: string, time: string) => `${what} bei ${time}, Ziel erreicht`,
+  theClosestEnds: (letter: string, d: string) => `${letter} kommt am nächsten und verfehlt das Ziel um ${d}.`,
   noFutureReaches: 'Keine Zukunft erreicht das Ziel',
   allWithinAt: (count, furthest, time) =>
     plural(count, { one: `Bis auf ${furthest} bei ${time}.`, other: `Alle bis auf ${furthest} bei ${time}.` }),
   endUpToAway: (count, letter, furthest, letters) =>
     plural(count, {
-      one: `${letter} endet ${furthest} vom Ziel.`,
-      other: `${letters} enden bis zu ${furthest} vom Ziel.`,
+      one: `${letter} verfehlt das Ziel um ${furthest}.`,
+      other: `${letters} verfehlen das Ziel um bis zu ${furthest}.`,
     }),
   stopsFor: (lasts) => `Hält ${lasts}, fährt dann weiter`,
   stopsUntilTheEnd: (from) => `Hält ab ${from} bis zum Ende`,

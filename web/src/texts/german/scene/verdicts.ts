@@ -26,7 +26,7 @@ export const german: Said<typeof TEXTS> = {
     off_road: (time: string) => `Ohne Verlassen der Straße nicht erreichbar (${time})`,
     wrong_way: (time: string) => `Ohne falsche Fahrtrichtung nicht erreichbar (${time})`,
   },
-  reached: (word: string, at: string) => `Erreicht, ${word}${at}`,
+  butReached: (word: string, at: string) => `${word}${at}, Ziel erreicht`,
   reachedInAll: (n: string) => `In allen ${n} erreicht`,
   reachedIn: (good: string) => `Erreicht in ${good}`,
   plannedUpTo: (letters: string, n: number, until: string) =>
@@ -77,6 +77,8 @@ export const german: Said<typeof TEXTS> = {
   isShown: (letter, letter2, why) => `${letter} wird gezeigt: ${letter2} ${why}`,
   previousIsGone: (letter) => `${letter} wird gezeigt: Die vorige Zukunft gibt es nicht mehr`,
   isLikelier: (letter, was) => `${letter} wird gezeigt: wahrscheinlicher als ${was}`,
+  costsLess: (letter, first) =>
+    `${letter} wird gezeigt: zusammen mit allen Verkehrsteilnehmern günstiger als ${first} (am wahrscheinlichsten)`,
   wasInTheDrag: (letter, was) => `${letter} wird gezeigt; beim Ziehen war es ${was}`,
   ends: (placeWord) => `endet ${placeWord}`,
   crossesTheMedian: 'quert den Mittelstreifen',

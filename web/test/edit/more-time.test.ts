@@ -1,0 +1,81 @@
+// More time as a remedy for a goal that is too far for its time.
+import { beforeEach, describe, expect, it } from 'vitest';
+import { setGoal } from '../../src/model/document/commands';
+import type { Fault, FaultKind } from '../../src/model/document/future-facts';
+import type { Futures } from '../../src/model/document/futures';
+import { readFutures } from '../../src/model/words/named-futures';
+import { startPose, type Agent } from '../../src/model/document/scene';
+import { Editor } from '../../src/edit/session/editor';
+import { moreTime, remedies } from '../../src/edit/moves/remedies';
+import { crossing, crossingJson } from '../helpers';
+import { sixFutures } from '../standin/futures.mjs';
+
+let e: Editor;
+const agent = (): Agent => e.agent.peek()!;
+const goalAt = (pos: readonly [number, number], time: number): void =>
+  e.commits.run(setGoal(agent(), { ...agent().goal, pos, time }));
+
+/** Futures that all have this fault, or none. */
+function answer(kind: FaultKind | null): void {
+  const six = sixFutures(crossingJson().agents[0], {}, 5, 5);
+  const f = readFutures({ chosen: 0, modes: six }, startPose(agent())!, 5, 5, false);
+  const fault: Fault = { kind: kind ?? 'running', time: 1, until: 1, at: [0, 0], extent: null, with: null, edge: null };
+  const about = { faults: kind ? [fault] : [], relations: [], manoeuvre: null };
+  const judged: Futures = { ...f, modes: f.modes.map((m) => ({ ...m, about })) };
+  e.answers.showDraft('1', judged);
+  const known = { nearest: null, limiting: null, needs: null, message: null, byRoad: null };
+  e.answers.judge('1', { ...known, status: 'reached' });
+}
+
+beforeEach(() => {
+  e = new Editor();
+  e.open(crossing());
+  e.select('1');
+});
+
+describe('more time', () => {
+  it('is the first remedy of a goal out of reach', () => {
+    goalAt([1.75, 90], 4);
+    const more = moreTime(e, agent())!;
+    expect(more).toMatchObject({ label: 'Allow more time', primary: true });
+    expect(remedies(e, agent())[0]).toMatchObject({ label: 'Use nearest reachable', primary: false });
+    e.commits.run(more.command);
+    const { time } = agent().goal;
+    expect(time).toBeGreaterThan(4);
+    expect(more.note.startsWith(`${time.toFixed(1)} s`)).toBe(true);
+    expect(moreTime(e, agent())).toBeNull();
+  });
+
+  it('makes the planned time longer where the goal is later than its end', () => {
+    goalAt([1.75, 110], 9);
+    answer('speeding');
+    const more = moreTime(e, agent())!;
+    e.commits.run(more.command);
+    const scene = e.scene.peek()!;
+    expect(scene.length).toBeGreaterThan(9);
+    expect(agent().goal.time).toBeLessThanOrEqual(scene.length);
+    expect(more.note).toBe(`${agent().goal.time.toFixed(1)} s, scene ${scene.length} s`);
+    e.commits.undo();
+    expect([e.scene.peek()!.length, agent().goal.time]).toEqual([9, 9]);
+  });
+
+  it.each<[FaultKind | null, boolean]>([
+    ['speeding', true],
+    ['harsh_steering', true],
+    ['wrong_way', true],
+    ['off_road', true],
+    ['near_miss', false],
+    ['red_light', false],
+    [null, false],
+  ])('for a goal reached by %s: %s', (kind, offered) => {
+    goalAt([1.75, 60], 4);
+    answer(kind);
+    expect(moreTime(e, agent()) !== null).toBe(offered);
+  });
+
+  it('is not offered where there is enough of it', () => {
+    goalAt([1.75, 40], 9);
+    answer('off_road');
+    expect(moreTime(e, agent())).toBeNull();
+  });
+});
