@@ -68,6 +68,7 @@ const HOUSES: &[House] = &[
         sources: "models/formats/src",
         module: &[],
         floors: &[
+            &["refusals"],
             &[
                 "limits",
                 "loss",
@@ -185,7 +186,8 @@ const HOUSES: &[House] = &[
         sources: "server/api/src",
         module: &[],
         floors: &[
-            &["code", "english", "limits", "opened", "domain", "compact", "feedback"],
+            &["english"],
+            &["code", "limits", "opened", "domain", "compact", "feedback"],
             &["problem", "events", "messages"],
             &["home", "import", "map"],
             &["export", "info", "score", "place"],

@@ -10,20 +10,21 @@ import { german as germanMaps } from '../src/texts/german/messages/map-messages'
 import { german } from '../src/texts/german/messages/messages';
 import { SENTENCES as MAPS } from '../src/texts/messages/map-messages';
 import { german as germanProblems } from '../src/texts/german/messages/problem-messages';
+import { german as germanRefusals } from '../src/texts/german/messages/refusal-messages';
+import { WORDS } from '../src/texts/german/refusal-words';
 import { SENTENCES as PROBLEMS } from '../src/texts/messages/problem-messages';
+import { SENTENCES as REFUSALS } from '../src/texts/messages/refusal-messages';
 import { SENTENCES } from '../src/texts/messages/messages';
 
-const kinds = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as {
-  code: string;
-  english: string;
-  one?: string;
-  values: string[];
-}[];
+const { sentences: kinds, words } = JSON.parse(readFileSync('../assets/messages.json', 'utf8')) as {
+  sentences: { code: string; english: string; one?: string; values: string[] }[];
+  words: Record<string, string[]>;
+};
 const together = (...tables: { readonly sentences: object }[]): object =>
   Object.assign({}, ...tables.map((table) => table.sentences));
 const LANGUAGES = {
-  english: together(SENTENCES, FILES, MAPS, PROBLEMS),
-  german: together(german, germanFiles, germanMaps, germanProblems),
+  english: together(SENTENCES, FILES, MAPS, PROBLEMS, REFUSALS),
+  german: together(german, germanFiles, germanMaps, germanProblems, germanRefusals),
 } as Record<string, Record<string, string | ((values: Record<string, string>) => string)>>;
 
 /** The values in a sentence. */
@@ -55,6 +56,11 @@ describe('sentences of the server', () => {
     expect(Object.keys(sentences).sort()).toEqual(kinds.map((kind) => kind.code).sort());
     const differing = kinds.filter(({ code, values }) => asked(sentences[code]).join() !== [...values].sort().join());
     expect(differing.map((kind) => kind.code)).toEqual([]);
+  });
+
+  it('have all words of their values in German', () => {
+    const lists = Object.entries(WORDS).map(([name, list]) => [name, Object.keys(list).sort()]);
+    expect(Object.fromEntries(lists)).toEqual(words);
   });
 
   it.each([

@@ -1,6 +1,7 @@
 //! Names and notes of a scene, cut to what a scene can hold: files from other tools hold more.
 
 use crate::problem::{FieldProblem, ReadError};
+use crate::refusals::{self, what};
 use scene::Meta;
 
 /// Most bytes of a text about where a scene comes from, and most entries of a list of road users.
@@ -28,9 +29,9 @@ pub(crate) fn fitted(mut meta: Meta) -> Result<Meta, ReadError> {
     let far = [origin.x_m, origin.y_m, origin.z_m].into_iter().find(|value| !held(value));
     match far {
         Some(value) => {
-            let mut problem = FieldProblem::range("", -MAX_ORIGIN_M, MAX_ORIGIN_M, value);
-            problem.detail = format!("origin in metres: {}", problem.detail);
-            Err(problem.into())
+            let [least, most, found] = [-MAX_ORIGIN_M, MAX_ORIGIN_M, value].map(|v| v.to_string());
+            let message = refusals::range_outside(what::ORIGIN, &found, &least, &most);
+            Err(FieldProblem::range_of("", -MAX_ORIGIN_M, MAX_ORIGIN_M, value, message).into())
         }
         None => Ok(meta),
     }

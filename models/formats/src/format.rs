@@ -4,6 +4,7 @@ use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::netconvert::Netconvert;
 use crate::problem::{self, FieldProblem, Imported, ReadError};
+use crate::refusals;
 use crate::source::Source;
 use scene::{Agent, Scene, Shown, Timing};
 use serde::Serialize;
@@ -173,12 +174,13 @@ pub(crate) const MAP_TIMING: Timing = Timing { steps: RECORDED_STEPS, now_step: 
 
 /// Refusal of a writer that there is not.
 pub(crate) fn only_read(info: &Info) -> io::Error {
-    io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
+    io::Error::new(io::ErrorKind::Unsupported, refusals::only_read(info.name))
 }
 
 /// Refusal of a reader that there is not.
-pub(crate) fn written_only<'a>(detail: &str) -> Scenes<'a> {
-    one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, detail).into()))
+pub(crate) fn written_only<'a>(info: &Info) -> Scenes<'a> {
+    let message = refusals::only_written(info.name);
+    one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, message).into()))
 }
 
 /// The scene of a file that has room for one.
@@ -188,7 +190,7 @@ pub(crate) fn written_only<'a>(detail: &str) -> Scenes<'a> {
 pub(crate) fn one_scene<'a>(scenes: &[&'a Scene]) -> io::Result<&'a Scene> {
     match scenes {
         [scene] => Ok(scene),
-        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, refusals::one_scene_a_file())),
     }
 }
 

@@ -1,6 +1,7 @@
 //! File kinds that are recognised but not read: the refusal names the kind and the alternative.
 
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals;
 use crate::{unpack, xml};
 
 /// How a kind is recognised.
@@ -169,6 +170,11 @@ const KINDS: &[Kind] = &[
     Kind { what: "an SVG picture", ends: &["svg"], marks: &[Mark::Root("svg")], instead: PICTURE },
 ];
 
+/// The words of these refusals: kinds of files, and what to do instead.
+pub fn words() -> [Vec<&'static str>; 2] {
+    [KINDS.iter().map(|kind| kind.what).collect(), KINDS.iter().map(|kind| kind.instead).collect()]
+}
+
 /// The refusal of a file that begins so, when it is of a known kind. `ends` are those of all formats that there are.
 pub(crate) fn refusal(head: &[u8], name: &str, ends: &[&str]) -> Option<ReadError> {
     let unpacked = unpack::head(head);
@@ -183,16 +189,16 @@ pub(crate) fn refusal(head: &[u8], name: &str, ends: &[&str]) -> Option<ReadErro
         Mark::Words(words) => words.iter().all(|word| text.contains(*word) || lower.contains(*word)),
     };
     let kind = KINDS.iter().find(|kind| kind.marks.iter().any(is))?;
-    let mut detail = format!("{} is not read; {}", kind.what, kind.instead);
     let name = name.to_ascii_lowercase();
     let ends_so = |end: &str| name.strip_suffix(end).is_some_and(|stem| stem.ends_with('.'));
     // The longest ending is the most specific: `.net.xml` is no `.xml`.
     let others = KINDS.iter().flat_map(|kind| kind.ends).copied().chain(ends.iter().copied());
     let said = others.filter(|end| ends_so(end)).max_by_key(|end| end.len());
-    if let Some(end) = said.filter(|_| !kind.ends.iter().any(|end| ends_so(end))) {
-        detail.push_str(&format!(" (its name ends in .{end}, its content is something else)"));
-    }
-    Some(FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into())
+    let message = match said.filter(|_| !kind.ends.iter().any(|end| ends_so(end))) {
+        Some(end) => refusals::other_kind_named(kind.what, kind.instead, end),
+        None => refusals::other_kind(kind.what, kind.instead),
+    };
+    Some(FieldProblem::new("", code::FORMAT_UNKNOWN, message).into())
 }
 
 #[cfg(test)]

@@ -4,10 +4,12 @@ use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one_scene, only, only_read,
 };
 use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::refusals;
 use crate::repairs::{self, checked};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::map::LaneMap;
+use scene::message::Message;
 use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
 use std::collections::BTreeMap;
 use std::io;
@@ -116,7 +118,6 @@ pub(crate) fn is_too_wide(half: Vec2) -> bool {
 }
 
 /// Size of the map and the limit, for a refusal.
-pub(crate) fn extent(half: Vec2) -> String {
-    let (width, height) = (2.0 * half.x, 2.0 * half.y);
-    format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle")
+pub(crate) fn extent(half: Vec2) -> Message {
+    refusals::map_too_wide(2.0 * half.x, 2.0 * half.y, MAX_COORDINATE_M)
 }

@@ -3,6 +3,7 @@
 
 use crate::encoding::Utf8;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
+use crate::refusals::{found_expected, quoted, tag, wanted, what};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Scanner, XmlEvent};
@@ -75,9 +76,7 @@ pub(crate) fn each(
         match (depth, element.name.as_str(), &mut item) {
             (1, "osm", _) => {}
             (1, ..) => {
-                let found: String = element.name.chars().take(40).collect();
-                let detail = format!("expected <osm>, found <{found}>");
-                return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+                return Err(ReadError::other_content(found_expected(tag(&element.name), "<osm>")));
             }
             (2, "node", _) => item = begun("node", &element)?,
             (2, "way", _) => item = begun("way", &element)?,
@@ -92,7 +91,7 @@ pub(crate) fn each(
             }
             (3, "nd", Some(item)) => {
                 item.nodes.push(id(&element, "ref")?);
-                at_most(item.nodes.len(), MAX_REFERENCES, "points of a way")?;
+                at_most(item.nodes.len(), MAX_REFERENCES, what::WAY_POINTS)?;
             }
             (3, "member", Some(item)) => {
                 let text = |name| element.get(name).unwrap_or_default().to_owned();
@@ -101,7 +100,7 @@ pub(crate) fn each(
                     id: id(&element, "ref")?,
                     role: text("role"),
                 });
-                at_most(item.members.len(), MAX_REFERENCES, "members of a relation")?;
+                at_most(item.members.len(), MAX_REFERENCES, what::MEMBERS)?;
             }
             _ => {}
         }
@@ -159,8 +158,7 @@ fn begun(kind: &'static str, element: &Element) -> Result<Option<OsmElement>, Re
 fn id(element: &Element, attribute: &'static str) -> Result<i64, ReadError> {
     let text = element.required(attribute)?;
     text.parse().map_err(|_| {
-        let found: String = text.chars().take(40).collect();
-        let detail = format!("line {}: \"{found}\" found where an id was expected", element.line);
-        FieldProblem::new("", code::INVALID_FIELD, detail).into()
+        let message = found_expected(quoted(text), wanted::ID_NUMBER).at_line(element.line);
+        FieldProblem::new("", code::INVALID_FIELD, message).into()
     })
 }

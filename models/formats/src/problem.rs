@@ -1,7 +1,9 @@
 //! Faults of outside data, in one shape for every format.
 
+use crate::refusals::wanted;
 use crate::sentences;
-use scene::message::Message;
+use scene::message::{Message, Word};
+use scene::sentences::{expected, more_than, out_of_range};
 use scene::{Scene, SceneError};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
@@ -79,7 +81,7 @@ pub struct FieldProblem {
     pub pointer: String,
     /// A word that programs can switch on.
     pub code: &'static str,
-    /// Value found and value expected, for people.
+    /// Value found and value expected, in English.
     pub detail: String,
     /// Least value allowed, where that is the fault.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,44 +92,37 @@ pub struct FieldProblem {
     /// The value found, where it is a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub got: Option<f64>,
-    /// The fault as data, where it has a sentence of its own.
+    /// The fault as data; faults outside of bodies and files may have none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<Box<Message>>,
 }
 
 impl FieldProblem {
     /// A fault without a range.
-    pub fn new(pointer: impl Into<String>, code: &'static str, detail: impl Into<String>) -> Self {
+    pub fn new(pointer: impl Into<String>, code: &'static str, message: Message) -> Self {
         Self {
             pointer: pointer.into(),
             code,
-            detail: detail.into(),
+            detail: message.english.clone(),
             min: None,
             max: None,
             got: None,
-            message: None,
+            message: Some(Box::new(message)),
         }
-    }
-
-    /// A fault with its sentence as data.
-    pub fn of(pointer: impl Into<String>, code: &'static str, message: Message) -> Self {
-        let detail = message.to_string();
-        Self { message: Some(Box::new(message)), ..Self::new(pointer, code, detail) }
     }
 
     /// A number outside `min..=max`.
     pub fn range(pointer: impl Into<String>, min: f64, max: f64, got: f64) -> Self {
-        // A number with hundreds of digits is unreadable.
-        let found = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
-        let detail = format!("{found} found, {min} to {max} expected");
+        Self::range_of(pointer, min, max, got, out_of_range(got, min, max))
+    }
+
+    /// A number outside `min..=max`, in a sentence of its own.
+    pub fn range_of(pointer: impl Into<String>, min: f64, max: f64, got: f64, message: Message) -> Self {
         Self {
-            pointer: pointer.into(),
-            code: code::OUT_OF_RANGE,
-            detail,
             min: Some(min),
             max: Some(max),
             got: Some(got),
-            message: None,
+            ..Self::new(pointer, code::OUT_OF_RANGE, message)
         }
     }
 }
@@ -140,7 +135,7 @@ impl fmt::Display for FieldProblem {
 
 impl From<SceneError> for FieldProblem {
     fn from(error: SceneError) -> Self {
-        Self { message: error.message.map(Box::new), ..Self::new(error.at, error.code, error.reason) }
+        Self::new(error.at, error.code, error.message)
     }
 }
 
@@ -181,22 +176,22 @@ impl ReadError {
     /// A refusal of readable data.
     pub fn invalid(mut problems: Vec<FieldProblem>) -> Self {
         if problems.is_empty() {
-            problems.push(FieldProblem::new("", code::INVALID_FIELD, "not a scene"));
+            problems.push(FieldProblem::new("", code::INVALID_FIELD, expected(wanted::SCENE)));
         }
         problems.truncate(MAX_PROBLEMS);
         Self { kind: RefusalKind::Invalid, problems }
     }
 
     /// A broken binary file.
-    pub fn malformed(offset: u64, detail: impl Into<String>) -> Self {
-        let problem = FieldProblem::new("", code::MALFORMED_FILE, detail);
+    pub fn malformed(offset: u64, message: Message) -> Self {
+        let problem = FieldProblem::new("", code::MALFORMED_FILE, message);
         Self { kind: RefusalKind::MalformedFile { offset }, problems: vec![problem] }
     }
 
     /// Text that is not JSON, as the parser found it.
     pub fn malformed_json(error: &serde_json::Error, detail: impl Into<String>) -> Self {
         let message = sentences::json_syntax(sentences::json_fault::of(error));
-        let mut problem = FieldProblem::of("", code::MALFORMED_JSON, message);
+        let mut problem = FieldProblem::new("", code::MALFORMED_JSON, message);
         // The parser's words say more than the sentence.
         problem.detail = detail.into();
         Self {
@@ -206,8 +201,18 @@ impl ReadError {
     }
 
     /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.
-    pub fn too_large(code: &'static str, limit: u64, detail: impl Into<String>) -> Self {
-        Self { kind: RefusalKind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, detail)] }
+    pub fn too_large(code: &'static str, limit: u64, message: Message) -> Self {
+        Self { kind: RefusalKind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, message)] }
+    }
+
+    /// A file that holds something else than its format has.
+    pub fn other_content(message: Message) -> Self {
+        FieldProblem::new("", code::CANNOT_REPRESENT, message).into()
+    }
+
+    /// A file that holds more of a map than a scene can.
+    pub fn map_too_large(message: Message) -> Self {
+        FieldProblem::new("", code::MAP_TOO_LARGE, message).into()
     }
 
     /// The code that names the whole refusal: that of the first fault.
@@ -283,8 +288,8 @@ impl Problems {
     }
 
     /// Keeps an `invalid-field` fault.
-    pub fn invalid(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
-        self.push(FieldProblem::new(pointer, code::INVALID_FIELD, detail));
+    pub fn invalid(&mut self, pointer: impl Into<String>, message: Message) {
+        self.push(FieldProblem::new(pointer, code::INVALID_FIELD, message));
     }
 
     /// Checks a number against its range; anything not within it (NaN too) is a fault.
@@ -298,9 +303,6 @@ impl Problems {
 }
 
 /// Nothing, unless a map has more of something than is read.
-pub(crate) fn at_most(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
-    if count > most {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, format!("more than {most} {what}")).into());
-    }
-    Ok(())
+pub(crate) fn at_most(count: usize, most: usize, what: Word) -> Result<(), ReadError> {
+    if count > most { Err(ReadError::map_too_large(more_than(most, what))) } else { Ok(()) }
 }

@@ -187,7 +187,7 @@ fn called(file: &str, info: &Info) -> String {
 /// `format-unknown`.
 pub fn unknown() -> ReadError {
     let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
-    FieldProblem::of("", code::FORMAT_UNKNOWN, sentences::not_a_known_format(&known.join(", "))).into()
+    FieldProblem::new("", code::FORMAT_UNKNOWN, sentences::not_a_known_format(&known.join(", "))).into()
 }
 
 /// Loss codes as the header `Dragtraffic-Loss` lists them.

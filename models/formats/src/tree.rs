@@ -1,7 +1,9 @@
 //! XML elements with their content, one at a time, for formats whose files are lists of small elements.
 
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, shown, wanted, what};
 use crate::xml::{Element, Missing, Scanner, XmlEvent};
+use scene::message::Word;
 use std::io::BufRead;
 
 /// Most elements in one, and most bytes of their names, attributes and texts.
@@ -52,10 +54,10 @@ impl XmlNode {
                     }
                 }
             }
-            if nodes > MAX_NODES || bytes > MAX_BYTES {
-                let detail =
-                    format!("line {line}: an element with more than {MAX_NODES} others or {MAX_BYTES} bytes");
-                return Err(FieldProblem::new("", code::OUT_OF_RANGE, detail).into());
+            let counts = [(nodes, MAX_NODES, what::NESTED), (bytes, MAX_BYTES, what::BYTES)];
+            if let Some((most, what)) = refusals::exceeded(&counts) {
+                let message = refusals::more_than(most, what).at_line(line);
+                return Err(FieldProblem::new("", code::OUT_OF_RANGE, message).into());
             }
         }
         // The scanner reports what is left open.
@@ -87,8 +89,8 @@ impl XmlNode {
     /// # Errors
     /// `invalid-field` when there is none.
     pub fn required(&self, name: &str) -> Result<&Self, ReadError> {
-        let detail = || format!("line {}: <{}> has no <{name}>", self.element.line, shown(self.name()));
-        self.child(name).ok_or_else(|| FieldProblem::new("", code::INVALID_FIELD, detail()).into())
+        let missing = || refusals::element_lacks_child(&shown(self.name()), name).at_line(self.element.line);
+        self.child(name).ok_or_else(|| FieldProblem::new("", code::INVALID_FIELD, missing()).into())
     }
 
     /// Its text as a finite number.
@@ -97,7 +99,7 @@ impl XmlNode {
     /// `invalid-field`.
     pub fn number(&self) -> Result<f64, ReadError> {
         let number = self.text.parse().ok().filter(|v: &f64| v.is_finite());
-        number.ok_or_else(|| self.wrong(&self.text, "a number"))
+        number.ok_or_else(|| self.wrong(&self.text, wanted::NUMBER))
     }
 
     /// An attribute as a whole number.
@@ -106,19 +108,14 @@ impl XmlNode {
     /// `invalid-field`.
     pub fn whole(&self, attribute: &'static str) -> Result<i64, ReadError> {
         let text = self.element.required(attribute).map_err(|missing: Missing| ReadError::from(missing))?;
-        text.trim().parse().map_err(|_| self.wrong(text, "a whole number"))
+        text.trim().parse().map_err(|_| self.wrong(text, wanted::WHOLE))
     }
 
     /// Refusal with the value found and the value expected.
-    pub fn wrong(&self, found: &str, expected: &str) -> ReadError {
-        let (line, name, found) = (self.element.line, shown(self.name()), shown(found));
-        let detail = format!("line {line}: \"{found}\" found in <{name}>, {expected} expected");
-        FieldProblem::new("", code::INVALID_FIELD, detail).into()
+    pub fn wrong(&self, found: &str, expected: Word) -> ReadError {
+        let message = refusals::found_in_element(&shown(found), &shown(self.name()), expected);
+        FieldProblem::new("", code::INVALID_FIELD, message.at_line(self.element.line)).into()
     }
-}
-
-fn shown(text: &str) -> String {
-    text.chars().take(40).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use crate::limits::MAX_EXPANSION;
 use crate::problem::{ReadError, code};
+use crate::refusals::{self, more_than, what};
 use flate2::read::MultiGzDecoder;
+use scene::message::Message;
 use std::io::{self, BufReader, Read};
 
 /// The expansion ratio is checked after this many decoded bytes.
@@ -28,16 +30,16 @@ impl Bounds {
 
 /// A bound that was met while decoding; travels inside an `io::Error`.
 #[derive(Debug, thiserror::Error)]
-#[error("{detail}")]
+#[error("{message}")]
 struct Excess {
     code: &'static str,
     limit: u64,
-    detail: String,
+    message: Message,
 }
 
 /// A bound that was met, for [`fault`].
-pub(crate) fn excess(code: &'static str, limit: u64, detail: String) -> io::Error {
-    io::Error::other(Excess { code, limit, detail })
+pub(crate) fn excess(code: &'static str, limit: u64, message: Message) -> io::Error {
+    io::Error::other(Excess { code, limit, message })
 }
 
 /// Counts what goes through.
@@ -81,14 +83,12 @@ impl<R: Read> Read for Unpacked<R> {
         self.decoded += n as u64;
         if self.decoded > self.bounds.decoded {
             let limit = self.bounds.decoded;
-            let detail = format!("more than {limit} bytes once decompressed");
-            return Err(excess(code::DECODED_TOO_LARGE, limit, detail));
+            return Err(excess(code::DECODED_TOO_LARGE, limit, more_than(limit, what::DECODED_BYTES)));
         }
         let Inner::Gzip(inner) = &self.inner else { return Ok(n) };
         let limit = self.bounds.expansion;
         if self.decoded > RATIO_FROM && self.decoded / inner.get_ref().count.max(1) > limit {
-            let detail = format!("decompresses to more than {limit} times its size");
-            return Err(excess(code::EXPANSION_TOO_HIGH, limit, detail));
+            return Err(excess(code::EXPANSION_TOO_HIGH, limit, refusals::inflates_too_much(limit)));
         }
         Ok(n)
     }
@@ -126,7 +126,7 @@ pub(crate) fn head(input: impl Read) -> Vec<u8> {
 /// A fault of [`open`] or its reader, `offset` decoded bytes into the file.
 pub(crate) fn fault(error: &io::Error, offset: u64) -> ReadError {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Excess>()) {
-        Some(excess) => ReadError::too_large(excess.code, excess.limit, excess.detail.clone()),
-        None => ReadError::malformed(offset, format!("cannot decompress or read: {error}")),
+        Some(excess) => ReadError::too_large(excess.code, excess.limit, excess.message.clone()),
+        None => ReadError::malformed(offset, refusals::cannot_decompress(&error.to_string())),
     }
 }

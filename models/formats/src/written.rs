@@ -1,10 +1,11 @@
 //! Files on their way out, bounded in bytes.
 
+use crate::refusals;
 use std::io;
 
 /// Refusal of a file of more than `most` bytes.
 pub(crate) fn too_long(bytes: u64, most: u64) -> io::Error {
-    io::Error::new(io::ErrorKind::FileTooLarge, format!("the file has {bytes} bytes or more; at most {most}"))
+    io::Error::new(io::ErrorKind::FileTooLarge, refusals::file_too_long(bytes, most))
 }
 
 /// Whether an export failed because its file would be longer than it may be.

@@ -13,7 +13,9 @@
 
 use crate::encoding::Utf8;
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, found_expected, quoted, shown, tag, wanted, what};
 use crate::unpack;
+use scene::message::{Message, Word};
 use std::io::{self, BufRead};
 
 /// Deepest nesting that is read; a map has about ten levels.
@@ -59,7 +61,8 @@ pub struct Missing {
 
 impl From<Missing> for ReadError {
     fn from(missing: Missing) -> Self {
-        FieldProblem::new("", code::INVALID_FIELD, missing.to_string()).into()
+        let message = refusals::element_lacks_attribute(&missing.element, missing.attribute);
+        FieldProblem::new("", code::INVALID_FIELD, message.at_line(missing.line)).into()
     }
 }
 
@@ -126,8 +129,8 @@ impl<R: BufRead> Scanner<R> {
                 self.tag.clear();
                 if !self.until(b'<', self.texts && !self.open.is_empty())? {
                     return match self.open.last() {
-                        Some(name) => Err(self.wrong(format!("the file ends inside <{}>", shown(name)))),
-                        None if !self.seen_root => Err(self.wrong("no XML element in the file".into())),
+                        Some(name) => Err(self.wrong(refusals::file_ends_inside(tag(name)))),
+                        None if !self.seen_root => Err(self.wrong(refusals::file_has_no(what::XML_ELEMENT))),
                         None => Ok(None),
                     };
                 }
@@ -141,7 +144,7 @@ impl<R: BufRead> Scanner<R> {
             self.until_tag_end(start, line)?;
             let result = match self.tag.first() {
                 Some(b'!') if self.tag.starts_with(CDATA) => {
-                    match self.character_data().map_err(|detail| at(start, line, &detail))? {
+                    match self.character_data().map_err(|fault| at(start, line, fault))? {
                         Some(text) => return Ok(Some(XmlEvent::Text(text))),
                         None => continue,
                     }
@@ -150,12 +153,12 @@ impl<R: BufRead> Scanner<R> {
                 Some(b'/') => self.end(),
                 _ => self.start(line),
             };
-            return result.map(Some).map_err(|detail| at(start, line, &detail));
+            return result.map(Some).map_err(|fault| at(start, line, fault));
         }
     }
 
-    fn wrong(&self, detail: String) -> ReadError {
-        at(self.offset, self.line, &detail)
+    fn wrong(&self, fault: Message) -> ReadError {
+        at(self.offset, self.line, fault)
     }
 
     /// Skips everything up to and including `byte`, and appends it to `self.tag` if `keep`. False at the end
@@ -186,7 +189,7 @@ impl<R: BufRead> Scanner<R> {
                     self.tag.drain(3..self.tag.len() - 2);
                     continue;
                 }
-                return Err(self.wrong(format!("a tag of more than {} bytes", self.max_tag)));
+                return Err(self.wrong(refusals::more_than(self.max_tag, what::TAG_BYTES)));
             }
         }
     }
@@ -197,19 +200,18 @@ impl<R: BufRead> Scanner<R> {
         if bytes.is_empty() {
             return Ok(None);
         }
-        let text = std::str::from_utf8(bytes).map_err(|_| "text that is not UTF-8".to_owned());
-        text.and_then(unescaped).map(Some).map_err(|detail| self.wrong(detail))
+        let text = utf8(bytes, what::TEXT);
+        text.and_then(unescaped).map(Some).map_err(|fault| self.wrong(fault))
     }
 
     /// Content of a CDATA section, if the caller requested texts.
-    fn character_data(&self) -> Result<Option<String>, String> {
+    fn character_data(&self) -> Result<Option<String>, Message> {
         let bytes = self.tag.strip_prefix(CDATA).and_then(|rest| rest.strip_suffix(b"]]>"));
         let bytes = bytes.unwrap_or_default().trim_ascii();
         if !self.texts || self.open.is_empty() || bytes.is_empty() {
             return Ok(None);
         }
-        let text = std::str::from_utf8(bytes).map_err(|_| "text that is not UTF-8".to_owned())?;
-        Ok(Some(text.to_owned()))
+        Ok(Some(utf8(bytes, what::TEXT)?.to_owned()))
     }
 
     /// Reads to the `>` that ends the tag: not one in a quoted value, nor one in a comment.
@@ -218,10 +220,10 @@ impl<R: BufRead> Scanner<R> {
         let mut checked = 0;
         loop {
             if !self.until(b'>', true)? {
-                return Err(at(start, line, "the file ends within a tag"));
+                return Err(at(start, line, refusals::file_ends_inside(what::TAG)));
             }
             if self.tag.len() > self.max_tag {
-                return Err(at(start, line, &format!("a tag of more than {} bytes", self.max_tag)));
+                return Err(at(start, line, refusals::more_than(self.max_tag, what::TAG_BYTES)));
             }
             if self.tag.starts_with(b"!--") {
                 // Comments may be of any length: only their last bytes are needed.
@@ -244,7 +246,7 @@ impl<R: BufRead> Scanner<R> {
                 continue;
             }
             if self.tag.first() == Some(&b'!') {
-                return Err(at(start, line, "a document type definition; none is read"));
+                return Err(at(start, line, refusals::not_read(what::DOCTYPE)));
             }
             if self.tag.first() == Some(&b'?') {
                 if self.tag.ends_with(b"?>") {
@@ -266,18 +268,18 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
-    fn end(&mut self) -> Result<XmlEvent, String> {
-        let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
+    fn end(&mut self) -> Result<XmlEvent, Message> {
+        let text = utf8(&self.tag, what::TAG)?;
         let name = text.trim_start_matches('/').trim_end_matches('>').trim_end();
         match self.open.pop() {
             Some(open) if open == name => Ok(XmlEvent::End),
-            Some(open) => Err(format!("</{}> found, </{}> expected", shown(name), shown(&open))),
-            None => Err(format!("</{}> found where nothing is open", shown(name))),
+            Some(open) => Err(found_expected(end_tag(name), end_tag(&open))),
+            None => Err(found_expected(end_tag(name), wanted::START_TAG)),
         }
     }
 
-    fn start(&mut self, line: u32) -> Result<XmlEvent, String> {
-        let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
+    fn start(&mut self, line: u32) -> Result<XmlEvent, Message> {
+        let text = utf8(&self.tag, what::TAG)?;
         let text = text.trim_end_matches('>');
         let (text, empty) = match text.strip_suffix('/') {
             Some(rest) => (rest, true),
@@ -286,13 +288,13 @@ impl<R: BufRead> Scanner<R> {
         let split = text.find(char::is_whitespace).unwrap_or(text.len());
         let (name, mut rest) = text.split_at(split);
         if !is_name(name) {
-            return Err(format!("\"<{}\" found, an element expected", shown(name)));
+            return Err(found_expected(quoted(&format!("<{name}")), wanted::ELEMENT));
         }
         if self.open.is_empty() && self.seen_root {
-            return Err(format!("<{}> after the end of the document", shown(name)));
+            return Err(found_expected(tag(name), wanted::ROOT_END));
         }
         if self.open.len() >= MAX_DEPTH {
-            return Err(format!("elements nested deeper than {MAX_DEPTH}"));
+            return Err(refusals::nested_deeper(MAX_DEPTH));
         }
         let mut element = Element { name: name.to_owned(), attributes: Vec::new(), line };
         loop {
@@ -302,10 +304,10 @@ impl<R: BufRead> Scanner<R> {
             }
             let (attribute, after) = attribute(rest)?;
             if element.get(&attribute.0).is_some() {
-                return Err(format!("attribute \"{}\" appears twice", shown(&attribute.0)));
+                return Err(refusals::appears_twice(what::ATTRIBUTE, &shown(&attribute.0)));
             }
             if element.attributes.len() >= MAX_ATTRIBUTES {
-                return Err(format!("more than {MAX_ATTRIBUTES} attributes"));
+                return Err(refusals::more_than(MAX_ATTRIBUTES, what::ATTRIBUTES));
             }
             element.attributes.push(attribute);
             rest = after;
@@ -320,12 +322,16 @@ impl<R: BufRead> Scanner<R> {
     }
 }
 
-fn at(offset: u64, line: u32, detail: &str) -> ReadError {
-    ReadError::malformed(offset, format!("line {line}: {detail}"))
+fn at(offset: u64, line: u32, fault: Message) -> ReadError {
+    ReadError::malformed(offset, fault.at_line(line))
 }
 
-fn shown(text: &str) -> String {
-    text.chars().take(40).collect()
+fn end_tag(name: &str) -> String {
+    format!("</{}>", shown(name))
+}
+
+fn utf8(bytes: &[u8], what: Word) -> Result<&str, Message> {
+    std::str::from_utf8(bytes).map_err(|_| refusals::not_utf8(what))
 }
 
 fn is_name(text: &str) -> bool {
@@ -334,8 +340,8 @@ fn is_name(text: &str) -> bool {
 }
 
 /// One `name="value"` and what follows it.
-fn attribute(text: &str) -> Result<((String, String), &str), String> {
-    let wrong = || format!("\"{}\" found, an attribute such as x=\"1.5\" expected", shown(text));
+fn attribute(text: &str) -> Result<((String, String), &str), Message> {
+    let wrong = || found_expected(quoted(text), wanted::ATTRIBUTE);
     let (name, rest) = text.split_once('=').ok_or_else(wrong)?;
     let (name, rest) = (name.trim_end(), rest.trim_start());
     let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\'')).ok_or_else(wrong)?;
@@ -348,13 +354,13 @@ fn attribute(text: &str) -> Result<((String, String), &str), String> {
 }
 
 /// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows.
-fn unescaped(value: &str) -> Result<String, String> {
+fn unescaped(value: &str) -> Result<String, Message> {
     let mut text = String::with_capacity(value.len());
     let mut rest = value;
     while let Some((before, after)) = rest.split_once('&') {
         text.push_str(before);
-        let wrong =
-            || format!("reference \"&{}\" is not known", shown(after).split(';').next().unwrap_or(""));
+        let name = || format!("&{}", after.split(';').next().unwrap_or_default());
+        let wrong = || found_expected(quoted(&name()), wanted::REFERENCE);
         let (name, after) = after.split_once(';').ok_or_else(wrong)?;
         let number = name.strip_prefix('#').map(|n| match n.strip_prefix('x') {
             Some(hex) => u32::from_str_radix(hex, 16),

@@ -42,6 +42,19 @@ impl Message {
     }
 }
 
+impl Message {
+    /// The same sentence about a line of a text file, from 1.
+    #[must_use]
+    pub fn at_line(mut self, line: impl Into<u64>) -> Self {
+        let line = line.into();
+        self.values.insert("line", MessageValue::Number(line as f64));
+        self.english.insert_str(0, &format!("line {line}: "));
+        self
+    }
+}
+
+impl std::error::Error for Message {}
+
 impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.english)
@@ -80,9 +93,27 @@ impl Placeholder for usize {
     }
 }
 
-impl Placeholder for &str {
+impl Placeholder for u64 {
     fn value(&self) -> Option<MessageValue> {
-        Some(MessageValue::Text((*self).to_owned()))
+        Some(MessageValue::Number(*self as f64))
+    }
+}
+
+impl Placeholder for str {
+    fn value(&self) -> Option<MessageValue> {
+        Some(MessageValue::Text(self.to_owned()))
+    }
+}
+
+impl Placeholder for String {
+    fn value(&self) -> Option<MessageValue> {
+        self.as_str().value()
+    }
+}
+
+impl<T: Placeholder + ?Sized> Placeholder for &T {
+    fn value(&self) -> Option<MessageValue> {
+        (**self).value()
     }
 }
 
@@ -136,6 +167,20 @@ macro_rules! messages {
     };
 }
 
+/// Declares the words of a list, which stand in documents as they are in English, and its table `WORDS`.
+#[macro_export]
+macro_rules! words {
+    ($($name:ident = $english:literal;)*) => {
+        $(
+            #[doc = $english]
+            pub const $name: $crate::message::Word =
+                $crate::message::Word { code: $english, english: $english };
+        )*
+        /// All words of this list.
+        pub const WORDS: &[&str] = &[$($english),*];
+    };
+}
+
 #[cfg(test)]
 mod tests {
     use super::{MessageValue, Word};
@@ -163,6 +208,13 @@ mod tests {
         let message = turns(Word { code: "bus", english: "12 m bus" });
         assert_eq!(message.english, "A 12 m bus can turn");
         assert_eq!(message.values["vehicle"], MessageValue::Text("bus".into()));
+    }
+
+    #[test]
+    fn a_sentence_about_a_line_has_its_number() {
+        let message = lanes_lead().at_line(7_u32);
+        assert_eq!(message.english, "line 7: Every lane leads somewhere");
+        assert_eq!(message.values["line"], MessageValue::Number(7.0));
     }
 
     #[test]

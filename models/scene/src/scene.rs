@@ -2,7 +2,7 @@
 
 use crate::geometry::crowding::Crowding;
 use crate::message::Message;
-use crate::sentences;
+use crate::sentences::{self, wanted, what};
 use crate::{
     Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2,
 };
@@ -125,7 +125,7 @@ pub struct Scene {
 
 /// Why a set of values is not a scene. `at` is a JSON pointer into the native form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{at}: {reason}")]
+#[error("{at}: {message}")]
 pub struct SceneError {
     /// Where.
     pub at: String,
@@ -133,20 +133,13 @@ pub struct SceneError {
     /// `invalid-field`.
     pub code: &'static str,
     /// What was found and what was expected.
-    pub reason: String,
-    /// The same as data, where it has a sentence of its own.
-    pub message: Option<Message>,
+    pub message: Message,
 }
 
 impl SceneError {
     /// A problem at a JSON pointer.
-    pub fn new(at: impl Into<String>, code: &'static str, reason: impl Into<String>) -> Self {
-        Self { at: at.into(), code, reason: reason.into(), message: None }
-    }
-
-    /// A problem with its sentence as data.
-    pub fn of(at: impl Into<String>, code: &'static str, message: Message) -> Self {
-        Self { at: at.into(), code, reason: message.to_string(), message: Some(message) }
+    pub fn new(at: impl Into<String>, code: &'static str, message: Message) -> Self {
+        Self { at: at.into(), code, message }
     }
 }
 
@@ -225,20 +218,21 @@ impl Scene {
         for (at, text, most) in words {
             let count = text.chars().count();
             if count > most {
-                let reason = format!("{count} characters; at most {most}");
-                problems.push(SceneError::new(at, "out-of-range", reason));
+                let message = sentences::at_most(count, what::CHARACTERS, most);
+                problems.push(SceneError::new(at, "out-of-range", message));
             }
         }
     }
 
     fn check_time(&self, problems: &mut Vec<SceneError>) {
         if self.time.steps == 0 || self.time.steps > MAX_STEPS {
-            let reason = format!("{} steps; a scene has 1 to {MAX_STEPS}", self.time.steps);
-            problems.push(SceneError::new("/time/steps", "out-of-range", reason));
+            let message = sentences::out_of_range(self.time.steps as f64, 1.0, MAX_STEPS as f64);
+            problems.push(SceneError::new("/time/steps", "out-of-range", message));
         }
-        if self.time.now_step >= self.time.steps.max(1) {
-            let reason = format!("step {} of {}", self.time.now_step, self.time.steps);
-            problems.push(SceneError::new("/time/now_step", "out-of-range", reason));
+        let last_step = self.time.steps.max(1) - 1;
+        if self.time.now_step > last_step {
+            let message = sentences::out_of_range(self.time.now_step as f64, 0.0, last_step as f64);
+            problems.push(SceneError::new("/time/now_step", "out-of-range", message));
         }
     }
 
@@ -261,8 +255,8 @@ impl Scene {
             let bad_width = lane.width_m.is_some_and(|w| !(0.1..=50.0).contains(&w));
             let bad_limit = lane.speed_limit_mps.is_some_and(|v| !(0.0..=100.0).contains(&v));
             if bad_width || bad_limit {
-                let reason = "width 0.1 to 50 m and speed limit 0 to 100 m/s expected";
-                problems.push(SceneError::new(format!("/map/lanes/{i}"), "out-of-range", reason));
+                let message = sentences::expected(wanted::LANE_RANGES);
+                problems.push(SceneError::new(format!("/map/lanes/{i}"), "out-of-range", message));
             }
         }
         for (kind, list) in lines {
@@ -283,11 +277,8 @@ impl Scene {
             check_points(&format!("/map/stop_signs/{i}/position_m"), &[sign.position], 1, problems);
         }
         if total.0 > MAX_POLYLINES || total.1 > MAX_MAP_POINTS {
-            let reason = format!(
-                "{} polylines with {} points; at most {MAX_POLYLINES} with {MAX_MAP_POINTS}",
-                total.0, total.1
-            );
-            problems.push(SceneError::new("/map", "map-too-large", reason));
+            let message = sentences::map_over_limit(total.0, total.1, MAX_POLYLINES, MAX_MAP_POINTS);
+            problems.push(SceneError::new("/map", "map-too-large", message));
         }
         let lane_ids = map.lanes.iter().map(|l| &l.id);
         check_ids("/map/lanes", lane_ids, problems);
@@ -306,8 +297,8 @@ impl Scene {
         let mut check = |at: &dyn Fn() -> String, count: usize, problems: &mut Vec<SceneError>| {
             links += count;
             if count > MAX_LANE_LINKS {
-                let reason = format!("{count} links; at most {MAX_LANE_LINKS}");
-                problems.push(SceneError::new(at(), "map-too-complex", reason));
+                let message = sentences::at_most(count, what::LINKS, MAX_LANE_LINKS);
+                problems.push(SceneError::new(at(), "map-too-complex", message));
             }
         };
         for (i, lane) in map.lanes.iter().enumerate() {
@@ -336,34 +327,34 @@ impl Scene {
             check(&|| format!("/map/stop_signs/{i}/lanes"), sign.lanes.len(), problems);
         }
         if links > MAX_MAP_LINKS {
-            let reason = format!("{links} links of lanes; at most {MAX_MAP_LINKS}");
-            problems.push(SceneError::new("/map/lanes", "map-too-complex", reason));
+            let message = sentences::at_most(links, what::LANE_LINKS, MAX_MAP_LINKS);
+            problems.push(SceneError::new("/map/lanes", "map-too-complex", message));
         }
         let rings = map.outlines().filter(|(_, closed)| *closed);
         let corners: usize = rings.map(|(ring, _)| ring.len()).sum();
         if corners > MAX_AREA_CORNERS {
-            let reason = format!("{corners} corners of areas; at most {MAX_AREA_CORNERS}");
-            problems.push(SceneError::new("/map", "map-too-complex", reason));
+            let message = sentences::at_most(corners, what::AREA_CORNERS, MAX_AREA_CORNERS);
+            problems.push(SceneError::new("/map", "map-too-complex", message));
         }
         // Only of places that are numbers within their bounds.
         if problems.is_empty()
-            && let Some(reason) = Crowding::of(map.outlines()).excess()
+            && let Some(message) = Crowding::of(map.outlines()).excess()
         {
-            problems.push(SceneError::new("/map", "map-too-complex", reason));
+            problems.push(SceneError::new("/map", "map-too-complex", message));
         }
     }
 
     fn check_signals(&self, problems: &mut Vec<SceneError>) {
         if self.signals.len() > MAX_SIGNALS {
-            let reason = format!("{} signals; at most {MAX_SIGNALS}", self.signals.len());
-            problems.push(SceneError::new("/signals", "map-too-large", reason));
+            let message = sentences::at_most(self.signals.len(), what::SIGNALS, MAX_SIGNALS);
+            problems.push(SceneError::new("/signals", "map-too-large", message));
         }
         for (i, signal) in self.signals.iter().enumerate() {
             let rising = signal.runs.windows(2).all(|w| w[0].0 < w[1].0);
             let inside = signal.runs.last().is_some_and(|r| r.0 < self.time.steps);
             if !rising || !inside {
-                let reason = "first steps must rise and lie within the scene; at least one run";
-                problems.push(SceneError::new(format!("/signals/{i}/states"), "invalid-field", reason));
+                let message = sentences::expected(wanted::RUNS);
+                problems.push(SceneError::new(format!("/signals/{i}/states"), "invalid-field", message));
             }
             if let Some(stop) = signal.stop {
                 check_points(&format!("/signals/{i}/stop_m"), &[stop], 1, problems);
@@ -374,7 +365,7 @@ impl Scene {
     fn check_agents(&self, problems: &mut Vec<SceneError>) {
         if self.agents.len() > MAX_AGENTS {
             let message = sentences::agents_over_limit(self.agents.len(), MAX_AGENTS);
-            problems.push(SceneError::of("/agents", "too-many-agents", message));
+            problems.push(SceneError::new("/agents", "too-many-agents", message));
         }
         check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
         for (i, agent) in self.agents.iter().enumerate() {
@@ -382,29 +373,23 @@ impl Scene {
             if size.iter().any(|v| !(0.05..=60.0).contains(v))
                 || agent.size.height_m.is_some_and(|h| !(0.0..=60.0).contains(&h))
             {
-                let reason = format!("size {} x {} m; 0.05 to 60 m expected", size[0], size[1]);
-                problems.push(SceneError::new(format!("/agents/{i}/length_m"), "out-of-range", reason));
+                let found = format!("{} m x {} m", size[0], size[1]);
+                let message = sentences::outside(&found, "0.05 m", "60 m");
+                problems.push(SceneError::new(format!("/agents/{i}/length_m"), "out-of-range", message));
             }
             let track = &agent.track;
-            if track.first_step + track.states.len() > self.time.steps {
-                let reason = format!(
-                    "track ends after step {}, the scene has {}",
-                    track.first_step + track.states.len(),
-                    self.time.steps
-                );
-                problems.push(SceneError::new(format!("/agents/{i}/track"), "invalid-field", reason));
+            let end = track.first_step + track.states.len();
+            if end > self.time.steps {
+                let message = sentences::track_beyond_scene(end, self.time.steps);
+                problems.push(SceneError::new(format!("/agents/{i}/track"), "invalid-field", message));
             }
             for k in agent.conditions.unknown_edges(&self.map) {
                 let at = format!("/agents/{i}/conditions/goal/may_cross/{k}");
-                problems.push(SceneError::new(
-                    at,
-                    "invalid-field",
-                    "the id of a road edge of the map expected",
-                ));
+                problems.push(SceneError::new(at, "invalid-field", sentences::expected(wanted::ROAD_EDGE)));
             }
             if track.z_m.as_ref().is_some_and(|z| z.len() != track.states.len()) {
-                let reason = "z_m must be as long as x_m";
-                problems.push(SceneError::new(format!("/agents/{i}/track/z_m"), "invalid-field", reason));
+                let message = sentences::expected(wanted::AS_LONG_AS_X);
+                problems.push(SceneError::new(format!("/agents/{i}/track/z_m"), "invalid-field", message));
             }
             let bad = track.states.iter().flatten().position(|s| {
                 let far = s.x_m.abs() > MAX_COORDINATE_M || s.y_m.abs() > MAX_COORDINATE_M;
@@ -412,9 +397,8 @@ impl Scene {
                 far || values.iter().any(|v| !v.is_finite()) || s.velocity().norm() > 150.0
             });
             if let Some(step) = bad {
-                let reason =
-                    format!("state {step}: finite numbers within {MAX_COORDINATE_M} m and 150 m/s expected");
-                problems.push(SceneError::new(format!("/agents/{i}/track"), "out-of-range", reason));
+                let message = sentences::state_expected(step, wanted::STATE_RANGES);
+                problems.push(SceneError::new(format!("/agents/{i}/track"), "out-of-range", message));
             }
         }
     }
@@ -424,15 +408,13 @@ fn check_points(at: &str, points: &[Vec2], least: usize, problems: &mut Vec<Scen
     if points.len() < least || points.len() > MAX_POLYLINE_POINTS {
         let message = sentences::points_out_of_range(points.len(), least, MAX_POLYLINE_POINTS);
         let code = if points.len() < least { "invalid-field" } else { "map-too-large" };
-        problems.push(SceneError::of(at, code, message));
+        problems.push(SceneError::new(at, code, message));
     }
     let out = |p: &Vec2| !(p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M);
     if let Some(i) = points.iter().position(out) {
-        let reason = format!(
-            "point {i} is ({}, {}); finite and within {MAX_COORDINATE_M} m expected",
-            points[i].x, points[i].y
-        );
-        problems.push(SceneError::new(format!("{at}/{i}"), "out-of-range", reason));
+        let found = format!("({}, {})", points[i].x, points[i].y);
+        let message = sentences::found_expected(found, wanted::COORDINATES);
+        problems.push(SceneError::new(format!("{at}/{i}"), "out-of-range", message));
     }
 }
 
@@ -441,11 +423,11 @@ fn check_ids<'a>(at: &str, ids: impl Iterator<Item = &'a String>, problems: &mut
     for (i, id) in ids.enumerate() {
         let legal = |c: char| c.is_ascii_alphanumeric() || "_.:-".contains(c);
         if id.is_empty() || id.len() > 64 || !id.chars().all(legal) {
-            let reason = "1 to 64 of A-Z a-z 0-9 _ . : - expected";
-            problems.push(SceneError::new(format!("{at}/{i}/id"), "invalid-field", reason));
+            let message = sentences::expected(wanted::ID_CHARACTERS);
+            problems.push(SceneError::new(format!("{at}/{i}/id"), "invalid-field", message));
         } else if !seen.insert(id) {
-            let reason = format!("id \"{id}\" appears twice");
-            problems.push(SceneError::new(format!("{at}/{i}/id"), "duplicate", reason));
+            let message = sentences::appears_twice(what::ID, id);
+            problems.push(SceneError::new(format!("{at}/{i}/id"), "duplicate", message));
         }
         if problems.len() > 64 {
             return;

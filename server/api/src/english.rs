@@ -1,5 +1,24 @@
 //! The sentences of refused requests.
 
+/// Things that are counted in requests: the values `what` of sentences.
+pub mod what {
+    scene::words! {
+        ARMS = "arms";
+        ENTRIES = "entries";
+        PLACES = "places";
+        TRAITS = "traits";
+    }
+}
+
+/// The values `expected` of sentences.
+pub mod wanted {
+    scene::words! {
+        AREA = "a ring that encloses some area";
+        COLUMNS = "columns of equal length with at least one value";
+        ONE_RATE = "one rate for each arm";
+    }
+}
+
 scene::messages! {
     unknown_agent(id: &str) = "unknown-agent", "the scene has no road user \"{id}\"";
     not_asked(id: &str) =
@@ -17,11 +36,9 @@ scene::messages! {
     replan_interval(got: f64) = "replan-interval", "{got} s; null, 3, 6 or 9 expected";
     more_than_a_turn(got: &str, radians: &str) =
         "more-than-a-turn", "{got} rad is more than a turn; {got} degrees are {radians} rad";
-    unknown_edge() = "unknown-edge", "the id of a road edge of the map expected";
-    unequal_columns(count: usize, expected: usize) =
-        "unequal-columns",
-        [count] "{count} value, {expected} expected, as in x_m",
-        "{count} values, {expected} expected, as in x_m";
+    exactly_one(first: &str, second: &str) = "exactly-one", "exactly one of {first} and {second} is needed";
+    share_sum(sum: &str) = "share-sum", "the shares sum to {sum}; 1 expected";
+    empty_map() = "empty-map", "the map is empty: it has no place for a region";
     one_scene() = "one-scene", "exactly one of scene and scene_id is needed";
     changed_scene() = "changed-scene", "The stored scene has changed since it was read.";
     no_network(format: &str) = "no-network", "a file of format {format} has no network";

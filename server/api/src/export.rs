@@ -4,8 +4,10 @@ use crate::code::Code;
 use crate::english;
 use crate::import::{known, names};
 use crate::problem::Problem;
+use formats::refusals::file_too_long;
 use formats::{ExportOptions, ExportedMotion, is_too_long, registry};
 use scene::Scene;
+use scene::message::Message;
 use serde::Deserialize;
 
 /// A file on its way out.
@@ -91,15 +93,15 @@ pub fn write_part(
     };
     let FilePart { label, continued, most_bytes } = part;
     let options = ExportOptions { motion, gzip: false, sample, label, continued, most_bytes };
-    let too_large =
-        |detail: String| Problem::new(Code::ReplyTooLarge, detail).limit(most_bytes.unwrap_or_default());
     let exported = found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| {
-        let detail = error.to_string();
-        if is_too_long(&error) { too_large(detail) } else { Problem::new(Code::CannotRepresent, detail) }
+        let message = error.get_ref().and_then(|fault| fault.downcast_ref::<Message>());
+        let code = if is_too_long(&error) { Code::ReplyTooLarge } else { Code::CannotRepresent };
+        let problem = Problem::new(code, error.to_string()).with(|m| m.message = message.cloned());
+        if is_too_long(&error) { problem.limit(most_bytes.unwrap_or_default()) } else { problem }
     })?;
     let bytes = exported.bytes.len() as u64;
-    if most_bytes.is_some_and(|most| bytes > most) {
-        return Err(too_large(format!("the file has {bytes} bytes")));
+    if let Some(most) = most_bytes.filter(|most| bytes > *most) {
+        return Err(Problem::of(Code::ReplyTooLarge, file_too_long(bytes, most)).limit(most));
     }
     let info = found.info();
     debug_assert!(

@@ -1,6 +1,8 @@
 //! What a person said of earlier cards, as a generation takes it.
 
+use crate::english::what;
 use formats::native::Members;
+use formats::refusals::at_most;
 use formats::{FieldProblem, pointer_token};
 use scene::Vec2;
 use scene::preference::{Features, Feedback, JudgedCard, Places, Trait, Verdict, Wish};
@@ -57,15 +59,15 @@ impl FeedbackDoc {
     pub fn resolve(&self) -> Result<Feedback, Vec<FieldProblem>> {
         let mut faults = Vec::new();
         let lengths = [
-            ("answers", "entries", self.answers.len(), MOST_ANSWERS),
-            ("wishes", "entries", self.wishes.len(), MOST_WISHES),
-            ("forgotten", "entries", self.forgotten.len(), MOST_WISHES),
-            ("answers", "traits", self.traits().len(), MOST_TRAITS),
+            ("answers", what::ENTRIES, self.answers.len(), MOST_ANSWERS),
+            ("wishes", what::ENTRIES, self.wishes.len(), MOST_WISHES),
+            ("forgotten", what::ENTRIES, self.forgotten.len(), MOST_WISHES),
+            ("answers", what::TRAITS, self.traits().len(), MOST_TRAITS),
         ];
         for (name, what, count, most) in lengths {
             if count > most {
-                let detail = format!("{count} {what} found, at most {most} expected");
-                faults.push(FieldProblem::new(format!("/feedback/{name}"), "invalid-field", detail));
+                let message = at_most(count, what, most);
+                faults.push(FieldProblem::new(format!("/feedback/{name}"), "invalid-field", message));
             }
         }
         if !faults.is_empty() {
@@ -95,8 +97,8 @@ impl AnswerDoc {
         for (id, points) in &self.places.0 {
             let at = format!("{pointer}/places/{}", pointer_token(id));
             if points.len() > MOST_PLACES {
-                let detail = format!("{} places found, at most {MOST_PLACES} expected", points.len());
-                faults.push(FieldProblem::new(at, "invalid-field", detail));
+                let message = at_most(points.len(), what::PLACES, MOST_PLACES);
+                faults.push(FieldProblem::new(at, "invalid-field", message));
                 continue;
             }
             if let Some(far) = points.iter().flatten().find(|v| v.abs() > scene::MAX_COORDINATE_M) {

@@ -2,6 +2,7 @@
 
 use crate::problem::Problem;
 use formats::native::{AnyDoc, MapForm, SceneDoc};
+use formats::refusals::parser_words;
 use formats::{FieldProblem, ReadError};
 use layouts::{ArmPlace, Built, Check, CornerPlace, Layout, ParameterFault, TEMPLATES, Template, Way};
 use scene::{MAX_NAME_CHARS, Scene};
@@ -109,7 +110,9 @@ fn refused_parameters(faults: Vec<ParameterFault>) -> Problem {
         let pointer = format!("/parameters{}", fault.pointer);
         match fault.range {
             Some((least, most, got)) => FieldProblem::range(pointer, least, most, got),
-            None => FieldProblem::new(pointer, formats::problem::code::INVALID_FIELD, fault.reason),
+            None => {
+                FieldProblem::new(pointer, formats::problem::code::INVALID_FIELD, parser_words(&fault.reason))
+            }
         }
     };
     ReadError::invalid(faults.into_iter().map(told).collect()).into()

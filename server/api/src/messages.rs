@@ -1,22 +1,46 @@
 //! All sentences that a reply can carry as a code with values.
 
+use crate::english;
 use scene::message::MessageKind;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Words of sentences by the name of their value.
+fn words() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
+    let [files, instead] = formats::kinds::words();
+    let lists: [(&str, &[&str]); 8] = [
+        ("what", scene::sentences::what::WORDS),
+        ("what", formats::refusals::what::WORDS),
+        ("what", english::what::WORDS),
+        ("expected", scene::sentences::wanted::WORDS),
+        ("expected", formats::refusals::wanted::WORDS),
+        ("expected", english::wanted::WORDS),
+        ("file", &files),
+        ("instead", &instead),
+    ];
+    let mut all: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
+    for (name, words) in lists {
+        all.entry(name).or_default().extend(words);
+    }
+    all
+}
 
 /// The table of sentences: of refused requests and files, the engine, map checks and the readers' warnings. Codes are unique.
 pub fn all() -> impl Iterator<Item = &'static MessageKind> {
     let tables = [
-        crate::english::MESSAGES,
+        english::MESSAGES,
         scene::sentences::MESSAGES,
         experts::sentences::MESSAGES,
         layouts::messages::MESSAGES,
         formats::sentences::MESSAGES,
+        formats::refusals::MESSAGES,
     ];
     tables.into_iter().flatten()
 }
 
 /// The table as it is committed, for clients that write the sentences in another language.
 pub fn text() -> String {
-    let mut text = serde_json::to_string_pretty(&all().collect::<Vec<_>>()).unwrap_or_default();
+    let document = serde_json::json!({"sentences": all().collect::<Vec<_>>(), "words": words()});
+    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
     text.push('\n');
     text
 }

@@ -100,7 +100,9 @@ impl Problem {
     /// A number outside its range.
     pub fn range(pointer: &str, min: f64, max: f64, got: f64) -> Self {
         let error = FieldProblem::range(pointer, min, max, got);
-        Self::new(Code::OutOfRange, error.detail.clone()).with(|m| m.errors = Some(vec![error]))
+        let message = error.message.as_deref().cloned();
+        Self::new(Code::OutOfRange, error.detail.clone())
+            .with(|m| (m.message, m.errors) = (message, Some(vec![error])))
     }
 
     /// A defect: the cause is for the log, the caller gets a plain sentence.
@@ -111,8 +113,21 @@ impl Problem {
     /// Says that it is about one field.
     #[must_use]
     pub fn at(self, pointer: &str) -> Self {
-        let error = FieldProblem::new(pointer, self.code.name(), self.detail.clone());
+        let error = self.as_fault(pointer);
         self.with(|m| m.errors = Some(vec![error]))
+    }
+
+    /// The refusal as the fault of a field.
+    pub fn as_fault(&self, pointer: impl Into<String>) -> FieldProblem {
+        FieldProblem {
+            pointer: pointer.into(),
+            code: self.code.name(),
+            detail: self.detail.clone(),
+            min: None,
+            max: None,
+            got: None,
+            message: self.members.message.clone().map(Box::new),
+        }
     }
 
     /// Sets members.
@@ -171,7 +186,7 @@ pub fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
 /// The fault of an id that no road user of the scene has.
 pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
     let message = english::unknown_agent(&shortened(id));
-    FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message.english)
+    FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message)
 }
 
 /// An id as a message shows it: outside data may be long.

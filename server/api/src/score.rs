@@ -1,10 +1,12 @@
 //! Score: collisions, near misses, off-road driving, kinematics, goals.
 
+use crate::english::wanted;
 use crate::home::{AboutScene, SceneRef, Subject, one_scene};
 use crate::opened::Standings;
-use crate::problem::{Problem, refuse};
+use crate::problem::{Problem, refuse, unknown_agent};
 use experts::Maps;
 use formats::native::{Members, SceneDoc};
+use formats::refusals::expected;
 use formats::{FieldProblem, pointer_token};
 use scene::score::{PairChoice, Score, ScoreInput, Thresholds};
 use scene::{AgentFutures, Future, Sample, Scene, State as AgentState, Track};
@@ -161,11 +163,7 @@ fn states(
     let at = format!("{base}/{}", pointer_token(id));
     let before = faults.len();
     if scene.agent(id).is_none() {
-        faults.push(FieldProblem::new(
-            at.clone(),
-            formats::problem::code::UNKNOWN_AGENT,
-            "the scene has no such road user",
-        ));
+        faults.push(unknown_agent(at.clone(), id));
     }
     let (first, steps) = (doc.first_step as f64, doc.x_m.len());
     if first + steps as f64 > 1_000.0 {
@@ -173,8 +171,7 @@ fn states(
     }
     let columns = [&doc.y_m, &doc.heading_rad, &doc.vx_mps, &doc.vy_mps];
     if columns.iter().any(|column| column.len() != steps) || steps == 0 {
-        let detail = "columns of equal length with at least one value expected";
-        faults.push(FieldProblem::new(at.clone(), "invalid-field", detail));
+        faults.push(FieldProblem::new(at.clone(), "invalid-field", expected(wanted::COLUMNS)));
     }
     let bounds = [
         (&doc.x_m, 1e5),

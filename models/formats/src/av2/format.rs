@@ -2,10 +2,12 @@
 
 use super::{export, import, map};
 use crate::columnar::{is_parquet, names_in};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER, Scenes, only};
+use crate::format::{
+    ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER, Scenes, one_scene, only,
+};
 use crate::loss;
 use crate::map_file::{self, MapRead};
-use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::problem::{Imported, ReadError};
 use crate::source::{Source, head};
 use crate::unpack;
 use scene::{Origin, Scene, Vec2};
@@ -63,10 +65,7 @@ impl Format for Argoverse {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => export::write(scene, options.motion),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "an Argoverse file holds one scenario")),
-        }
+        one_scene(scenes).and_then(|scene| export::write(scene, options.motion))
     }
 }
 
@@ -82,7 +81,7 @@ fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadErr
     let (low, high) = place.corners().unwrap_or_default();
     let (origin, half): (Vec2, Vec2) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
     if map_file::is_too_wide(half) {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
+        return Err(ReadError::map_too_large(map_file::extent(half)));
     }
     let (map, warnings) = place.lane_map(origin);
     let licence = options.licence.clone().unwrap_or_else(|| super::LICENCE.into());

@@ -7,8 +7,10 @@ use crate::format::EGO;
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::recording::{MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedState, Recording, Said, kind_of};
+use crate::refusals::{self, wanted, what};
 use crate::sentences;
 use crate::source::Source;
+use scene::message::Word;
 use scene::{AgentType, Meta, Origin, STEP_S, Subtype, Timing, Vec2};
 use std::collections::HashMap;
 
@@ -49,8 +51,8 @@ impl TrackRows {
         let place = |name: &str| table.names().iter().position(|found| found == name);
         let mut at = HashMap::new();
         for name in NEEDED {
-            let missing = || FieldProblem::new("", code::CANNOT_REPRESENT, format!("no column {name}"));
-            at.insert(name, place(name).ok_or_else(missing)?);
+            let missing = || refusals::no_column(name, &table.names().join(", "));
+            at.insert(name, place(name).ok_or_else(|| ReadError::other_content(missing()))?);
         }
         at.extend(OPTIONAL.into_iter().filter_map(|name| Some((name, place(name)?))));
         let mut chosen: Vec<usize> = at.values().copied().collect();
@@ -66,10 +68,9 @@ impl TrackRows {
         self.at.get(name).map_or(ColumnValue::Nothing, |at| self.table.value(*at))
     }
 
-    fn fault(&self, name: &str, expected: &str) -> ReadError {
-        let row = self.table.row();
-        let detail = format!("row {row}: {expected} expected");
-        FieldProblem::new(format!("/row/{row}/{name}"), code::INVALID_FIELD, detail).into()
+    fn fault(&self, name: &str, wanted: Word) -> ReadError {
+        let pointer = format!("/row/{}/{name}", self.table.row());
+        FieldProblem::new(pointer, code::INVALID_FIELD, refusals::expected(wanted)).into()
     }
 
     fn text(&self, name: &str) -> String {
@@ -86,7 +87,7 @@ impl TrackRows {
             ColumnValue::Whole(whole) => whole as f64,
             _ => f64::NAN,
         };
-        let expected = || self.fault(name, "a finite number that is not too large");
+        let expected = || self.fault(name, wanted::BOUNDED);
         if number.abs() <= most { Ok(number) } else { Err(expected()) }
     }
 }
@@ -120,8 +121,7 @@ pub(super) fn read(
     while rows.table.advance()? {
         let scenario = rows.text("scenario_id");
         if first.as_ref().is_some_and(|first| first.scenario != scenario) {
-            let detail = "more than one scenario in the file";
-            return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+            return Err(ReadError::other_content(refusals::expected(wanted::ONE_SCENARIO)));
         }
         first.get_or_insert_with(|| First {
             scenario,
@@ -133,7 +133,7 @@ pub(super) fn read(
         });
         let step = rows.number("timestep", MAX_STEPS as f64 - 1.0)?;
         if step < 0.0 || step.fract() != 0.0 {
-            return Err(rows.fault("timestep", "a whole number from 0 on"));
+            return Err(rows.fault("timestep", wanted::WHOLE_FROM_0));
         }
         last_step = last_step.max(step as usize);
         if rows.value("observed") == ColumnValue::Flag(true) {
@@ -165,12 +165,13 @@ pub(super) fn read(
         };
         users.get_mut(user).into_iter().for_each(|user| user.samples.push(sample));
         count += 1;
-        if count > MAX_SAMPLES || users.len() > MAX_USERS {
-            let detail = format!("more than {MAX_SAMPLES} rows or {MAX_USERS} tracks");
-            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, detail).into());
+        let counts = [(count, MAX_SAMPLES, what::ROWS), (users.len(), MAX_USERS, what::TRACKS)];
+        if let Some((most, what)) = refusals::exceeded(&counts) {
+            let message = refusals::more_than(most, what);
+            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, message).into());
         }
     }
-    let first = first.ok_or_else(|| FieldProblem::new("", code::CANNOT_REPRESENT, "a table without rows"))?;
+    let first = first.ok_or_else(|| ReadError::other_content(refusals::file_has_no(what::ROW)))?;
     let steps = first.steps.max(last_step + 1);
     let now_step = now_step.unwrap_or(steps / 2).min(steps - 1);
     let origin = origin(&users, now_step);
@@ -219,7 +220,7 @@ pub(super) fn read(
         crs: None,
     };
     let mut scenes = Recording { said, users, futures: Vec::new() }.scenes();
-    let empty = || FieldProblem::new("", code::CANNOT_REPRESENT, "no road user is seen").into();
+    let empty = || ReadError::other_content(refusals::file_has_no(what::ROAD_USER));
     scenes.next().unwrap_or_else(|| Err(empty()))
 }
 

@@ -3,6 +3,7 @@
 use super::vet::{self, ColumnChunk, MAGIC};
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, expected, found_expected, more_than, wanted, what};
 use crate::source::Source;
 use crate::unpack;
 use bytes::Bytes;
@@ -77,13 +78,15 @@ pub(crate) struct ParquetTable {
     row: u64,
 }
 
+const FORMAT: &str = "Parquet";
+
 fn unreadable(error: &ParquetError) -> ReadError {
-    ReadError::malformed(0, format!("cannot be read as Parquet: {error}"))
+    ReadError::malformed(0, refusals::unreadable(FORMAT, &error.to_string()))
 }
 
 /// Lies that the library does not expect end it; here they refuse the file.
 fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadError> {
-    let ended = |_| Err(ReadError::malformed(0, "cannot be read as Parquet: it contradicts itself"));
+    let ended = |_| Err(ReadError::malformed(0, refusals::contradiction(FORMAT)));
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(ended)
 }
 
@@ -99,8 +102,8 @@ impl ParquetTable {
         let most = most_bytes(file);
         input.take(most + 1).read_to_end(&mut bytes).map_err(|error| fault(&error))?;
         if bytes.len() as u64 > most {
-            let detail = format!("a Parquet file of more than {most} bytes");
-            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, detail));
+            let message = more_than(most, what::FILE_BYTES);
+            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, message));
         }
         vet::frame(&bytes)?;
         let file = Bytes::from(bytes);
@@ -113,8 +116,8 @@ impl ParquetTable {
             let mut rows = reader.metadata().row_groups().iter().map(rows);
             let rows = rows.try_fold(0u64, |sum, rows| rows.ok().and_then(|rows| sum.checked_add(rows)));
             if rows.is_none_or(|rows| rows > most) {
-                let detail = format!("more than {most} rows");
-                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, detail));
+                let message = more_than(most, what::ROWS);
+                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, message));
             }
             let (readers, batch, chosen) = (Vec::new(), Vec::new(), Vec::new());
             Ok(Self {
@@ -156,7 +159,7 @@ impl ParquetTable {
         for group in metadata.row_groups() {
             let mut together = 0u64;
             for &column in &chosen {
-                let missing = || ReadError::malformed(0, "a row group without one of the columns");
+                let missing = || ReadError::malformed(0, expected(wanted::ROW_GROUP));
                 let chunk = group.columns().get(column).ok_or_else(missing)?;
                 let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
                 let least = match chunk.column_type() {
@@ -169,9 +172,8 @@ impl ParquetTable {
                 together = together.saturating_add(vet::pages(&self.file, &chunk)?);
             }
             if together > MAX_PAGES + self.file.len() as u64 {
-                let detail =
-                    format!("pages of a row group that take {together} bytes together once unpacked");
-                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGES, detail));
+                let message = more_than(MAX_PAGES, what::GROUP_BYTES);
+                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGES, message));
             }
         }
         self.batch = vec![Vec::new(); chosen.len()];
@@ -187,11 +189,8 @@ impl ParquetTable {
             return Ok(());
         }
         let name = column.path().parts().join(".");
-        let detail = format!(
-            "column {name} is a {}, a flat column of numbers or text expected",
-            column.physical_type()
-        );
-        Err(FieldProblem::new(format!("/{name}"), code::CANNOT_REPRESENT, detail).into())
+        let message = found_expected(column.physical_type().to_string(), wanted::FLAT_COLUMN);
+        Err(FieldProblem::new(format!("/{name}"), code::CANNOT_REPRESENT, message).into())
     }
 
     /// Goes to the next row; false at the end.
@@ -242,7 +241,7 @@ impl ParquetTable {
             cells.clear();
             fill(reader, count, cells).map_err(|error| unreadable(&error))?;
             if cells.len() != count {
-                return Err(ReadError::malformed(0, "a column ends before the others"));
+                return Err(ReadError::malformed(0, expected(wanted::COLUMN_VALUES)));
             }
         }
         self.left -= count;

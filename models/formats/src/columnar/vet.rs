@@ -2,6 +2,8 @@
 
 use super::thrift::ThriftReader;
 use crate::problem::{ReadError, code};
+use crate::refusals::{self, expected, wanted, what};
+use scene::message::{Message, Word};
 use std::ops::Range;
 
 /// First and last bytes of a file.
@@ -29,24 +31,24 @@ pub(super) struct ColumnChunk {
 /// `malformed-file`, `decoded-too-large`.
 pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
     let whole = bytes.len();
-    let broken = |offset: usize, detail: &str| Err(ReadError::malformed(offset as u64, detail));
+    let broken = |offset: usize, fault: Message| Err(ReadError::malformed(offset as u64, fault));
     if !bytes.starts_with(MAGIC) {
-        return broken(0, "not a Parquet file: it does not begin with PAR1");
+        return broken(0, expected(wanted::MAGIC));
     }
     let Some((rest, [a, b, c, d, magic @ ..])) = bytes.split_last_chunk::<8>() else {
-        return broken(whole, "a Parquet file that breaks off");
+        return broken(whole, expected(wanted::MAGIC));
     };
     if magic != MAGIC {
-        return broken(whole - 4, "a Parquet file that breaks off: it does not end with PAR1");
+        return broken(whole - 4, expected(wanted::MAGIC));
     }
     let length = u32::from_le_bytes([*a, *b, *c, *d]) as usize;
     let most = MAX_FOOTER + whole / 8;
     if length > most && length <= whole {
-        let detail = format!("a description of {length} bytes; at most {most}");
-        return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most as u64, detail));
+        let message = refusals::at_most(length, what::COLUMN_BYTES, most);
+        return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most as u64, message));
     }
     let Some(start) = rest.len().checked_sub(length).filter(|start| *start >= MAGIC.len()) else {
-        return broken(whole - 8, "the description is longer than the file");
+        return broken(whole - 8, refusals::at_most(length, what::COLUMN_BYTES, whole));
     };
     let footer = rest.get(start..).unwrap_or_default();
     let mut chunks = 0;
@@ -72,8 +74,8 @@ pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
     let most = MAX_CHUNKS + whole as u64 / 512;
     match seen {
         Some(()) if chunks <= most => Ok(()),
-        Some(()) => broken(start, &format!("more than {most} column chunks")),
-        None => broken(start, "the description breaks off or is no Thrift"),
+        Some(()) => broken(start, refusals::more_than(most, what::CHUNKS)),
+        None => broken(start, expected(wanted::THRIFT)),
     }
 }
 
@@ -82,19 +84,18 @@ pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
 /// # Errors
 /// `malformed-file`, `decoded-too-large`.
 pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError> {
-    let broken = |offset: usize, detail: &str| ReadError::malformed(offset as u64, detail);
+    let broken = |offset: usize, wanted: Word| ReadError::malformed(offset as u64, expected(wanted));
     let ends = (usize::try_from(chunk.range.start), usize::try_from(chunk.range.end));
-    let (Ok(mut at), Ok(end)) = ends else { return Err(broken(0, "a column lies before the file")) };
+    let (Ok(mut at), Ok(end)) = ends else { return Err(broken(0, wanted::WITHIN_FILE)) };
     if at < MAGIC.len() || end > bytes.len() || at > end {
-        return Err(broken(at, "a column lies outside the file"));
+        return Err(broken(at, wanted::WITHIN_FILE));
     }
     let (mut values, mut largest, mut dictionary, mut first) = (0i64, 0i64, 0i64, true);
     while at < end && values < chunk.rows {
-        let page = page(bytes.get(at..end).unwrap_or_default())
-            .ok_or_else(|| broken(at, "the header of a page breaks off"))?;
+        let page = page(bytes.get(at..end).unwrap_or_default()).ok_or_else(|| broken(at, wanted::HEADER))?;
         if page.unpacked > MAX_PAGE {
-            let detail = format!("a page of {} bytes once unpacked; at most {MAX_PAGE}", page.unpacked);
-            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGE as u64, detail));
+            let message = refusals::at_most(page.unpacked as u64, what::PAGE_BYTES, MAX_PAGE as u64);
+            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGE as u64, message));
         }
         let sound = page.packed >= 0 && page.unpacked >= 0 && page.values >= 0;
         // A dictionary comes first; index pages are written nowhere.
@@ -102,14 +103,14 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
         // Delta encodings allocate by their own data, which is known only after decompression.
         let readable = matches!(page.encoding, 0 | 2 | 3 | 8 | 9);
         if !(sound && in_place) {
-            return Err(broken(at, "the header of a page says what cannot be"));
+            return Err(broken(at, wanted::HEADER_VALUES));
         }
         if !readable {
-            return Err(broken(at, &format!("encoding {} of a page is not read", page.encoding)));
+            return Err(broken(at, wanted::ENCODING));
         }
         if page.is_dictionary {
             if page.values.saturating_mul(chunk.least) > page.unpacked {
-                return Err(broken(at, "a dictionary of more values than it has bytes for"));
+                return Err(broken(at, wanted::DICTIONARY_VALUES));
             }
             // A text of a few bytes takes 40 once it is known where it lies.
             dictionary = page.unpacked.saturating_add(page.values.saturating_mul(48));
@@ -121,11 +122,11 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
         at =
             at.saturating_add(page.header).saturating_add(usize::try_from(page.packed).unwrap_or(usize::MAX));
         if at > end {
-            return Err(broken(end, "a page goes on beyond its column"));
+            return Err(broken(end, wanted::PAGE_PLACE));
         }
     }
     if values != chunk.rows {
-        return Err(broken(at, "a column has not as many values as there are rows"));
+        return Err(broken(at, wanted::COLUMN_VALUES));
     }
     Ok(u64::try_from(dictionary.saturating_add(largest)).unwrap_or(u64::MAX))
 }

@@ -4,10 +4,12 @@ use super::shapes::{self, Shape};
 use super::words::VERSIONS;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES};
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, wanted, what};
 use crate::source::Source;
 use crate::tree::XmlNode;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Scanner, XmlEvent};
+use scene::message::Word;
 use scene::{Origin, Vec2};
 use std::collections::HashMap;
 
@@ -185,20 +187,20 @@ pub(super) fn read(file: &dyn Source) -> Result<CommonRoadDocument, ReadError> {
             "location" => document.origin = origin(&node)?,
             _ => document.others += 1,
         }
-        bound(document.lanelets.len(), MAX_POLYLINES, "lanelets", code::MAP_TOO_LARGE)?;
-        bound(points, 2 * MAX_MAP_POINTS, "points of lanelets", code::MAP_TOO_LARGE)?;
+        bound(document.lanelets.len(), MAX_POLYLINES, what::LANELETS, code::MAP_TOO_LARGE)?;
+        bound(points, 2 * MAX_MAP_POINTS, what::LANELET_POINTS, code::MAP_TOO_LARGE)?;
         let listed = others + document.turns.len() + document.signs.len() + document.lights.len();
-        bound(listed, MAX_OTHERS, "signs, lights and references", code::MAP_TOO_LARGE)?;
+        bound(listed, MAX_OTHERS, what::SIGNS, code::MAP_TOO_LARGE)?;
         let who = document.obstacles.len() + document.problems.len();
-        bound(who, MAX_OBSTACLES, "obstacles", code::TOO_MANY_AGENTS)?;
-        bound(states, MAX_STATES, "states", code::OUT_OF_RANGE)?;
+        bound(who, MAX_OBSTACLES, what::OBSTACLES, code::TOO_MANY_AGENTS)?;
+        bound(states, MAX_STATES, what::STATES, code::OUT_OF_RANGE)?;
     }
     Ok(document)
 }
 
-fn bound(count: usize, most: usize, what: &str, code: &'static str) -> Result<(), ReadError> {
+fn bound(count: usize, most: usize, what: Word, code: &'static str) -> Result<(), ReadError> {
     if count > most {
-        return Err(FieldProblem::new("", code, format!("more than {most} {what}")).into());
+        return Err(FieldProblem::new("", code, refusals::more_than(most, what)).into());
     }
     Ok(())
 }
@@ -208,21 +210,20 @@ fn word(text: &str) -> String {
 }
 
 fn head(root: &Element) -> Result<CommonRoadDocument, ReadError> {
-    let refused = |detail: String| ReadError::from(FieldProblem::new("", code::CANNOT_REPRESENT, detail));
     if root.name != ROOT {
-        return Err(refused(format!("expected <{ROOT}>, found <{}>", word(&root.name))));
+        let message = refusals::found_expected(refusals::tag(&root.name), refusals::tag(ROOT));
+        return Err(ReadError::other_content(message));
     }
-    let version = root.get("commonRoadVersion").unwrap_or("without a number");
+    let version = root.get("commonRoadVersion").unwrap_or_default();
     if !VERSIONS.contains(&version) {
-        let read = VERSIONS.join(" and ");
-        return Err(refused(format!("CommonRoad version {}; {read} are read", word(version))));
+        let found = format!("commonRoadVersion={}", word(version));
+        return Err(ReadError::other_content(refusals::found_one_of(&found, &VERSIONS.join(", "))));
     }
     let text = root.required("timeStepSize")?;
     let step_s = text.trim().parse().ok().filter(|step: &f64| (0.001..=10.0).contains(step));
     let Some(step_s) = step_s else {
-        let found = word(text);
-        let detail = format!("line {}: timeStepSize \"{found}\" found, 0.001 to 10 s expected", root.line);
-        return Err(FieldProblem::new("", code::INVALID_FIELD, detail).into());
+        let message = refusals::found_in_element(&word(text), "timeStepSize", wanted::STEP_SIZE);
+        return Err(FieldProblem::new("", code::INVALID_FIELD, message.at_line(root.line)).into());
     };
     let get = |name: &str| word(root.get(name).unwrap_or_default());
     Ok(CommonRoadDocument {
@@ -260,7 +261,7 @@ fn side(node: &XmlNode, bound: &str, adjacent: &str) -> Result<Side, ReadError> 
     let line = node.required(bound)?;
     let points = line.all("point").map(shapes::point).collect::<Result<Vec<_>, _>>()?;
     if points.len() < 2 {
-        return Err(line.wrong(&format!("{} points", points.len()), "two or more points"));
+        return Err(line.wrong(&format!("{} points", points.len()), wanted::BOUNDS));
     }
     let marking = line.child("lineMarking").map(|node| word(&node.text)).unwrap_or_default();
     let beside = node.child(adjacent).map(|node| {
@@ -305,14 +306,13 @@ fn sign(node: &XmlNode) -> Result<Sign, ReadError> {
 fn light(node: &XmlNode) -> Result<TrafficLight, ReadError> {
     let steps = |node: &XmlNode| match node.text.parse::<i64>() {
         Ok(steps) => Ok(steps),
-        Err(_) => Err(node.wrong(&node.text, "a number of steps")),
+        Err(_) => Err(node.wrong(&node.text, wanted::STEPS)),
     };
     let mut cycle = Vec::new();
     for element in node.child("cycle").into_iter().flat_map(|cycle| cycle.all("cycleElement")) {
         let duration = element.required("duration")?;
         let length = steps(duration)?;
-        let length =
-            u64::try_from(length).map_err(|_| duration.wrong(&duration.text, "a number of steps"))?;
+        let length = u64::try_from(length).map_err(|_| duration.wrong(&duration.text, wanted::STEPS))?;
         cycle.push((word(&element.required("color")?.text), length.min(1 << 40)));
     }
     let offset = node.at(&["cycle", "timeOffset"]).map(steps).transpose()?.unwrap_or(0);
@@ -354,7 +354,7 @@ fn state(node: &XmlNode) -> Result<Option<ObstacleState>, ReadError> {
     let (speed, slip, across) = (optional("velocity")?, optional("slipAngle")?, optional("velocityY")?);
     let time = value(node.required("time")?)?.0;
     if !(-1e9..=1e9).contains(&time) {
-        return Err(node.wrong(&time.to_string(), "a time"));
+        return Err(node.wrong(&time.to_string(), wanted::TIME));
     }
     let values = [heading, speed, slip, across];
     let uncertain = place.is_area || values.iter().flatten().any(|(_, between)| *between);
@@ -388,7 +388,7 @@ fn obstacle(node: &XmlNode) -> Result<Obstacle, ReadError> {
 
 fn problem(node: &XmlNode) -> Result<PlanningProblem, ReadError> {
     let initial = node.required("initialState")?;
-    let start = state(initial)?.ok_or_else(|| initial.wrong("no place", "a position"))?;
+    let start = state(initial)?.ok_or_else(|| initial.wrong("no place", wanted::PLACE))?;
     let goal = |node: &XmlNode| -> Result<GoalState, ReadError> {
         let between = |name: &str| node.child(name).map(range).transpose();
         let position = node.child("position");

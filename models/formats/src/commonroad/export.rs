@@ -19,8 +19,8 @@ use std::io;
 /// `InvalidInput` for a scene without a lane, since a scenario has one at least.
 pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     if scene.map.lanes.is_empty() {
-        let detail = "a CommonRoad scenario has one lane or more; this scene has none";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+        let message = crate::refusals::file_needs("CommonRoad", crate::refusals::what::LANE);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
     let mut losses = BTreeSet::new();
     let map = &scene.map;

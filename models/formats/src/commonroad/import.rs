@@ -7,7 +7,7 @@ use crate::describe;
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{ImportWarning, Imported, ReadError};
 use crate::repairs::{self, checked};
 use crate::sentences;
 use crate::settle;
@@ -124,7 +124,7 @@ fn about_the_middle(document: &mut CommonRoadDocument) -> Result<Vec2, ReadError
     }
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
     if map_file::is_too_wide(half) {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
+        return Err(ReadError::map_too_large(map_file::extent(half)));
     }
     places(document).for_each(|p| *p -= middle);
     Ok(middle)

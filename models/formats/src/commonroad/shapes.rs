@@ -1,6 +1,7 @@
 //! Shapes of obstacles and places of goals, as boxes.
 
 use crate::problem::ReadError;
+use crate::refusals::wanted;
 use crate::tree::XmlNode;
 use scene::geometry::rotate;
 use scene::{Vec2, wrap_angle};
@@ -30,7 +31,7 @@ pub(super) fn point(node: &XmlNode) -> Result<Vec2, ReadError> {
         let node = node.required(name)?;
         let value = node.number()?;
         if value.abs() > MAX_SOURCE_M {
-            return Err(node.wrong(&node.text, "at most 1e8 m"));
+            return Err(node.wrong(&node.text, wanted::METRES));
         }
         Ok(value)
     };
@@ -61,7 +62,7 @@ fn shape(node: &XmlNode) -> Result<Option<Shape>, ReadError> {
     };
     let size = |name: &str| {
         let node = node.required(name)?;
-        node.number().and_then(|v| if v >= 0.0 { Ok(v) } else { Err(node.wrong(&node.text, "a size")) })
+        node.number().and_then(|v| if v >= 0.0 { Ok(v) } else { Err(node.wrong(&node.text, wanted::SIZE)) })
     };
     Ok(Some(match node.name() {
         "point" => Shape { centre: point(node)?, is_area: false, ..plain },

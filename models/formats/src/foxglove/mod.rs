@@ -5,7 +5,7 @@ mod mcap;
 mod scene_update;
 
 use crate::format::{
-    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one_scene, written_only,
 };
 use crate::loss::{Loss, code};
 use crate::source::Source;
@@ -45,13 +45,11 @@ impl Format for Mcap {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only("mcap is written, never read: messages are pictures of the scene")
+        written_only(&self.info())
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        let [scene] = scenes else {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "an MCAP file holds one scene"));
-        };
+        let scene = one_scene(scenes)?;
         Ok(Exported { bytes: log(scene, options)?, losses: lost(scene, options.motion) })
     }
 }

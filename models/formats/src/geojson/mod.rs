@@ -4,7 +4,7 @@
 //! the source names its coordinate reference system, that name stands there.
 
 use crate::format::{
-    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one_scene, written_only,
 };
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
@@ -47,13 +47,11 @@ impl Format for GeoJson {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only("geojson is written, never read: features say nothing of lanes that follow each other")
+        written_only(&self.info())
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        let [scene] = scenes else {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "a GeoJSON file holds one scene"));
-        };
+        let scene = one_scene(scenes)?;
         let mut file = BoundedFile::new(options.most());
         if options.gzip {
             let mut encoder = GzEncoder::new(&mut file, Compression::default());

@@ -3,6 +3,7 @@
 use crate::limits::{MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::lists::bounded;
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::parser_words;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -175,7 +176,7 @@ pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
             let pointer = pointer.replace('[', ".").replace(']', "");
             let pointer: String =
                 pointer.split('.').filter(|part| !part.is_empty()).map(|part| format!("/{part}")).collect();
-            Err(FieldProblem::new(pointer, code::INVALID_FIELD, plain(&error)).into())
+            Err(FieldProblem::new(pointer, code::INVALID_FIELD, parser_words(&plain(&error))).into())
         }
     }
 }

@@ -4,6 +4,7 @@ use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
 use crate::headings::{self, HeadingUnit};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::refusals::unequal_columns;
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
@@ -85,8 +86,10 @@ fn agent(object: &Object, index: usize, id: String) -> Result<Agent, ReadError> 
         ("valid", object.valid.len()),
     ];
     if let Some((name, length)) = lists.into_iter().find(|(_, length)| *length != count) {
-        let detail = format!("{length} entries found, {count} expected, as many as positions");
-        return Err(FieldProblem::new(format!("/objects/{index}/{name}"), code::INVALID_FIELD, detail).into());
+        let message = unequal_columns(length, count, "position");
+        return Err(
+            FieldProblem::new(format!("/objects/{index}/{name}"), code::INVALID_FIELD, message).into()
+        );
     }
     let agent_type = match object.kind.as_str() {
         "vehicle" => AgentType::Vehicle,

@@ -1,7 +1,7 @@
 //! One HTML page that plays the scene in any browser, without server or network.
 
 use crate::format::{
-    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one_scene, written_only,
 };
 use crate::loss::{Loss, code};
 use crate::source::Source;
@@ -40,13 +40,11 @@ impl Format for Page {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only("html is written, never read: it has a picture of the scene")
+        written_only(&self.info())
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        let [scene] = scenes else {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "a page plays one scene"));
-        };
+        let scene = one_scene(scenes)?;
         // In one pass: what a scene is called may look like a place to fill.
         let (head, rest) = PAGE.split_once("{{name}}").unwrap_or((PAGE, ""));
         let (before_style, rest) = rest.split_once("{{style}}").unwrap_or((rest, ""));

@@ -5,7 +5,8 @@ use super::osm::{self, Osm, Tags};
 use crate::format::MAP_TIMING;
 use crate::lights::{self, SignalHead, heading_at};
 use crate::map_file::{self, MapRead};
-use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
+use crate::problem::{ImportWarning, ReadError};
+use crate::refusals;
 use crate::sentences;
 use crate::sides::LaneletKind;
 use crate::source::Source;
@@ -17,12 +18,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Heads up to this far apart stand at one junction, metres.
 const JUNCTION_M: f64 = 60.0;
-/// Hint in the refusal of an OpenStreetMap extract.
-const EXTRACT: &str = "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
-
-/// ... and of a map in which nobody may pass.
-const NONE_OPEN: &str =
-    "no lanelets with two sides that a road user may pass: subtypes and participants decide";
 
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
 ///
@@ -36,8 +31,9 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let lanes = draw(&lanelets, &mut map);
     if map.lanes.is_empty() {
         let closed = osm.relations.iter().any(|relation| is(&relation.tags, "type", "lanelet"));
-        let detail = if closed && map.crosswalks.is_empty() { NONE_OPEN } else { EXTRACT };
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        let closed = closed && map.crosswalks.is_empty();
+        let message = if closed { refusals::no_open_lanelets() } else { refusals::no_lanelets() };
+        return Err(ReadError::other_content(message));
     }
     link(&lanelets, &lanes, &mut map);
     paint(&osm, &lanelets, &lanes, &mut map);
@@ -66,7 +62,7 @@ fn about_the_middle(osm: &mut Osm) -> Result<Vec2, ReadError> {
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
     if map_file::is_too_wide(half) {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
+        return Err(ReadError::map_too_large(map_file::extent(half)));
     }
     osm.nodes.values_mut().for_each(|p| *p -= middle);
     Ok(middle)

@@ -3,6 +3,7 @@
 use crate::osm_items::{Member, each};
 use crate::problem::{FieldProblem, ReadError, at_most};
 use crate::projection::TransverseMercator;
+use crate::refusals::what;
 use crate::source::Source;
 use scene::Vec2;
 use std::collections::HashMap;
@@ -106,10 +107,10 @@ pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
                 osm.relations.push(OsmRelation { id: item.id, members: item.members, tags, participants });
             }
         }
-        at_most(local.len() + degrees.len(), MAX_NODES, "points")?;
-        at_most(osm.ways.len(), MAX_WAYS, "lines")?;
-        at_most(osm.relations.len(), MAX_RELATIONS, "relations")?;
-        at_most(references, MAX_REFERENCES, "references")
+        at_most(local.len() + degrees.len(), MAX_NODES, what::POINTS)?;
+        at_most(osm.ways.len(), MAX_WAYS, what::LINES)?;
+        at_most(osm.relations.len(), MAX_RELATIONS, what::RELATIONS)?;
+        at_most(references, MAX_REFERENCES, what::REFERENCES)
     })?;
     osm.nodes = local;
     // Points without metres are placed only where none has them: two frames do not mix.

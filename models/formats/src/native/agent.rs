@@ -5,6 +5,7 @@ use super::resolve::{Context, Window};
 use super::value::{id, words};
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Problems};
+use crate::refusals::{self, wanted};
 use scene::{Agent, AgentType, Conditions, Size, State, Subtype, Track};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
@@ -90,8 +91,8 @@ impl TrackDoc {
         ];
         for (name, column) in columns.into_iter().chain(self.z_m.as_ref().map(|z| ("z_m", z))) {
             if column.len() != steps {
-                let detail = format!("{} values; {steps} expected, as in x_m", column.len());
-                problems.invalid(format!("{pointer}/{name}"), detail);
+                let message = refusals::unequal_columns(column.len(), steps, "x_m");
+                problems.invalid(format!("{pointer}/{name}"), message);
             }
         }
         let last_step = (MAX_STEPS - 1) as u64;
@@ -135,11 +136,8 @@ impl TrackDoc {
         let end = self.first_step.saturating_add(steps as u64);
         for (i, [from, to]) in ranges.iter().enumerate() {
             if *from < free_from || to <= from || *to > end {
-                let detail = format!(
-                    "[{from}, {to}) found; rising half-open ranges within [{}, {end}) expected",
-                    self.first_step
-                );
-                problems.invalid(format!("{pointer}/valid/{i}"), detail);
+                let message = refusals::found_expected(format!("[{from}, {to})"), wanted::RANGES);
+                problems.invalid(format!("{pointer}/valid/{i}"), message);
                 break;
             }
             let slots = seen.iter_mut().skip((from - self.first_step) as usize);

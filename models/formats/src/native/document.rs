@@ -8,6 +8,7 @@ use super::value::{Members, PointDoc};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::lists::bounded;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
+use crate::refusals::{self, expected, wanted, what};
 use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Shared, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -244,8 +245,8 @@ impl SceneDoc {
 
     fn check_head(&self) -> Result<(), ReadError> {
         if self.format != FORMAT {
-            let detail = format!("\"{FORMAT}\" expected");
-            return Err(FieldProblem::new("/format", code::INVALID_FIELD, detail).into());
+            let message = expected(format!("\"{FORMAT}\""));
+            return Err(FieldProblem::new("/format", code::INVALID_FIELD, message).into());
         }
         check_version(self.version)
     }
@@ -255,10 +256,10 @@ impl SceneDoc {
 pub(crate) fn check_version(version: u64) -> Result<(), ReadError> {
     match version {
         VERSION => Ok(()),
-        0 => Err(FieldProblem::new("/version", code::INVALID_FIELD, "versions count from 1").into()),
+        0 => Err(FieldProblem::new("/version", code::INVALID_FIELD, expected(wanted::VERSION)).into()),
         _ => {
-            let detail = format!("version {version} found, up to {VERSION} is known here");
-            Err(FieldProblem::new("/version", code::UNSUPPORTED_VERSION, detail).into())
+            let message = refusals::unsupported_version(version, VERSION);
+            Err(FieldProblem::new("/version", code::UNSUPPORTED_VERSION, message).into())
         }
     }
 }
@@ -266,7 +267,10 @@ pub(crate) fn check_version(version: u64) -> Result<(), ReadError> {
 impl TimeDoc {
     fn into_timing(self, problems: &mut Problems) -> Timing {
         if self.step_s != STEP_S {
-            problems.invalid("/time/step_s", format!("{} found, {STEP_S} expected", self.step_s));
+            problems.invalid(
+                "/time/step_s",
+                refusals::found_expected(self.step_s.to_string(), STEP_S.to_string()),
+            );
         }
         let fit = |value: u64| usize::try_from(value).unwrap_or(usize::MAX);
         Timing { steps: fit(self.steps), now_step: fit(self.now_step) }
@@ -316,7 +320,7 @@ impl MetaDoc {
         ];
         for (name, text, most) in texts {
             if text.is_some_and(|t| t.len() > most) {
-                problems.invalid(format!("/meta/{name}"), format!("longer than {most} bytes"));
+                problems.invalid(format!("/meta/{name}"), refusals::more_than(most, what::BYTES));
             }
         }
         let origin = self.origin;

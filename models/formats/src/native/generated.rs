@@ -4,6 +4,7 @@ use super::any::AnyDoc;
 use super::value::{Members, check_integer, round_m, round_rad};
 use crate::lists::bounded;
 use crate::problem::Problems;
+use crate::refusals::{index_beyond, unequal_columns};
 use scene::judge::{About, Fault, Manoeuvre, Reaction, Relation};
 use scene::{AgentFutures, Future, Generated, MAX_COORDINATE_M, Sample, State};
 use schemars::JsonSchema;
@@ -134,8 +135,7 @@ impl FutureDoc {
             ("vy_mps", self.vy_mps.len()),
         ];
         for (name, length) in columns.into_iter().filter(|c| c.1 != steps) {
-            let detail = format!("{length} values; {steps} expected, as in x_m");
-            problems.invalid(format!("{pointer}/{name}"), detail);
+            problems.invalid(format!("{pointer}/{name}"), unequal_columns(length, steps, "x_m"));
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);
         // A future may go on a little beyond where a track may be.
@@ -214,8 +214,8 @@ impl GeneratedDoc {
             problems.push(problem);
         }
         if self.chosen_sample >= self.samples.len() as u64 {
-            let detail = format!("{} of {} samples", self.chosen_sample, self.samples.len());
-            problems.invalid(format!("{pointer}/chosen_sample"), detail);
+            let message = index_beyond(self.chosen_sample, self.samples.len());
+            problems.invalid(format!("{pointer}/chosen_sample"), message);
         }
         let mut samples = Vec::new();
         for (s, sample) in self.samples.into_iter().enumerate() {
@@ -223,8 +223,8 @@ impl GeneratedDoc {
             for (id, futures) in sample.agents.0 {
                 let at = format!("{pointer}/samples/{s}/agents/{}", crate::problem::pointer_token(&id));
                 if futures.chosen >= futures.modes.len() as u64 {
-                    let detail = format!("{} of {} modes", futures.chosen, futures.modes.len());
-                    problems.invalid(format!("{at}/chosen"), detail);
+                    let message = index_beyond(futures.chosen, futures.modes.len());
+                    problems.invalid(format!("{at}/chosen"), message);
                 }
                 let mut modes = Vec::new();
                 for (m, mode) in futures.modes.into_iter().enumerate() {

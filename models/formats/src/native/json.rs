@@ -2,6 +2,7 @@
 
 use crate::limits::{MAX_DOCUMENT_VALUES, memory_for};
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
+use crate::refusals::{more_than, parser_words, what};
 use crate::source::Source;
 use crate::unpack;
 use scene::objects::Objects;
@@ -90,8 +91,8 @@ impl<R: Read> Read for ValueLimiter<R> {
         let text = buffer.get(..count).unwrap_or_default();
         self.commas += text.iter().filter(|byte| **byte == b',').count() as u64;
         if self.commas > self.most {
-            let detail = format!("more than {} values in a document of its size", self.most);
-            return Err(unpack::excess(code::DECODED_TOO_LARGE, self.most, detail));
+            let message = more_than(self.most, what::DOCUMENT_VALUES);
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, self.most, message));
         }
         Ok(count)
     }
@@ -131,7 +132,7 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
         Ok(_) => (String::new(), plain_words(error)),
     };
-    FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
+    FieldProblem::new(pointer, code::INVALID_FIELD, parser_words(&detail)).into()
 }
 
 /// The message without serde_json's own " at line 1 column 2", which `RefusalKind` carries as numbers.

@@ -7,7 +7,9 @@ use super::map::{
 use super::value::{PointDoc, PointsDoc};
 use crate::limits::MAX_POLYLINES;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
+use crate::refusals::{self, shown, wanted, what};
 use scene::map::{Area, Boundary, Lane, Neighbor, StopSign, TypedLine};
+use scene::sentences::wanted::ID_CHARACTERS;
 use scene::{ContentHash, LaneMap, Shared};
 use std::collections::HashSet;
 
@@ -22,12 +24,11 @@ impl MapField {
             Self::Ref(MapRef { hash }) => {
                 let found = hash.strip_prefix("sha256:").and_then(ContentHash::from_hex);
                 let Some(key) = found else {
-                    let detail = "\"sha256:\" and 64 hex digits expected";
-                    return Err(FieldProblem::new("/map/ref", code::INVALID_FIELD, detail).into());
+                    let message = refusals::expected(wanted::HEX);
+                    return Err(FieldProblem::new("/map/ref", code::INVALID_FIELD, message).into());
                 };
                 resolve(&key).ok_or_else(|| {
-                    let detail = "no map with this hash is known here; send the map itself";
-                    FieldProblem::new("/map/ref", code::UNKNOWN_MAP, detail).into()
+                    FieldProblem::new("/map/ref", code::UNKNOWN_MAP, refusals::unknown_map()).into()
                 })
             }
         }
@@ -43,9 +44,8 @@ impl MapDoc {
         let mut problems = Problems::default();
         let mut check = |kind: &str, i: usize, word: &str, list: &[&str]| {
             if !list.contains(&word) {
-                let shown: String = word.chars().take(40).collect();
-                let detail = format!("\"{shown}\" found, one of {} expected", list.join(", "));
-                problems.invalid(format!("/map/{kind}/{i}/type"), detail);
+                let message = refusals::found_one_of(&shown(word), &list.join(", "));
+                problems.invalid(format!("/map/{kind}/{i}/type"), message);
             }
         };
         for (i, line) in self.road_lines.iter().enumerate() {
@@ -110,8 +110,8 @@ impl MapDoc {
             ("drivable", self.drivable.len()),
         ];
         for (kind, _) in counts.into_iter().filter(|(_, count)| *count > MAX_POLYLINES) {
-            let detail = format!("more than {MAX_POLYLINES} entries");
-            problems.push(FieldProblem::new(format!("/map/{kind}"), code::MAP_TOO_LARGE, detail));
+            let message = refusals::more_than(MAX_POLYLINES, what::ENTRIES);
+            problems.push(FieldProblem::new(format!("/map/{kind}"), code::MAP_TOO_LARGE, message));
         }
     }
 
@@ -122,10 +122,10 @@ impl MapDoc {
             let legal = |c: char| c.is_ascii_alphanumeric() || "_.:-".contains(c);
             let pointer = format!("/map/stop_signs/{i}/id");
             if sign.id.is_empty() || sign.id.len() > 64 || !sign.id.chars().all(legal) {
-                problems.invalid(pointer, "1 to 64 of A-Z a-z 0-9 _ . : - expected");
+                problems.invalid(pointer, refusals::expected(ID_CHARACTERS));
             } else if !seen.insert(&sign.id) {
-                let detail = format!("id \"{}\" appears twice", sign.id);
-                problems.push(FieldProblem::new(pointer, code::DUPLICATE, detail));
+                let message = refusals::appears_twice(what::ID, &sign.id);
+                problems.push(FieldProblem::new(pointer, code::DUPLICATE, message));
             }
         }
     }

@@ -2,7 +2,9 @@
 
 use super::conditions::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc, VelocityDoc, ViaDoc};
 use crate::problem::{FieldProblem, Problems, code};
+use crate::refusals::{self, at_most, expected, wanted, what};
 use scene::geometry::rotate;
+use scene::message::Word;
 use scene::{
     AgentType, Conditions, DEFAULT_VIA_TOLERANCE_M, Goal, MAX_CROSSED_EDGES, MAX_VIAS, STEP_S, Start, State,
     VIA_TOLERANCE_M, Vec2, Via, wrap_angle,
@@ -81,7 +83,7 @@ impl ConditionsDoc {
     pub fn resolve(&self, pointer: &str, context: &Context) -> Result<Conditions, Vec<FieldProblem>> {
         let mut problems = Problems::default();
         if self.agent_type == Some(AgentType::Other) {
-            problems.invalid(format!("{pointer}/type"), "vehicle, pedestrian or cyclist expected");
+            problems.invalid(format!("{pointer}/type"), expected(wanted::AGENT_TYPE));
         }
         let reader = ConditionReader { ranges: Ranges::of(self.agent_type.unwrap_or(context.agent_type)) };
         let size = |name: &str, value: Option<f64>, range, problems: &mut Problems| {
@@ -113,8 +115,8 @@ impl ConditionsDoc {
         };
         let may_cross = self.goal.as_ref().map_or_else(Vec::new, |doc| doc.may_cross.clone());
         if may_cross.len() > MAX_CROSSED_EDGES {
-            let detail = format!("{} ids; at most {MAX_CROSSED_EDGES} expected", may_cross.len());
-            problems.invalid(format!("{pointer}/goal/may_cross"), detail);
+            let message = at_most(may_cross.len(), what::IDS, MAX_CROSSED_EDGES);
+            problems.invalid(format!("{pointer}/goal/may_cross"), message);
         }
         let window = context.window;
         let via = self.vias(&format!("{pointer}/via"), origin.position, goal.time_s, window, &mut problems);
@@ -135,7 +137,7 @@ impl ConditionsDoc {
         problems: &mut Problems,
     ) -> Vec<Via> {
         if self.via.len() > MAX_VIAS {
-            problems.invalid(pointer, format!("{} points; at most {MAX_VIAS} expected", self.via.len()));
+            problems.invalid(pointer, at_most(self.via.len(), what::VIA_POINTS, MAX_VIAS));
             return Vec::new();
         }
         let mut before_s = f64::NEG_INFINITY;
@@ -144,18 +146,22 @@ impl ConditionsDoc {
             let names = ("x_m", "y_m", COORDINATE_M);
             let position = pair(&pointer, names, (Some(doc.x_m), Some(doc.y_m)), problems)?;
             if let Some(start) = start {
-                check_distance(&format!("{pointer}/x_m"), "via point", (position - start).norm(), problems);
+                check_distance(
+                    &format!("{pointer}/x_m"),
+                    what::VIA_POINT,
+                    (position - start).norm(),
+                    problems,
+                );
             }
             let tolerance_m = doc.tolerance_m.unwrap_or(DEFAULT_VIA_TOLERANCE_M);
             problems.range(&format!("{pointer}/tolerance_m"), VIA_TOLERANCE_M, tolerance_m);
             let time_s = doc.time_s.and_then(|t| goal_time(&pointer, t, window, problems));
             if let Some(time_s) = time_s {
                 if time_s <= before_s {
-                    problems
-                        .invalid(format!("{pointer}/time_s"), "later than the via point before it expected");
+                    problems.invalid(format!("{pointer}/time_s"), expected(wanted::AFTER_VIA));
                 }
                 if due_s.is_some_and(|due_s| time_s >= due_s) {
-                    problems.invalid(format!("{pointer}/time_s"), "earlier than the goal's time expected");
+                    problems.invalid(format!("{pointer}/time_s"), expected(wanted::BEFORE_GOAL));
                 }
                 before_s = time_s;
             }
@@ -243,10 +249,10 @@ impl ConditionReader {
 
     fn scene_goal(&self, pointer: &str, doc: &GoalDoc, origin: &Pose, problems: &mut Problems) -> Goal {
         let foreign = [("ahead_m", doc.ahead_m), ("left_m", doc.left_m), ("turn_rad", doc.turn_rad)];
-        refuse(pointer, &foreign, "needs \"frame\": \"agent\"", problems);
+        refuse(pointer, &foreign, GoalFrame::Agent, problems);
         let position = pair(pointer, ("x_m", "y_m", COORDINATE_M), (doc.x_m, doc.y_m), problems);
         if let (Some(goal), Some(start)) = (position, origin.position) {
-            check_distance(&format!("{pointer}/x_m"), "goal", (goal - start).norm(), problems);
+            check_distance(&format!("{pointer}/x_m"), what::GOAL, (goal - start).norm(), problems);
         }
         let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
         let (speed_mps, course) =
@@ -256,7 +262,7 @@ impl ConditionReader {
 
     fn agent_goal(&self, pointer: &str, doc: &GoalDoc, origin: &Pose, problems: &mut Problems) -> Goal {
         let foreign = [("x_m", doc.x_m), ("y_m", doc.y_m), ("heading_rad", doc.heading_rad)];
-        refuse(pointer, &foreign, "needs \"frame\": \"scene\"", problems);
+        refuse(pointer, &foreign, GoalFrame::Scene, problems);
         let range = (-MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M);
         let offset = pair(pointer, ("ahead_m", "left_m", range), (doc.ahead_m, doc.left_m), problems);
         let turn = angle(&format!("{pointer}/turn_rad"), doc.turn_rad, problems);
@@ -266,13 +272,13 @@ impl ConditionReader {
         let needs_pose = offset.is_some() || turn.is_some();
         let missing = origin.heading_rad.is_none() || (offset.is_some() && origin.position.is_none());
         if needs_pose && missing {
-            let detail = "frame \"agent\" needs a start pose, from the log or from \"start\"";
-            problems.push(FieldProblem::new(pointer, code::START_MISSING, detail));
+            let message = refusals::needs("\"frame\": \"agent\"", wanted::START_POSE);
+            problems.push(FieldProblem::new(pointer, code::START_MISSING, message));
         }
         let heading = origin.heading_rad.unwrap_or(0.0);
         let position = match (offset, origin.position) {
             (Some(offset), Some(start)) => {
-                check_distance(&format!("{pointer}/ahead_m"), "goal", offset.norm(), problems);
+                check_distance(&format!("{pointer}/ahead_m"), what::GOAL, offset.norm(), problems);
                 let goal = start + rotate(offset, heading);
                 let far = goal.x.abs().max(goal.y.abs());
                 problems.range(&format!("{pointer}/ahead_m"), COORDINATE_M, far).then_some(goal)
@@ -298,19 +304,19 @@ impl ConditionReader {
         };
         let pointer_v = format!("{pointer}/velocity");
         if speed.is_some() {
-            problems.invalid(&pointer_v, "give either speed_mps or velocity, not both");
+            problems.invalid(&pointer_v, refusals::not_both("speed_mps", "velocity"));
         }
         let scene = [("x_mps", velocity.x_mps), ("y_mps", velocity.y_mps)];
         let agent = [("ahead_mps", velocity.ahead_mps), ("left_mps", velocity.left_mps)];
-        let (own, foreign, hint) = match frame {
-            GoalFrame::Scene => (scene, agent, "only in a goal of frame \"agent\""),
-            GoalFrame::Agent => (agent, scene, "only in frame \"scene\""),
+        let (own, foreign, other) = match frame {
+            GoalFrame::Scene => (scene, agent, GoalFrame::Agent),
+            GoalFrame::Agent => (agent, scene, GoalFrame::Scene),
         };
-        refuse(&pointer_v, &foreign, hint, problems);
+        refuse(&pointer_v, &foreign, other, problems);
         let [(first, a), (second, b)] = own;
         let (Some(a), Some(b)) = (a, b) else {
             if a.is_some() || b.is_some() || foreign.iter().all(|f| f.1.is_none()) {
-                problems.invalid(&pointer_v, format!("{first} and {second} are given together"));
+                problems.invalid(&pointer_v, expected(format!("{first}, {second}")));
             }
             return (None, None);
         };
@@ -322,9 +328,13 @@ impl ConditionReader {
     }
 }
 
-fn refuse(pointer: &str, members: &[(&str, Option<f64>)], why: &str, problems: &mut Problems) {
+fn refuse(pointer: &str, members: &[(&str, Option<f64>)], frame: GoalFrame, problems: &mut Problems) {
+    let needed = match frame {
+        GoalFrame::Scene => "\"frame\": \"scene\"",
+        GoalFrame::Agent => "\"frame\": \"agent\"",
+    };
     for (name, _) in members.iter().filter(|m| m.1.is_some()) {
-        problems.invalid(format!("{pointer}/{name}"), format!("{name} {why}"));
+        problems.invalid(format!("{pointer}/{name}"), refusals::needs(name, needed));
     }
 }
 
@@ -344,8 +354,8 @@ fn pair(
         (None, None) => None,
         (given, _) => {
             let (has, lacks) = if given.is_some() { (first, second) } else { (second, first) };
-            let detail = format!("{has} is fixed, {lacks} is not; fix both or neither");
-            problems.push(FieldProblem::new(format!("{pointer}/{has}"), code::HALF_POSITION, detail));
+            let message = refusals::both_or_neither(has, lacks);
+            problems.push(FieldProblem::new(format!("{pointer}/{has}"), code::HALF_POSITION, message));
             None
         }
     }
@@ -361,12 +371,9 @@ fn wrap(value: f64) -> f64 {
     if inside { value + 0.0 } else { wrap_angle(value) }
 }
 
-fn check_distance(pointer: &str, what: &str, distance_m: f64, problems: &mut Problems) {
+fn check_distance(pointer: &str, what: Word, distance_m: f64, problems: &mut Problems) {
     if distance_m > MAX_GOAL_DISTANCE_M {
-        let mut problem = FieldProblem::range(pointer, 0.0, MAX_GOAL_DISTANCE_M, distance_m);
-        problem.detail = format!(
-            "the {what} is {distance_m:.1} m from the start, at most {MAX_GOAL_DISTANCE_M} m expected"
-        );
-        problems.push(problem);
+        let message = refusals::too_far_from_start(what, distance_m, MAX_GOAL_DISTANCE_M);
+        problems.push(FieldProblem::range_of(pointer, 0.0, MAX_GOAL_DISTANCE_M, distance_m, message));
     }
 }

@@ -1,6 +1,7 @@
 //! Small pieces that the documents share: points, members kept as they are, rounding.
 
 use crate::problem::{FieldProblem, code};
+use crate::refusals::outside;
 use scene::Vec2;
 use scene::map::Points;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -231,8 +232,8 @@ pub(crate) fn check_integer(pointer: &str, value: u64) -> Result<u64, FieldProbl
     if value <= MAX_SAFE_INTEGER {
         return Ok(value);
     }
-    let detail = format!("{value} found, 0 to {MAX_SAFE_INTEGER} expected");
-    Err(FieldProblem::new(pointer, code::OUT_OF_RANGE, detail))
+    let message = outside(&value.to_string(), "0", &MAX_SAFE_INTEGER.to_string());
+    Err(FieldProblem::new(pointer, code::OUT_OF_RANGE, message))
 }
 
 /// Schema of an id.

@@ -51,8 +51,8 @@ pub(crate) fn light_id(signal: usize) -> String {
 pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let drawn = roads(&scene.map);
     if drawn.roads.iter().all(|road| length(&road.points) < SHORTEST_M) {
-        let detail = "an OpenDRIVE map has one road or more; this scene has no lane";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+        let message = crate::refusals::file_needs("OpenDRIVE", crate::refusals::what::LANE);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
     let beside = Roadside::of(scene, &drawn);
     let rule = if keeps_left(&scene.map) { LEFT_HAND } else { RIGHT_HAND };

@@ -8,6 +8,7 @@
 use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
+use crate::refusals::{self, what};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Scanner, XmlEvent};
@@ -236,9 +237,8 @@ impl Filter {
         }
         let Some(parent) = self.open.last().cloned() else {
             if element.name != "OpenDRIVE" {
-                let found: String = element.name.chars().take(40).collect();
-                let detail = format!("expected OpenDRIVE, found <{found}>");
-                return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+                let message = refusals::found_expected(refusals::tag(&element.name), "<OpenDRIVE>");
+                return Err(ReadError::other_content(message));
             }
             return self.keep(element, &[]);
         };
@@ -431,14 +431,14 @@ impl Filter {
     fn keep(&mut self, element: &Element, values: &[(&str, f64)]) -> Result<(), ReadError> {
         self.kept += 1;
         self.road.records += 1;
-        at_most(self.kept, MAX_KEPT, "elements of roads")?;
+        at_most(self.kept, MAX_KEPT, what::ROAD_ELEMENTS)?;
         match element.name.as_str() {
             "signal" | "signalReference" => self.signals += 1,
             "object" => self.objects += 1,
             _ => {}
         }
-        at_most(self.signals, MAX_SIGNALS, "signals")?;
-        at_most(self.objects, MAX_OBJECTS, "objects")?;
+        at_most(self.signals, MAX_SIGNALS, what::SIGNALS)?;
+        at_most(self.objects, MAX_OBJECTS, what::OBJECTS)?;
         let text = &mut self.out.text;
         let _ = write!(text, "<{}", element.name);
         let named = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric()) && name != "xmlns";
@@ -455,7 +455,7 @@ impl Filter {
             }
         }
         text.push('>');
-        at_most(text.len(), MAX_KEPT_BYTES, "bytes of roads")?;
+        at_most(text.len(), MAX_KEPT_BYTES, what::ROAD_BYTES)?;
         self.fits()?;
         self.open.push(element.name.clone());
         Ok(())
@@ -470,11 +470,8 @@ impl Filter {
         if made <= self.room as f64 {
             return Ok(());
         }
-        let detail = format!(
-            "{:.0} m of lanes and {} elements would take more memory than a file of this size may",
-            self.drawn_m, self.kept
-        );
-        Err(ReadError::too_large(code::DECODED_TOO_LARGE, self.room, detail))
+        let message = refusals::roads_over_memory(self.drawn_m, self.kept);
+        Err(ReadError::too_large(code::DECODED_TOO_LARGE, self.room, message))
     }
 
     fn road(&mut self, element: &Element) -> Result<(), ReadError> {
@@ -536,7 +533,7 @@ impl Filter {
             }
             self.lanes += before.lanes;
             self.kept += 1;
-            at_most(self.lanes, MAX_LANES, "lanes")?;
+            at_most(self.lanes, MAX_LANES, what::LANES)?;
             let _ = write!(self.out.text, "<laneSection s=\"{place}\" singleSide=\"true\"></laneSection>");
             self.sections.push(LinkedSection { s_m: place, ..LinkedSection::default() });
             road.sections.insert(at, FilteredSection { s_m: place, gives: [false; 2], ..before });
@@ -549,7 +546,7 @@ impl Filter {
         let length_m = number(element, "length").unwrap_or(0.0).max(0.0);
         self.lines_m += length_m;
         if self.lines_m > MAX_LINES_M {
-            return Err(too_large(format!("more than {MAX_LINES_M} m of reference lines")));
+            return Err(ReadError::map_too_large(refusals::more_than(MAX_LINES_M, what::LINE_METRES)));
         }
         let (Some(x), Some(y)) = (number(element, "x"), number(element, "y")) else {
             return Ok(Vec::new());
@@ -566,12 +563,12 @@ impl Filter {
 
     fn lane(&mut self, element: &Element) -> Result<(), ReadError> {
         self.lanes += 1;
-        at_most(self.lanes, MAX_LANES, "lanes")?;
+        at_most(self.lanes, MAX_LANES, what::LANES)?;
         self.lane = element.get("id").and_then(|id| id.trim().parse().ok());
         if let Some(section) = self.road.sections.last_mut() {
             section.lanes += 1;
             section.drawn += usize::from(self.lane != Some(0));
-            at_most(section.lanes, MAX_SECTION_LANES, "lanes in one lane section")?;
+            at_most(section.lanes, MAX_SECTION_LANES, what::SECTION_LANES)?;
         }
         Ok(())
     }
@@ -614,13 +611,13 @@ impl Filter {
             }
         }
         if self.lanes_m > MAX_LANES_M {
-            return Err(too_large(format!("more than {MAX_LANES_M} m of lanes")));
+            return Err(ReadError::map_too_large(refusals::more_than(MAX_LANES_M, what::LANE_METRES)));
         }
         self.fits()?;
         self.steps += road.records as f64 * road.length_m * widest as f64 / 8.0;
         if self.steps > MAX_STEPS {
-            let id: String = road.id.chars().take(40).collect();
-            return Err(too_large(format!("road \"{id}\" has {} records", road.records)));
+            let message = refusals::road_over_limit(&refusals::shown(&road.id), road.records);
+            return Err(ReadError::map_too_large(message));
         }
         Ok(())
     }
@@ -665,10 +662,6 @@ pub(super) fn is_stop_line(element: &Element) -> bool {
 
 fn number(element: &Element, name: &str) -> Option<f64> {
     element.get(name)?.trim().parse().ok().filter(|value: &f64| value.is_finite())
-}
-
-fn too_large(detail: String) -> ReadError {
-    FieldProblem::new("", code::MAP_TOO_LARGE, detail).into()
 }
 
 /// Writes an attribute's value as XML has it; what XML cannot hold becomes a space.

@@ -6,7 +6,8 @@ use super::sections::{NetworkFrame, Section, sections};
 use super::{marks, objects, signals};
 use crate::format::MAP_TIMING;
 use crate::map_file::{self, MapRead};
-use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
+use crate::problem::{ImportWarning, ReadError};
+use crate::refusals::{self, what};
 use crate::sentences;
 use crate::source::Source;
 use crate::surface::{self, Strip};
@@ -30,15 +31,13 @@ const NAME_CHARS: usize = 100;
 pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let mut file = filter::read(file)?;
     let text = std::mem::take(&mut file.text);
-    let (network, provenance) = xodr::load_str_with_provenance(&text).map_err(|error| {
-        let detail = format!("no roads with lanes: {error}");
-        FieldProblem::new("", code::CANNOT_REPRESENT, detail)
-    })?;
+    let (network, provenance) = xodr::load_str_with_provenance(&text)
+        .map_err(|error| ReadError::other_content(refusals::no_roads_with_lanes(&error.to_string())))?;
     drop(text);
     let frame = NetworkFrame::of(&network);
     // Roads begin about the network's origin; numbers far from it have lost their places.
     if map_file::is_too_wide(frame.half) || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(frame.half)).into());
+        return Err(ReadError::map_too_large(map_file::extent(frame.half)));
     }
     let sections = sections(&network, &file, &frame);
     let mut next = 0;
@@ -49,8 +48,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let mut map = LaneMap::default();
     let found = lanes::draw(&network, &sections, &mut map);
     if map.lanes.is_empty() {
-        let detail = "no lane that anybody travels";
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        return Err(ReadError::other_content(refusals::file_has_no(what::LANE)));
     }
     let approximated = marks::draw(&network, &provenance, &sections, &found, &mut map, &mut id);
     let strips = strips(&network, &sections);

@@ -4,8 +4,9 @@
 use super::pavements;
 use crate::markup::Markup;
 use crate::osm_items::{Member, OsmElement, each};
-use crate::problem::{FieldProblem, ReadError, at_most, code};
+use crate::problem::{ReadError, at_most};
 use crate::projection::TransverseMercator;
+use crate::refusals::{self, what};
 use crate::source::Source;
 use std::collections::HashSet;
 
@@ -45,18 +46,18 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     let (mut ways, mut used) = (HashSet::new(), HashSet::new());
     each(file, |item| {
         if item.kind == "relation" && item.tag("type") == Some("lanelet") {
-            return Err(cannot("it has lanelets: a Lanelet2 map, which is read as lanelet2".into()));
+            return Err(ReadError::other_content(refusals::lanelets_in_extract()));
         }
         if is_road(&item) {
             ways.insert(item.id);
             used.extend(item.nodes);
-            at_most(ways.len(), MAX_WAYS, "roads")?;
-            at_most(used.len(), MAX_POINTS, "points of roads")?;
+            at_most(ways.len(), MAX_WAYS, what::ROADS)?;
+            at_most(used.len(), MAX_POINTS, what::ROAD_POINTS)?;
         }
         Ok(())
     })?;
     if ways.is_empty() {
-        return Err(cannot("no roads: nothing in it is tagged `highway`".into()));
+        return Err(ReadError::other_content(refusals::file_has_no(what::HIGHWAY)));
     }
     let mut out = Markup::new(u64::MAX);
     out.open("osm", &[("version", "0.6")]);
@@ -91,8 +92,7 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     let (Some(projection), true) =
         (TransverseMercator::about(places.into_iter()), reach_deg <= MAX_REACH_DEG)
     else {
-        let detail = format!("roads over {:.0} km; cut out some kilometres", reach_deg * 111.0);
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
+        return Err(ReadError::map_too_large(refusals::roads_too_far(reach_deg * 111.0)));
     };
     let xml = out.finish().map_err(|error| crate::unpack::fault(&error, 0))?;
     Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
@@ -116,10 +116,6 @@ fn write(item: &OsmElement, out: &mut Markup) {
         out.empty("tag", &[("k", "sidewalk"), ("v", sides)]);
     }
     out.close();
-}
-
-fn cannot(detail: String) -> ReadError {
-    FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use super::extract::{self, Extract};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, only, only_read};
 use crate::map_file::MapRead;
 use crate::osm_items::holds_lanelets;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::refusals;
 use crate::sentences;
 use crate::source::Source;
 use crate::sumo::formats::read_net;
@@ -70,8 +71,8 @@ impl OsmExtract {
 
 /// The network that netconvert makes of roads.
 fn network(options: &ImportOptions, xml: &[u8], projection: &str, left: bool) -> Result<Vec<u8>, ReadError> {
-    let cannot = |detail: String| ReadError::from(FieldProblem::new("", code::CANNOT_REPRESENT, detail));
-    let Some(netconvert) = &options.netconvert else { return Err(cannot(WITHOUT.into())) };
+    let missing = || ReadError::other_content(refusals::netconvert_missing());
+    let netconvert = options.netconvert.as_ref().ok_or_else(missing)?;
     let mut arguments: Vec<String> = ARGUMENTS.map(str::to_owned).into();
     arguments.extend(left.then(|| "--lefthand".to_owned()));
     for (name, value) in [("--osm-files", FILE), ("--proj", projection), ("--keep-edges.by-vclass", LANES_OF)]
@@ -79,14 +80,10 @@ fn network(options: &ImportOptions, xml: &[u8], projection: &str, left: bool) ->
         arguments.extend([name.to_owned(), value.to_owned()]);
     }
     netconvert.network(FILE, xml, &arguments).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => cannot(WITHOUT.into()),
-        _ => cannot(format!("netconvert could not make a network of it: {error}")),
+        io::ErrorKind::NotFound => missing(),
+        _ => ReadError::other_content(refusals::netconvert_failed(&error.to_string())),
     })
 }
-
-/// What is missing, and how to install it.
-const WITHOUT: &str = "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with \
-    `pip install eclipse-sumo` and start again";
 
 impl Format for OsmExtract {
     fn info(&self) -> Info {

@@ -6,7 +6,8 @@ use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::headings::{HeadingUnit, MOVES_MPS, Votes, said_wrapped};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{ImportWarning, Imported, ReadError};
+use crate::refusals::{self, what};
 use crate::repairs::checked;
 use crate::sentences;
 use scene::map::LaneMap;
@@ -134,10 +135,8 @@ impl PreparedRecording {
             let windows: BTreeSet<usize> = samples.filter(|s| s.is_seen()).map(at).collect();
             list = windows.into_iter().collect();
         }
-        let mut fault = (list.len() > MAX_WINDOWS).then(|| {
-            let detail = format!("{} scenes of 9.1 s in one scenario; at most {MAX_WINDOWS}", list.len());
-            FieldProblem::new("", code::CANNOT_REPRESENT, detail)
-        });
+        let mut fault = (list.len() > MAX_WINDOWS)
+            .then(|| ReadError::other_content(refusals::at_most(list.len(), what::SCENES, MAX_WINDOWS)));
         if fault.is_some() {
             list.clear();
         }
@@ -150,11 +149,10 @@ impl PreparedRecording {
             let start_s = self.start_s + i as f64 * window as f64 * STEP_S;
             let scene = if begun { None } else { self.scene(start_s, steps, windowed) };
             given |= scene.is_some();
-            let detail = "no road user is seen in it";
-            let empty = || Some(Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()));
+            let empty = || Some(Err(ReadError::other_content(refusals::file_has_no(what::ROAD_USER))));
             if k + 1 == count && !given { scene.or_else(empty) } else { scene }
         });
-        std::iter::from_fn(move || fault.take().map(|fault| Err(fault.into())).or_else(|| scenes.next()))
+        std::iter::from_fn(move || fault.take().map(Err).or_else(|| scenes.next()))
     }
 
     fn scene(&self, start_s: f64, steps: usize, windowed: bool) -> Option<Result<Imported, ReadError>> {

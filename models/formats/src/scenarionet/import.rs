@@ -9,10 +9,13 @@ use crate::format::{EGO, ImportOptions};
 use crate::headings::{self, HeadingUnit};
 use crate::limits::{MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::refusals::{at_most, expected, wanted, what};
 use crate::sentences::{self, subject};
 use crate::settle::{self, Ids};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
+use scene::message::Message;
+use scene::sentences::state_expected;
 use scene::{
     Agent, Meta, Origin, STEP_S, Scene, Signal, SignalState, Size, State, Subtype, Timing, Track, Vec2,
 };
@@ -28,8 +31,8 @@ const LEAST_SIZE_M: f64 = 0.05;
 /// Key of this program's dictionary in the metadata.
 pub(super) const OWN: &str = "dragtraffic";
 
-fn invalid(pointer: &str, detail: impl Into<String>) -> ReadError {
-    FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
+fn invalid(pointer: &str, message: Message) -> ReadError {
+    FieldProblem::new(pointer, code::INVALID_FIELD, message).into()
 }
 
 /// Reads a file, plain or gzip.
@@ -123,18 +126,13 @@ fn other_sort(pickle: &Pickle) -> ReadError {
             .take(8)
             .any(|(name, _)| matches!(name, PickleValue::Text(text) if text.ends_with(".pkl")))
     };
-    let detail = match entries {
-        Some(entries) if of_files(entries) => {
-            "a list of the scenarios of a set; import its sd_*.pkl files, each of which is one scenario"
-        }
-        _ => "a pickle that is no ScenarioNet scenario: it has no tracks and map_features",
-    };
-    FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()
+    let files = entries.is_some_and(of_files);
+    ReadError::other_content(expected(if files { wanted::SCENARIO_FILES } else { wanted::SCENARIO }))
 }
 
 /// Number of steps: that of the longest track.
 fn steps(pickle: &Pickle, tracks: &PickleValue) -> Result<usize, ReadError> {
-    let all = pickle.entries(tracks).ok_or_else(|| invalid("/tracks", "a dictionary expected"))?;
+    let all = pickle.entries(tracks).ok_or_else(|| invalid("/tracks", expected(wanted::DICTIONARY)))?;
     let stated = pickle.get(&pickle.root, "length").and_then(|value| pickle.whole(value)).unwrap_or(0);
     let length = |track: &PickleValue| {
         let position = pickle.get(pickle.get(track, "state")?, "position")?;
@@ -161,14 +159,14 @@ fn agents(
 ) -> Result<(Vec<Agent>, HashMap<String, String>), ReadError> {
     let all = pickle.entries(tracks).unwrap_or_default();
     if all.len() > MAX_TRACKS {
-        let detail = format!("{} tracks; at most {MAX_TRACKS}", all.len());
-        return Err(FieldProblem::new("/tracks", code::TOO_MANY_AGENTS, detail).into());
+        let message = at_most(all.len(), what::TRACKS, MAX_TRACKS);
+        return Err(FieldProblem::new("/tracks", code::TOO_MANY_AGENTS, message).into());
     }
     let ego = pickle.get(metadata, "sdc_id").and_then(|value| pickle.text(value));
     let (mut agents, mut names, mut ids, mut varying) = (Vec::new(), HashMap::new(), Ids::default(), 0);
     for (key, track) in all {
         let Some(key) = pickle.text(key) else {
-            return Err(invalid("/tracks", "ids that are texts or numbers expected"));
+            return Err(invalid("/tracks", expected(wanted::IDS)));
         };
         let id = ids.take(&key);
         let (mut agent, varies) = agent(pickle, &key, track, steps)?;
@@ -193,13 +191,14 @@ fn agent(pickle: &Pickle, id: &str, track: &PickleValue, steps: usize) -> Result
     let nothing = PickleValue::None;
     let state = pickle.get(track, "state").unwrap_or(&nothing);
     let rows = |name: &str, most: usize| pickle.get(state, name).and_then(|value| pickle.rows(value, most));
-    let (across, position) =
-        rows("position", 3 * steps).ok_or_else(|| invalid(&at("position"), "rows of numbers expected"))?;
+    let (across, position) = rows("position", 3 * steps)
+        .ok_or_else(|| invalid(&at("position"), expected(wanted::ROWS_OF_NUMBERS)))?;
     if !(2..=3).contains(&across) {
-        return Err(invalid(&at("position"), format!("rows of {across} numbers found, x, y and z expected")));
+        return Err(invalid(&at("position"), expected(wanted::ROWS_OF_XYZ)));
     }
-    let (_, valid) = rows("valid", steps).ok_or_else(|| invalid(&at("valid"), "truth values expected"))?;
-    let (_, heading) = rows("heading", steps).ok_or_else(|| invalid(&at("heading"), "numbers expected"))?;
+    let (_, valid) = rows("valid", steps).ok_or_else(|| invalid(&at("valid"), expected(wanted::TRUTH)))?;
+    let (_, heading) =
+        rows("heading", steps).ok_or_else(|| invalid(&at("heading"), expected(wanted::NUMBERS)))?;
     let velocity = rows("velocity", 3 * steps);
     let word = pickle.get(track, "type").and_then(|value| pickle.text(value)).unwrap_or_default();
     let agent_type = agent_type(&word);
@@ -222,7 +221,7 @@ fn agent(pickle: &Pickle, id: &str, track: &PickleValue, steps: usize) -> Result
         };
         let values = [state.x_m, state.y_m, state.heading_rad, state.vx_mps, state.vy_mps];
         if seen(step) && values.iter().any(|v| !v.is_finite()) {
-            return Err(invalid(&at("position"), format!("step {step} is valid and not finite")));
+            return Err(invalid(&at("position"), state_expected(step, wanted::FINITE)));
         }
         states.push(seen(step).then_some(state));
         let height = if across == 3 { place(2) } else { 0.0 };
@@ -301,8 +300,8 @@ fn signals(
 ) -> Result<Vec<Signal>, ReadError> {
     let all = pickle.entries(lights).unwrap_or_default();
     if all.len() > MAX_SIGNALS {
-        let detail = format!("{} signals; at most {MAX_SIGNALS}", all.len());
-        return Err(FieldProblem::new("/dynamic_map_states", code::MAP_TOO_LARGE, detail).into());
+        let message = at_most(all.len(), what::SIGNALS, MAX_SIGNALS);
+        return Err(FieldProblem::new("/dynamic_map_states", code::MAP_TOO_LARGE, message).into());
     }
     let (mut signals, mut empty) = (Vec::new(), 0);
     for (key, light) in all {

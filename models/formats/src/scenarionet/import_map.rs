@@ -4,11 +4,13 @@ use super::value::{Pickle, PickleValue};
 use super::words::{Feature, feature};
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES};
 use crate::problem::{FieldProblem, ImportWarning, ReadError, code, pointer_token};
+use crate::refusals::{at_most, expected, more_than, wanted, what};
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
 use crate::units::MPS_PER_MPH;
 use scene::Vec2;
 use scene::map::{Area, Boundary, Lane, LaneMap, Neighbor, Points, ROAD_LINE_TYPES, StopSign, TypedLine};
+use scene::message::{Message, Word};
 
 /// Most links, neighbours and boundaries.
 const MAX_REFERENCES: usize = 10 * MAX_POLYLINES;
@@ -38,10 +40,11 @@ pub(super) fn lane_map(
     warnings: &mut Vec<ImportWarning>,
 ) -> Result<LaneMap, ReadError> {
     let all = pickle.entries(features);
-    let all =
-        all.ok_or_else(|| FieldProblem::new("/map_features", code::INVALID_FIELD, "a dictionary expected"))?;
+    let all = all.ok_or_else(|| {
+        FieldProblem::new("/map_features", code::INVALID_FIELD, expected(wanted::DICTIONARY))
+    })?;
     if all.len() > MAX_POLYLINES {
-        return Err(too_large(format!("{} features; at most {MAX_POLYLINES}", all.len())));
+        return Err(too_large(at_most(all.len(), what::FEATURES, MAX_POLYLINES)));
     }
     let mut map = LaneMap::default();
     let mut ids: [Ids; 3] = Default::default();
@@ -95,8 +98,8 @@ pub(super) fn lane_map(
     Ok(map)
 }
 
-fn too_large(detail: String) -> ReadError {
-    FieldProblem::new("/map_features", code::MAP_TOO_LARGE, detail).into()
+fn too_large(message: Message) -> ReadError {
+    FieldProblem::new("/map_features", code::MAP_TOO_LARGE, message).into()
 }
 
 /// The line, ring or place of a feature.
@@ -109,24 +112,25 @@ fn line(
     let found = ["polyline", "polygon", "position"].iter().find_map(|name| pickle.get(value, name));
     let Some(found) = found else { return Ok(Points::default()) };
     let at = format!("/map_features/{}", pointer_token(&key.chars().take(60).collect::<String>()));
-    let wrong = |detail: &str| ReadError::from(FieldProblem::new(at.as_str(), code::INVALID_FIELD, detail));
+    let wrong =
+        |wanted: Word| ReadError::from(FieldProblem::new(at.as_str(), code::INVALID_FIELD, expected(wanted)));
     let (across, numbers) =
-        pickle.rows(found, 3 * (MAX_MAP_POINTS + 1)).ok_or_else(|| wrong("rows of numbers expected"))?;
+        pickle.rows(found, 3 * (MAX_MAP_POINTS + 1)).ok_or_else(|| wrong(wanted::ROWS_OF_NUMBERS))?;
     // A place is one row.
     let across = if across == 1 && (2..=3).contains(&numbers.len()) { numbers.len() } else { across };
     if numbers.is_empty() {
         return Ok(Points::default());
     }
     if !(2..=3).contains(&across) {
-        return Err(wrong("rows of x, y and z expected"));
+        return Err(wrong(wanted::ROWS_OF_XYZ));
     }
     if numbers.iter().any(|v| !v.is_finite()) {
-        return Err(wrong("points that are not finite"));
+        return Err(wrong(wanted::FINITE_POINTS));
     }
     let xy: Vec<Vec2> = numbers.chunks_exact(across).map(|row| Vec2::new(row[0], row[1])).collect();
     counts.points += xy.len();
     if counts.points > MAX_MAP_POINTS {
-        return Err(too_large(format!("more than {MAX_MAP_POINTS} points")));
+        return Err(too_large(more_than(MAX_MAP_POINTS, what::POINTS)));
     }
     let z_m = (across == 3).then(|| numbers.chunks_exact(across).map(|row| row[2]).collect());
     Ok(Points { xy, z_m })
@@ -135,7 +139,7 @@ fn line(
 fn count(counts: &mut FeatureCounts, more: usize) -> Result<(), ReadError> {
     counts.references += more;
     if counts.references > MAX_REFERENCES {
-        return Err(too_large(format!("more than {MAX_REFERENCES} references")));
+        return Err(too_large(more_than(MAX_REFERENCES, what::REFERENCES)));
     }
     Ok(())
 }

@@ -7,6 +7,8 @@
 use super::array::{Array, Dtype};
 use super::value::{Pickle, PickleObject, PickleValue};
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, wanted, what};
+use scene::message::{Placeholder, Word};
 use std::rc::Rc;
 
 /// Newest protocol.
@@ -123,26 +125,27 @@ struct Machine<'a> {
 type Done<T> = Result<T, ReadError>;
 
 impl<'a> Machine<'a> {
-    fn broken(&self, detail: impl Into<String>) -> ReadError {
-        ReadError::malformed(self.op as u64, format!("pickle: {}", detail.into()))
+    fn broken(&self, wanted: Word) -> ReadError {
+        ReadError::malformed(self.op as u64, refusals::expected(wanted))
     }
 
-    fn refused(&self, detail: String) -> ReadError {
-        FieldProblem::new("", code::PICKLE_REFUSED, format!("byte {}: {detail}", self.op)).into()
+    fn cut_off(&self) -> ReadError {
+        ReadError::malformed(self.op as u64, refusals::file_ends_inside(what::INSTRUCTION))
     }
 
-    fn too_many(&self, most: usize, what: &str) -> ReadError {
-        ReadError::too_large(
-            code::DECODED_TOO_LARGE,
-            most as u64,
-            format!("more than {most} {what} in a pickle"),
-        )
+    fn refused(&self, found: impl Placeholder) -> ReadError {
+        let message = refusals::pickle_holds(self.op, found);
+        FieldProblem::new("", code::PICKLE_REFUSED, message).into()
+    }
+
+    fn too_many(&self, most: usize, what: Word) -> ReadError {
+        ReadError::too_large(code::DECODED_TOO_LARGE, most as u64, refusals::more_than(most, what))
     }
 
     fn take(&mut self, count: usize) -> Done<&'a [u8]> {
         let end = self.at.checked_add(count).filter(|end| *end <= self.bytes.len());
         let taken = end.and_then(|end| self.bytes.get(self.at..end));
-        let Some(taken) = taken else { return Err(self.broken("the file ends within an instruction")) };
+        let Some(taken) = taken else { return Err(self.cut_off()) };
         self.at += count;
         Ok(taken)
     }
@@ -155,13 +158,13 @@ impl<'a> Machine<'a> {
 
     fn length(&mut self, size: usize) -> Done<usize> {
         let length = self.number(size)?;
-        usize::try_from(length).map_err(|_| self.broken("a length beyond the file"))
+        usize::try_from(length).map_err(|_| self.cut_off())
     }
 
     fn line(&mut self) -> Done<String> {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         let end = rest.iter().take(MAX_LINE).position(|byte| *byte == b'\n');
-        let Some(end) = end else { return Err(self.broken("a line without an end")) };
+        let Some(end) = end else { return Err(self.cut_off()) };
         let line = self.take(end + 1)?;
         let line = line.get(..end).unwrap_or_default();
         // Letters of one byte, as the older protocols have them.
@@ -171,7 +174,7 @@ impl<'a> Machine<'a> {
     fn push(&mut self, value: PickleValue) -> Done<()> {
         self.pushed += 1;
         if self.pushed > MAX_VALUES {
-            return Err(self.too_many(MAX_VALUES, "values"));
+            return Err(self.too_many(MAX_VALUES, what::VALUES));
         }
         self.stack.push(value);
         Ok(())
@@ -179,7 +182,7 @@ impl<'a> Machine<'a> {
 
     fn push_object(&mut self, object: PickleObject) -> Done<()> {
         if self.objects.len() >= MAX_OBJECTS {
-            return Err(self.too_many(MAX_OBJECTS, "lists, dictionaries and arrays"));
+            return Err(self.too_many(MAX_OBJECTS, what::MEMORY));
         }
         self.objects.push(object);
         self.push(PickleValue::Object(self.objects.len() - 1))
@@ -188,7 +191,7 @@ impl<'a> Machine<'a> {
     fn push_text(&mut self, length: usize) -> Done<()> {
         let bytes = self.take(length)?;
         let text = std::str::from_utf8(bytes).map(Rc::from);
-        let text = text.map_err(|_| self.broken("a text that is not UTF-8"))?;
+        let text = text.map_err(|_| ReadError::malformed(self.op as u64, refusals::not_utf8(what::TEXT)))?;
         self.push(PickleValue::Text(text))
     }
 
@@ -210,12 +213,12 @@ impl<'a> Machine<'a> {
     fn pop(&mut self) -> Done<PickleValue> {
         let floor = self.marks.last().copied().unwrap_or(0);
         let value = if self.stack.len() > floor { self.stack.pop() } else { None };
-        value.ok_or_else(|| self.broken("something is taken from an empty stack"))
+        value.ok_or_else(|| self.broken(wanted::ITEM))
     }
 
     fn mark(&mut self) -> Done<()> {
         if self.marks.len() >= MAX_DEPTH {
-            return Err(self.broken(format!("nested deeper than {MAX_DEPTH}")));
+            return Err(ReadError::malformed(self.op as u64, refusals::nested_deeper(MAX_DEPTH)));
         }
         self.marks.push(self.stack.len());
         Ok(())
@@ -223,18 +226,18 @@ impl<'a> Machine<'a> {
 
     /// Pops the stack down to the last mark.
     fn since_mark(&mut self) -> Done<Vec<PickleValue>> {
-        let mark = self.marks.pop().ok_or_else(|| self.broken("the end of what was not begun"))?;
+        let mark = self.marks.pop().ok_or_else(|| self.broken(wanted::MARK))?;
         Ok(self.stack.split_off(mark.min(self.stack.len())))
     }
 
     fn remember(&mut self, place: usize) -> Done<()> {
-        let value = self.stack.last().cloned().ok_or_else(|| self.broken("nothing to remember"))?;
+        let value = self.stack.last().cloned().ok_or_else(|| self.broken(wanted::ITEM))?;
         if place >= MAX_MEMO {
-            return Err(self.too_many(MAX_MEMO, "things to remember"));
+            return Err(self.too_many(MAX_MEMO, what::REMEMBERED));
         }
         // Memo indices are consecutive; a large one must not allocate all before it.
         if place > self.memo.len() + 1024 {
-            return Err(self.broken("a place of the memory out of turn"));
+            return Err(self.broken(wanted::MEMORY));
         }
         if place >= self.memo.len() {
             self.memo.resize(place + 1, None);
@@ -247,12 +250,12 @@ impl<'a> Machine<'a> {
 
     fn recall(&mut self, place: usize) -> Done<()> {
         let value = self.memo.get(place).cloned().flatten();
-        let value = value.ok_or_else(|| self.broken("something is recalled that was never kept"))?;
+        let value = value.ok_or_else(|| self.broken(wanted::MEMORY))?;
         self.push(value)
     }
 
     fn place(&mut self) -> Done<usize> {
-        self.line()?.parse().map_err(|_| self.broken("no place of the memory"))
+        self.line()?.parse().map_err(|_| self.broken(wanted::MEMORY))
     }
 
     fn global(&mut self, module: &str, name: &str) -> Done<()> {
@@ -262,7 +265,8 @@ impl<'a> Machine<'a> {
                 let shown =
                     |text: &str| text.chars().filter(|c| !c.is_control()).take(80).collect::<String>();
                 let (module, name) = (shown(module), shown(name));
-                Err(self.refused(format!("the pickle asks for {module}.{name}; numbers, texts, lists and arrays are read, nothing is called")))
+                let message = refusals::pickle_calls(self.op, &format!("{module}.{name}"));
+                Err(FieldProblem::new("", code::PICKLE_REFUSED, message).into())
             }
         }
     }
@@ -276,7 +280,10 @@ impl<'a> Machine<'a> {
                 0x80 => {
                     let protocol = self.number(1)?;
                     if protocol > u64::from(PROTOCOL) {
-                        return Err(self.broken(format!("protocol {protocol}; 0 to {PROTOCOL} are read")));
+                        return Err(ReadError::malformed(
+                            self.op as u64,
+                            refusals::unsupported_version(protocol, u64::from(PROTOCOL)),
+                        ));
                     }
                 }
                 0x95 => {
@@ -378,7 +385,7 @@ impl<'a> Machine<'a> {
             }
             0x93 => match (self.pop()?, self.pop()?) {
                 (PickleValue::Text(name), PickleValue::Text(module)) => self.global(&module, &name),
-                _ => Err(self.broken("a name that is no text")),
+                _ => Err(self.broken(wanted::TEXT)),
             },
             b'R' => {
                 let (arguments, callee) = (self.pop()?, self.pop()?);
@@ -392,11 +399,11 @@ impl<'a> Machine<'a> {
                 let state = self.pop()?;
                 self.build(&state)
             }
-            b'P' | b'Q' => Err(self.refused("a reference to something outside of the file".into())),
-            b'i' | b'o' | 0x92 => Err(self.refused("an object of a class".into())),
-            0x82..=0x84 => Err(self.refused("a name by its number in a registry".into())),
-            0x97 | 0x98 => Err(self.refused("bytes outside of the file".into())),
-            _ => Err(self.broken(format!("instruction {op:#04x} is not known"))),
+            b'P' | b'Q' => Err(self.refused(what::OUTER_REFERENCE)),
+            b'i' | b'o' | 0x92 => Err(self.refused(what::CLASS_OBJECT)),
+            0x82..=0x84 => Err(self.refused(what::REGISTERED_NAME)),
+            0x97 | 0x98 => Err(self.refused(what::OUTER_BYTES)),
+            _ => Err(self.broken(wanted::INSTRUCTION)),
         }
     }
 
@@ -405,7 +412,7 @@ impl<'a> Machine<'a> {
         let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
         let mut eight = if negative { [0xff; 8] } else { [0; 8] };
         if bytes.len() > 8 {
-            return Err(self.broken("a number of more than eight bytes"));
+            return Err(self.broken(wanted::NUMBER_8));
         }
         eight.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
         self.push(PickleValue::Int(i64::from_le_bytes(eight)))
@@ -420,7 +427,7 @@ impl<'a> Machine<'a> {
             (b'F', _) => text.parse().ok().map(PickleValue::Float),
             _ => text.parse().ok().map(PickleValue::Int),
         };
-        let value = value.ok_or_else(|| self.broken("no number"))?;
+        let value = value.ok_or_else(|| self.broken(wanted::NUMBER))?;
         self.push(value)
     }
 
@@ -430,7 +437,7 @@ impl<'a> Machine<'a> {
         if op == b'S' {
             let quoted = line.trim();
             let inner = ['\'', '"'].iter().find_map(|q| quoted.strip_prefix(*q)?.strip_suffix(*q));
-            let inner = inner.ok_or_else(|| self.broken("a text without quotes"))?;
+            let inner = inner.ok_or_else(|| self.broken(wanted::QUOTES))?;
             return self.push(PickleValue::Text(Rc::from(inner)));
         }
         let mut text = String::with_capacity(line.len());
@@ -439,7 +446,7 @@ impl<'a> Machine<'a> {
             text.push_str(before);
             let letter =
                 after.get(..4).and_then(|hex| u32::from_str_radix(hex, 16).ok()).and_then(char::from_u32);
-            text.push(letter.ok_or_else(|| self.broken("an escape that is no letter"))?);
+            text.push(letter.ok_or_else(|| self.broken(wanted::LETTER))?);
             rest = after.get(4..).unwrap_or_default();
         }
         text.push_str(rest);
@@ -448,7 +455,7 @@ impl<'a> Machine<'a> {
 
     fn paired(&self, items: Vec<PickleValue>) -> Done<Vec<(PickleValue, PickleValue)>> {
         if !items.len().is_multiple_of(2) {
-            return Err(self.broken("a key without a value"));
+            return Err(self.broken(wanted::KEY_VALUES));
         }
         let mut entries = Vec::with_capacity(items.len() / 2);
         let mut items = items.into_iter();
@@ -469,7 +476,7 @@ impl<'a> Machine<'a> {
     fn extend(&mut self, items: Vec<PickleValue>) -> Done<()> {
         match self.top() {
             Some(PickleObject::List(list)) => list.extend(items),
-            _ => return Err(self.broken("something is added to what is no list")),
+            _ => return Err(self.broken(wanted::LIST)),
         }
         Ok(())
     }
@@ -477,7 +484,7 @@ impl<'a> Machine<'a> {
     fn set(&mut self, entries: Vec<(PickleValue, PickleValue)>) -> Done<()> {
         match self.top() {
             Some(PickleObject::Dict(dict)) => dict.extend(entries),
-            _ => return Err(self.broken("an entry of what is no dictionary")),
+            _ => return Err(self.broken(wanted::DICTIONARY)),
         }
         Ok(())
     }
@@ -488,9 +495,9 @@ impl<'a> Machine<'a> {
             PickleValue::Known(at) => KNOWN.get(*at).map(|(.., known)| *known),
             _ => None,
         };
-        let Some(known) = known else { return Err(self.refused("a call of what is no name".into())) };
+        let Some(known) = known else { return Err(self.refused(what::CALL)) };
         let PickleValue::Tuple(arguments) = arguments else {
-            return Err(self.broken("arguments that are no tuple"));
+            return Err(self.broken(wanted::TUPLE));
         };
         let arguments = Rc::clone(arguments);
         match (known, &*arguments) {
@@ -530,10 +537,10 @@ impl<'a> Machine<'a> {
             (Known::Encode, [PickleValue::Text(text), ..]) => {
                 self.make_bytes(text.len())?;
                 let bytes: Option<Vec<u8>> = text.chars().map(|c| u8::try_from(u32::from(c)).ok()).collect();
-                let bytes = bytes.ok_or_else(|| self.broken("bytes that are none"))?;
+                let bytes = bytes.ok_or_else(|| self.broken(wanted::BYTES))?;
                 self.push(PickleValue::Bytes(bytes.into()))
             }
-            _ => Err(self.broken("a known name with arguments that it does not take")),
+            _ => Err(self.broken(wanted::ARGUMENTS)),
         }
     }
 
@@ -541,7 +548,10 @@ impl<'a> Machine<'a> {
     fn make_bytes(&mut self, count: usize) -> Done<()> {
         self.made += count;
         if self.made > self.bytes.len() {
-            return Err(self.broken("more bytes are made than there are in the file"));
+            return Err(ReadError::malformed(
+                self.op as u64,
+                refusals::more_than(self.bytes.len(), what::BYTES),
+            ));
         }
         Ok(())
     }
@@ -552,13 +562,13 @@ impl<'a> Machine<'a> {
             PickleValue::Tuple(items) => items.to_vec(),
             PickleValue::Object(at) => match self.objects.get(*at) {
                 Some(PickleObject::List(items)) => items.clone(),
-                _ => return Err(self.broken("a list expected")),
+                _ => return Err(self.broken(wanted::LIST)),
             },
-            _ => return Err(self.broken("a list expected")),
+            _ => return Err(self.broken(wanted::LIST)),
         };
         self.pushed += items.len();
         if self.pushed > MAX_VALUES {
-            return Err(self.too_many(MAX_VALUES, "values"));
+            return Err(self.too_many(MAX_VALUES, what::VALUES));
         }
         Ok(items)
     }
@@ -568,7 +578,7 @@ impl<'a> Machine<'a> {
         for pair in self.items(from)? {
             match self.items(&pair)?.as_slice() {
                 [key, value] => entries.push((key.clone(), value.clone())),
-                _ => return Err(self.broken("a pair expected")),
+                _ => return Err(self.broken(wanted::PAIR)),
             }
         }
         self.push_object(PickleObject::Dict(entries))
@@ -586,9 +596,9 @@ impl<'a> Machine<'a> {
         found.ok_or_else(|| match value {
             PickleValue::Text(word) => {
                 let word: String = word.chars().take(20).collect();
-                self.refused(format!("an array of \"{word}\"; numbers, truth values and texts are read"))
+                self.refused(format!("array({word})"))
             }
-            _ => self.broken("no type of array"),
+            _ => self.broken(wanted::ARRAY_TYPE),
         })
     }
 
@@ -601,7 +611,7 @@ impl<'a> Machine<'a> {
             PickleValue::Tuple(items) if items.len() <= 8 => items.iter().map(side).collect(),
             value => side(value).map(|n| vec![n]),
         };
-        sides.ok_or_else(|| self.broken("no shape of an array"))
+        sides.ok_or_else(|| self.broken(wanted::ARRAY_SHAPE))
     }
 
     fn array(
@@ -618,11 +628,11 @@ impl<'a> Machine<'a> {
                 self.make_bytes(text.len())?;
                 Rc::from(text.as_bytes())
             }
-            _ => return Err(self.broken("an array without bytes")),
+            _ => return Err(self.broken(wanted::BYTES)),
         };
         let array = Array { shape, dtype: Some(dtype), fortran, data };
         if !array.is_whole() {
-            return Err(self.broken("an array that has another size than its bytes"));
+            return Err(self.broken(wanted::ARRAY_BYTES));
         }
         self.push_object(PickleObject::Array(array))
     }
@@ -630,7 +640,7 @@ impl<'a> Machine<'a> {
     /// Fills what was made empty.
     fn build(&mut self, state: &PickleValue) -> Done<()> {
         let Some(PickleValue::Object(at)) = self.stack.last().cloned() else {
-            return Err(self.refused("a state of what is no array".into()));
+            return Err(self.refused(what::STATE));
         };
         let filled = match (self.objects.get(at), state) {
             (Some(PickleObject::Array(_)), PickleValue::Tuple(state)) => match &**state {
@@ -642,7 +652,7 @@ impl<'a> Machine<'a> {
                         _ => None,
                     }
                 }
-                _ => return Err(self.broken("no state of an array")),
+                _ => return Err(self.broken(wanted::ARRAY_STATE)),
             },
             (Some(PickleObject::Dtype(dtype)), PickleValue::Tuple(state)) => {
                 let order = state.get(1);
@@ -651,7 +661,7 @@ impl<'a> Machine<'a> {
             }
             // Members of a dictionary's class are of no use.
             (Some(PickleObject::Dict(_)), _) => None,
-            _ => return Err(self.refused("a state of what is no array".into())),
+            _ => return Err(self.refused(what::STATE)),
         };
         if let (Some(filled), Some(slot)) = (filled, self.objects.get_mut(at)) {
             *slot = filled;

@@ -1,6 +1,7 @@
 //! Reader of floating-car data in SUMO's CSV form: one row for each road user and step.
 
 use super::SumoError;
+use crate::refusals::{quoted, wanted};
 use scene::Vec2;
 use std::collections::BTreeMap;
 use std::io::BufRead;
@@ -33,11 +34,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, FcdTrack>, SumoE
         ["vehicle", "person"].iter().filter_map(|g| ColumnIndices::find(&names, g)).collect();
     let time = names.iter().position(|n| *n == "timestep_time");
     let (Some(time), false) = (time, groups.is_empty()) else {
-        let found = header.chars().take(80).collect();
-        return Err(SumoError::Content {
-            expected: "columns timestep_time, vehicle_id, vehicle_x, ...",
-            found,
-        });
+        return Err(SumoError::content(quoted(&header), wanted::FCD_COLUMNS));
     };
     let mut records: BTreeMap<String, FcdTrack> = BTreeMap::new();
     for (i, line) in lines.enumerate() {
@@ -46,7 +43,7 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, FcdTrack>, SumoE
         let text = |column: usize| fields.get(column).copied().unwrap_or_default();
         let number = |column: usize| -> Result<f64, SumoError> {
             let value = text(column).parse::<f64>().ok().filter(|v| v.is_finite());
-            value.ok_or_else(|| SumoError::value(text(column), "a number", row))
+            value.ok_or_else(|| SumoError::value(text(column), wanted::NUMBER, row))
         };
         let Some(columns) = groups.iter().find(|c| !text(c.id).is_empty()) else { continue };
         if !records.contains_key(text(columns.id)) {
@@ -120,6 +117,6 @@ mod tests {
     fn says_where_a_number_is_missing() {
         let error = read_csv(format!("{HEAD}90.00;x;v1;5;c;1;2\n").as_bytes()).unwrap_err();
         assert_eq!(error.to_string(), "line 2: \"x\" found where a number was expected");
-        assert!(matches!(read_csv("a;b\n".as_bytes()), Err(SumoError::Content { .. })));
+        assert!(matches!(read_csv("a;b\n".as_bytes()), Err(SumoError::Content(_))));
     }
 }

@@ -8,7 +8,8 @@ use super::rows::FcdRows;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::limits::{MAX_DECODED_BYTES, memory_for};
 use crate::loss;
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::ReadError;
+use crate::refusals;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use scene::Scene;
@@ -40,7 +41,9 @@ impl ZipContents {
         let mut packed = Vec::new();
         let input = file.open().map_err(|error| unpack::fault(&error, 0))?;
         input.take(most).read_to_end(&mut packed).map_err(|error| unpack::fault(&error, 0))?;
-        let broken = |error: zip::result::ZipError| ReadError::malformed(0, error.to_string());
+        let broken = |error: zip::result::ZipError| {
+            ReadError::malformed(0, refusals::unreadable("ZIP", &error.to_string()))
+        };
         let mut zip = ZipArchive::new(Cursor::new(packed)).map_err(broken)?;
         let mut folder = Self::default();
         for i in 0..zip.len().min(MAX_FILES) {
@@ -145,10 +148,7 @@ impl Format for SumoFolder {
             }
             (Some(_), None) if options.skip > 0 || options.max_scenes == 0 => Box::new(std::iter::empty()),
             (Some(net), None) => one(of_net(net).scene(SOURCE, licence)),
-            (None, None) => {
-                let detail = format!("a zip without a file whose name ends in {NET} or {RECORDING}");
-                one(Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()))
-            }
+            (None, None) => one(Err(ReadError::other_content(refusals::zip_without(NET, RECORDING)))),
         }
     }
 

@@ -10,6 +10,7 @@ use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::recording::{AgentIds, middle};
+use crate::refusals::{self, what};
 use crate::repairs::checked;
 use crate::sentences;
 use scene::geometry::direction;
@@ -148,14 +149,10 @@ impl<'a> Windows<'a> {
             user.samples.push(sample);
             self.samples += 1;
         }
-        if self.samples > MAX_SAMPLES || users > MAX_USERS {
-            let detail = format!(
-                "{:.1} s: more than {MAX_SAMPLES} positions or {MAX_USERS} road users within {:.1} s; record \
-                 fewer (fcd-output.filter-edges.input-file, device.fcd.probability)",
-                time_s,
-                STEPS as f64 * STEP_S
-            );
-            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, detail).into());
+        let counts = [(self.samples, MAX_SAMPLES, what::POSITIONS), (users, MAX_USERS, what::ROAD_USERS)];
+        if let Some((most, what)) = refusals::exceeded(&counts) {
+            let message = refusals::positions_over_limit(most, what, STEPS as f64 * STEP_S);
+            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, message).into());
         }
         Ok(())
     }
@@ -310,10 +307,9 @@ impl<'a> Windows<'a> {
                     if let Some(scene) = self.finish() {
                         return Some(scene);
                     }
-                    let detail = "a recording without road users";
-                    let empty = || FieldProblem::new("", code::CANNOT_REPRESENT, detail);
+                    let empty = || ReadError::other_content(refusals::file_has_no(what::ROAD_USER));
                     self.ended = true;
-                    return (!self.given).then(|| Err(empty().into()));
+                    return (!self.given).then(|| Err(empty()));
                 }
                 Err(error) => {
                     self.ended = true;

@@ -1,12 +1,13 @@
 //! From a network file to a map about the origin, with its signals.
 
 use super::map::{MapOptions, SignalPlace, lane_map};
-use super::net::{LaneKind, Net, NetLane, too_large};
+use super::net::{LaneKind, Net, NetLane};
 use super::programs::SignalProgram;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
 use crate::map_file;
 use crate::polyline::length;
-use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, ReadError};
+use crate::refusals::{self, shown, what};
 use crate::repairs;
 use crate::sentences;
 use crate::source::Source;
@@ -108,16 +109,12 @@ impl NetScene {
 /// metres and half its size.
 fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
     if net.lanes.is_empty() {
-        let detail = "a network without lanes";
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        return Err(ReadError::other_content(refusals::file_has_no(what::LANE)));
     }
     // Each edge gives two borders and an area besides its lanes.
     let polylines = net.lanes.len() + 2 * net.edges.len();
     if polylines > MAX_POLYLINES {
-        let (lanes, edges) = (net.lanes.len(), net.edges.len());
-        return Err(too_large(format!(
-            "{lanes} lanes of {edges} edges; a map has {MAX_POLYLINES} polylines"
-        )));
+        return Err(ReadError::map_too_large(refusals::network_too_large(MAX_POLYLINES, what::LINES)));
     }
     let mut corners: Option<(Vec2, Vec2)> = None;
     for lane in &net.lanes {
@@ -129,31 +126,30 @@ fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
     if map_file::is_too_wide(half) {
-        return Err(too_large(map_file::extent(half)));
+        return Err(ReadError::map_too_large(map_file::extent(half)));
     }
     let points: f64 = net.lanes.iter().map(|l| l.shape.len() as f64 + length(&l.shape) / 2.0).sum();
     if points > MAX_MAP_POINTS as f64 {
-        return Err(too_large(format!("about {points:.0} points; a map has {MAX_MAP_POINTS}")));
+        return Err(ReadError::map_too_large(refusals::network_too_large(MAX_MAP_POINTS, what::POINTS)));
     }
     Ok((middle, half))
 }
 
 fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
-    let name: String = lane.id.chars().take(40).collect();
-    let problem = |what: &str, min: f64, max: f64, got: f64| {
-        let mut problem = FieldProblem::range("", min, max, got);
-        problem.detail = format!("lane \"{name}\", {what}: {}", problem.detail);
-        Err(problem.into())
+    let problem = |what, min: f64, max: f64, got: f64| {
+        let [least, most, found] = [min, max, got].map(|v| v.to_string());
+        let message = refusals::lane_outside(&shown(&lane.id), what, &found, &least, &most);
+        Err(FieldProblem::range_of("", min, max, got, message).into())
     };
     let far = lane.shape.iter().flat_map(|p| [p.x, p.y]).find(|v| v.abs() > MAX_SOURCE_M);
     if let Some(value) = far {
-        return problem("coordinate in metres", -MAX_SOURCE_M, MAX_SOURCE_M, value);
+        return problem(what::COORDINATE, -MAX_SOURCE_M, MAX_SOURCE_M, value);
     }
     if !(0.1..=50.0).contains(&lane.width_m) {
-        return problem("width in metres", 0.1, 50.0, lane.width_m);
+        return problem(what::WIDTH, 0.1, 50.0, lane.width_m);
     }
     if !(0.0..=100.0).contains(&lane.speed_mps) {
-        return problem("speed in m/s", 0.0, 100.0, lane.speed_mps);
+        return problem(what::SPEED, 0.0, 100.0, lane.speed_mps);
     }
     Ok(())
 }

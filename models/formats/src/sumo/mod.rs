@@ -22,7 +22,9 @@ pub mod signals;
 mod window;
 
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{found_expected, quoted};
 use crate::xml::Missing;
+use scene::message::{Message, Placeholder, Word};
 
 /// Why a SUMO file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -34,39 +36,30 @@ pub enum SumoError {
     #[error("{0}")]
     Missing(#[from] Missing),
     /// An attribute or a field is no number or no list of points.
-    #[error("line {line}: \"{found}\" found where {expected} was expected")]
-    Value {
-        /// Value found, shortened.
-        found: String,
-        /// Value expected.
-        expected: &'static str,
-        /// Line in the file, from 1.
-        line: u32,
-    },
+    #[error("{0}")]
+    Value(Message),
     /// The file holds something else.
-    #[error("expected {expected}, found {found}")]
-    Content {
-        /// Content expected.
-        expected: &'static str,
-        /// Content found.
-        found: String,
-    },
+    #[error("{0}")]
+    Content(Message),
 }
 
 impl SumoError {
-    fn value(found: &str, expected: &'static str, line: u32) -> Self {
-        Self::Value { found: found.chars().take(40).collect(), expected, line }
+    fn value(found: &str, wanted: Word, line: u32) -> Self {
+        Self::Value(found_expected(quoted(found), wanted).at_line(line))
+    }
+
+    fn content(found: impl Placeholder, wanted: Word) -> Self {
+        Self::Content(found_expected(found, wanted))
     }
 }
 
 impl From<SumoError> for ReadError {
     fn from(error: SumoError) -> Self {
-        let detail = error.to_string();
         match error {
             SumoError::File(error) => error,
             SumoError::Missing(missing) => missing.into(),
-            SumoError::Value { .. } => FieldProblem::new("", code::INVALID_FIELD, detail).into(),
-            SumoError::Content { .. } => FieldProblem::new("", code::CANNOT_REPRESENT, detail).into(),
+            SumoError::Value(message) => FieldProblem::new("", code::INVALID_FIELD, message).into(),
+            SumoError::Content(message) => Self::other_content(message),
         }
     }
 }

@@ -2,8 +2,6 @@
 
 mod read;
 
-pub(super) use read::too_large;
-
 use super::programs::SignalProgram;
 use scene::Vec2;
 
@@ -173,7 +171,7 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_network() {
-        assert!(matches!(Net::read("<routes/>"), Err(SumoError::Content { .. })));
+        assert!(matches!(Net::read("<routes/>"), Err(SumoError::Content(_))));
         assert!(matches!(Net::read("<!DOCTYPE net><net/>"), Err(SumoError::File(_))));
         let error = Net::read(&SMALL.replace("0,0 10,0", "0,zero")).unwrap_err();
         assert_eq!(error.to_string(), "line 7: \"0,zero\" found where a point such as 1.5,-2.0 was expected");

@@ -4,10 +4,12 @@ use super::SumoError;
 use super::fcd::ColumnIndices;
 use super::import_net::MAX_SOURCE_M;
 use crate::problem::ReadError;
+use crate::refusals::{self, wanted, what};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
+use scene::message::{Message, Word};
 use std::io::{BufRead, Read};
 
 /// Most bytes of one line or tag.
@@ -90,33 +92,33 @@ impl<'a> FcdRows<'a> {
     }
 }
 
-fn number(text: &str, range: (f64, f64), expected: &'static str, line: u32) -> Result<f64, SumoError> {
+fn number(text: &str, range: (f64, f64), expected: Word, line: u32) -> Result<f64, SumoError> {
     let value = text.trim().parse::<f64>().ok().filter(|v| (range.0..=range.1).contains(v));
     value.ok_or_else(|| SumoError::value(text, expected, line))
 }
 
 fn coordinate(text: &str, line: u32) -> Result<f64, SumoError> {
-    number(text, (-MAX_SOURCE_M, MAX_SOURCE_M), "a coordinate in metres", line)
+    number(text, (-MAX_SOURCE_M, MAX_SOURCE_M), wanted::COORDINATE, line)
 }
 
 /// Degrees clockwise from north as radians counter-clockwise from +x.
 fn heading(text: &str, line: u32) -> Result<f64, SumoError> {
-    let angle_deg = number(text, (-720.0, 720.0), "an angle in degrees", line)?;
+    let angle_deg = number(text, (-720.0, 720.0), wanted::ANGLE, line)?;
     Ok(scene::wrap_angle((90.0 - angle_deg).to_radians()))
 }
 
 fn speed(text: &str, line: u32) -> Result<f64, SumoError> {
-    number(text, (0.0, 150.0), "a speed in m/s", line)
+    number(text, (0.0, 150.0), wanted::SPEED, line)
 }
 
 fn side(text: Option<&str>, line: u32) -> Result<Option<f64>, SumoError> {
     let text = text.filter(|t| !t.is_empty());
-    text.map(|t| number(t, (0.05, 500.0), "a size in metres", line)).transpose()
+    text.map(|t| number(t, (0.05, 500.0), wanted::SIZE, line)).transpose()
 }
 
 fn id(text: &str, line: u32) -> Result<String, SumoError> {
     if text.is_empty() || text.len() > MAX_ID {
-        return Err(SumoError::value(text, "an id of 1 to 256 bytes", line));
+        return Err(SumoError::value(text, wanted::ID_BYTES, line));
     }
     Ok(text.to_owned())
 }
@@ -127,9 +129,9 @@ fn type_name(text: &str) -> String {
 
 /// A time that must lie after the one before.
 fn time(text: &str, before_s: Option<f64>, line: u32) -> Result<f64, SumoError> {
-    let time_s = number(text, (-MAX_TIME_S, MAX_TIME_S), "a time in seconds", line)?;
+    let time_s = number(text, (-MAX_TIME_S, MAX_TIME_S), wanted::TIME, line)?;
     if before_s.is_some_and(|before_s| time_s <= before_s) {
-        return Err(SumoError::value(text, "a time after that of the time step before", line));
+        return Err(SumoError::value(text, wanted::TIME_AFTER, line));
     }
     Ok(time_s)
 }
@@ -152,8 +154,7 @@ impl XmlRows<'_> {
             if !self.root {
                 self.root = true;
                 if element.name != "fcd-export" {
-                    let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
-                    return Err(SumoError::Content { expected: "SUMO's FCD (<fcd-export>)", found }.into());
+                    return Err(SumoError::content(refusals::tag(&element.name), wanted::FCD).into());
                 }
                 continue;
             }
@@ -228,10 +229,7 @@ impl<'a> FcdCsvRows<'a> {
         rows.groups = ["vehicle", "person"].into_iter().filter_map(group).collect();
         let time = names.iter().position(|n| *n == "timestep_time");
         let (Some(time), false) = (time, rows.groups.is_empty()) else {
-            let found = header.chars().take(80).collect();
-            let expected = "columns timestep_time, vehicle_id, vehicle_x, vehicle_y, vehicle_angle, \
-                            vehicle_speed, separated by ;";
-            return Err(SumoError::Content { expected, found }.into());
+            return Err(SumoError::content(refusals::quoted(&header), wanted::FCD_COLUMNS).into());
         };
         rows.time = time;
         rows.heights = names.iter().any(|n| n.ends_with("_z"));
@@ -244,15 +242,15 @@ impl<'a> FcdCsvRows<'a> {
         read.map_err(|error| unpack::fault(&error, self.offset))?;
         self.line += 1;
         let (start, line) = (self.offset, self.line);
-        let broken = |detail| Err(ReadError::malformed(start, format!("line {line}: {detail}")));
+        let broken = |fault: Message| Err(ReadError::malformed(start, fault.at_line(line)));
         if bytes.len() > MAX_ROW {
-            return broken(format!("a line of more than {MAX_ROW} bytes"));
+            return broken(refusals::more_than(MAX_ROW, what::LINE_BYTES));
         }
         self.offset += bytes.len() as u64;
         match String::from_utf8(bytes) {
             Ok(text) if text.is_empty() => Ok(None),
             Ok(text) => Ok(Some(text.trim_end_matches(['\r', '\n']).to_owned())),
-            Err(_) => broken("not UTF-8".into()),
+            Err(_) => broken(refusals::not_utf8(what::LINE)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Reader of recorded signal states (`SaveTLSStates` output).
 
 use super::SumoError;
+use crate::refusals::wanted;
 use crate::xml::{Scanner, XmlEvent};
 use scene::SignalState;
 use std::collections::HashMap;
@@ -29,8 +30,7 @@ impl SignalLog {
             else {
                 continue;
             };
-            let time_s: f64 =
-                time.parse().map_err(|_| SumoError::value(time, "a time in seconds", row.line))?;
+            let time_s: f64 = time.parse().map_err(|_| SumoError::value(time, wanted::TIME, row.line))?;
             let rows = log.programs.entry(id.to_owned()).or_default();
             if rows.last().is_none_or(|(_, last)| last != state.as_bytes()) {
                 rows.push((time_s, state.as_bytes().to_vec()));

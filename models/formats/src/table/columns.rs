@@ -2,8 +2,10 @@
 
 use super::{COLUMNS, LATITUDE, LONGITUDE, SPEED};
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, expected, shown, wanted};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
+use scene::message::Message;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -94,6 +96,8 @@ fn names() -> impl Iterator<Item = &'static str> {
     COLUMNS.into_iter().chain([SPEED, LATITUDE, LONGITUDE])
 }
 
+const UNITS: &str = "m, ft, cm, km, s, ks, ms, us, ns, rad, deg, m/s, km/h, mph, ft/s";
+
 /// Metres, seconds, radians and m/s in one of a unit.
 fn unit_factor(unit: &str) -> Option<f64> {
     Some(match unit {
@@ -139,22 +143,21 @@ impl Columns {
         if let Some(wide) = told.remove(WIDE) {
             let wide: Wide = serde_json::from_value(wide).map_err(malformed)?;
             if wide.repeated == 0 || wide.fixed.max(wide.repeated) > MOST_WIDE {
-                let detail = format!("1 to {MOST_WIDE} columns expected");
-                return Err(FieldProblem::new(format!("/{WIDE}"), code::INVALID_FIELD, detail).into());
+                let message = expected(wanted::WIDE_COLUMNS);
+                return Err(FieldProblem::new(format!("/{WIDE}"), code::INVALID_FIELD, message).into());
             }
             columns.wide = Some(wide);
         }
         for (name, told) in told {
-            let fault = |detail: String| {
+            let fault = |message: Message| {
                 let pointer = format!("/{}", crate::problem::pointer_token(&name));
-                ReadError::from(FieldProblem::new(pointer, code::INVALID_FIELD, detail))
+                ReadError::from(FieldProblem::new(pointer, code::INVALID_FIELD, message))
             };
             let Some(own) = names().find(|own| *own == name) else {
                 let all: Vec<_> = names().collect();
-                return Err(fault(format!("one of {} expected", all.join(", "))));
+                return Err(fault(refusals::one_of(&all.join(", "))));
             };
-            let told =
-                serde_json::from_value(told).map_err(|_| fault("a name or an object expected".into()))?;
+            let told = serde_json::from_value(told).map_err(|_| fault(expected(wanted::NAME_OR_OBJECT)))?;
             let origin = match told {
                 Told::Name(column) => {
                     ColumnSource { column: Some(column), factor: 1.0, ..ColumnSource::default() }
@@ -168,17 +171,15 @@ impl Columns {
 }
 
 impl More {
-    fn origin(self) -> Result<ColumnSource, String> {
+    fn origin(self) -> Result<ColumnSource, Message> {
         let unit = match &self.unit {
             None => 1.0,
-            Some(unit) => unit_factor(unit).ok_or_else(|| {
-                format!("unit \"{unit}\" found; m, ft, cm, km, s, ms, us, ns, rad, deg, m/s, km/h, mph, ft/s expected")
-            })?,
+            Some(unit) => unit_factor(unit).ok_or_else(|| refusals::found_one_of(&shown(unit), UNITS))?,
         };
         let factor = self.factor.unwrap_or(1.0) * unit;
         let offset = self.offset.unwrap_or(0.0);
         if !(factor.is_finite() && offset.is_finite() && factor != 0.0) {
-            return Err("a factor other than zero and a finite offset expected".into());
+            return Err(expected(wanted::FACTOR));
         }
         let value = match self.value {
             None => None,
@@ -186,20 +187,17 @@ impl More {
             Some(value @ (serde_json::Value::Number(_) | serde_json::Value::Bool(_))) => {
                 Some(value.to_string())
             }
-            Some(_) => return Err("a text, a number or a boolean expected as value".into()),
+            Some(_) => return Err(expected(wanted::TEXT_OR_NUMBER)),
         };
         if self.column.is_some() == value.is_some() {
-            return Err("either column or value expected".into());
+            return Err(expected(wanted::COLUMN_OR_VALUE));
         }
         let half = match self.add_half.as_deref() {
             None => None,
             Some(size) => {
                 let (sign, size) = size.strip_prefix('-').map_or((1.0, size), |size| (-1.0, size));
                 let known = ["length_m", "width_m"].into_iter().find(|known| *known == size);
-                Some((
-                    sign,
-                    known.ok_or("length_m or width_m expected in add_half, or one of them with a minus")?,
-                ))
+                Some((sign, known.ok_or_else(|| expected(wanted::HALF))?))
             }
         };
         let Self { column, words, optional, .. } = self;

@@ -3,6 +3,7 @@
 use super::{import, write};
 use crate::columnar::{self, is_parquet, names_in};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::refusals::{file_needs, what};
 use crate::source::Source;
 use crate::table::notes::{KEY, Notes};
 use crate::unpack;
@@ -117,7 +118,7 @@ impl Format for Parquet {
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
         if scenes.is_empty() {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "a Parquet file is written as a whole"));
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, file_needs("Parquet", what::SCENE)));
         }
         let named = write::named(scenes, options);
         let notes = serde_json::to_string(&Notes::of(&named)).map_err(io::Error::other)?;

@@ -13,9 +13,11 @@ use crate::projection::TransverseMercator;
 use crate::recording::{
     MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedFuture, RecordedState, Recording, Said, kind_of,
 };
+use crate::refusals::{self, wanted, what};
 use crate::sentences;
 use crate::source::Source;
 use scene::geometry::direction;
+use scene::message::Word;
 use scene::{AgentType, Meta, STEP_S, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::hash_map::DefaultHasher;
@@ -85,9 +87,9 @@ impl<'a> Scenarios<'a> {
                     // A column named by the user must exist.
                     None if origin.optional => continue,
                     None if column != name => {
-                        let detail = format!("no column \"{column}\"; there are {}", shown(rows.names()));
+                        let message = refusals::no_column(column, &shown(rows.names()));
                         let pointer = format!("{COLUMNS_POINTER}/{name}");
-                        return Err(FieldProblem::new(pointer, code::INVALID_FIELD, detail).into());
+                        return Err(FieldProblem::new(pointer, code::INVALID_FIELD, message).into());
                     }
                     None => continue,
                 },
@@ -104,7 +106,7 @@ impl<'a> Scenarios<'a> {
         }
         if !missing.is_empty() {
             let message = sentences::columns_missing(&missing.join(", "), &shown(rows.names()));
-            return Err(FieldProblem::of("", code::CANNOT_REPRESENT, message).into());
+            return Err(ReadError::other_content(message));
         }
         rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
         // Notes of another program under our key are ignored.
@@ -152,17 +154,17 @@ impl<'a> Scenarios<'a> {
         }
     }
 
-    fn fault(&self, name: &str, found: &str, expected: &str) -> ReadError {
-        let shown: String = found.chars().take(40).collect();
-        let found = if shown.is_empty() { "nothing".into() } else { format!("\"{shown}\"") };
-        let place = self.rows.place();
-        let detail = format!("{place}: {found} found, {expected} expected");
-        let pointer = format!("/{}/{name}", place.replace(' ', "/"));
-        FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
+    fn fault(&self, name: &str, found: &str, wanted: Word) -> ReadError {
+        let message = match found {
+            "" => refusals::expected(wanted),
+            found => refusals::found_expected(refusals::quoted(found), wanted),
+        };
+        let pointer = format!("/{}/{name}", self.rows.place().replace(' ', "/"));
+        FieldProblem::new(pointer, code::INVALID_FIELD, message).into()
     }
 
     /// A number in our unit; NaN where there is none.
-    fn number(&self, name: &str, most: f64, expected: &str) -> Result<f64, ReadError> {
+    fn number(&self, name: &str, most: f64, expected: Word) -> Result<f64, ReadError> {
         let number = match self.value(name) {
             ColumnValue::Nothing => return Ok(f64::NAN),
             ColumnValue::Whole(whole) => whole as f64,
@@ -205,17 +207,17 @@ impl<'a> Scenarios<'a> {
     }
 
     fn add_to(&self, to: &mut Gathered) -> Result<(), ReadError> {
-        let id = self.text("agent_id").ok_or_else(|| self.fault("agent_id", "", "an id"))?;
+        let id = self.text("agent_id").ok_or_else(|| self.fault("agent_id", "", wanted::ID))?;
         if id.len() > MAX_ID {
-            return Err(self.fault("agent_id", &id, "an id of 1 to 256 bytes"));
+            return Err(self.fault("agent_id", &id, wanted::ID_BYTES));
         }
-        let step = self.number("step", 1e9, "a step")?;
-        let mut time_s = self.number("time_s", MAX_SECONDS, "a time in seconds")?;
+        let step = self.number("step", 1e9, wanted::STEP)?;
+        let mut time_s = self.number("time_s", MAX_SECONDS, wanted::TIME)?;
         if time_s.is_nan() {
             time_s = step * STEP_S;
         }
         if time_s.is_nan() {
-            return Err(self.fault("time_s", "", "a time in seconds, or a step"));
+            return Err(self.fault("time_s", "", wanted::TIME_OR_STEP));
         }
         to.aligned &= step >= 0.0 && (time_s - step * STEP_S).abs() < 1e-3;
         to.last_step = to.last_step.max(step);
@@ -230,12 +232,14 @@ impl<'a> Scenarios<'a> {
             }
         };
         to.samples += 1;
-        if to.samples > MAX_SAMPLES || to.users.len() > MAX_USERS || to.futures.len() > MAX_FUTURES {
-            let detail = format!(
-                "{}: more than {MAX_SAMPLES} rows, {MAX_USERS} road users or {MAX_FUTURES} futures in one scenario",
-                self.rows.place()
-            );
-            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, detail).into());
+        let counts = [
+            (to.samples, MAX_SAMPLES, what::ROWS),
+            (to.users.len(), MAX_USERS, what::ROAD_USERS),
+            (to.futures.len(), MAX_FUTURES, what::FUTURES),
+        ];
+        if let Some((most, what)) = refusals::exceeded(&counts) {
+            let message = refusals::more_than(most, what);
+            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, message).into());
         }
         let list = match self.future()? {
             None => to.recording.users.get_mut(user).map(|user| &mut user.samples),
@@ -243,7 +247,7 @@ impl<'a> Scenarios<'a> {
                 let next = to.recording.futures.len();
                 let at = *to.futures.entry((user, sample, mode)).or_insert(next);
                 if at == next {
-                    let probability = self.number("probability", 1.0, "a probability")?;
+                    let probability = self.number("probability", 1.0, wanted::PROBABILITY)?;
                     to.recording.futures.push(RecordedFuture {
                         user,
                         sample,
@@ -269,18 +273,17 @@ impl<'a> Scenarios<'a> {
         else {
             return Ok(0.0);
         };
-        let size_m = self.number(size, 1e4, "a size in metres")?;
+        let size_m = self.number(size, 1e4, wanted::SIZE)?;
         Ok(if size_m.is_nan() { 0.0 } else { sign * factor.signum() * size_m / 2.0 })
     }
 
     /// The place of a row, metres; NaN where there is none.
     fn place(&self, to: &mut Gathered) -> Result<Vec2, ReadError> {
-        let [lat, lon] = [self.number(LATITUDE, 89.0, "degrees")?, self.number(LONGITUDE, 180.0, "degrees")?];
+        let [lat, lon] =
+            [self.number(LATITUDE, 89.0, wanted::DEGREES)?, self.number(LONGITUDE, 180.0, wanted::DEGREES)?];
         if lat.is_nan() || lon.is_nan() {
             let metres = |name| {
-                Ok::<_, ReadError>(
-                    self.number(name, MAX_METRES, "a coordinate in metres")? + self.half(name)?,
-                )
+                Ok::<_, ReadError>(self.number(name, MAX_METRES, wanted::COORDINATE)? + self.half(name)?)
             };
             return Ok(Vec2::new(metres("x_m")?, metres("y_m")?));
         }
@@ -294,9 +297,9 @@ impl<'a> Scenarios<'a> {
     }
 
     fn sample(&self, time_s: f64, to: &mut Gathered) -> Result<RecordedState, ReadError> {
-        let metres = |name| self.number(name, MAX_METRES, "a coordinate in metres");
+        let metres = |name| self.number(name, MAX_METRES, wanted::COORDINATE);
         let nothing = Vec2::new(f64::NAN, f64::NAN);
-        let (heading_rad, z_m) = (self.number("heading_rad", 1e6, "a heading in radians")?, metres("z_m")?);
+        let (heading_rad, z_m) = (self.number("heading_rad", 1e6, wanted::HEADING)?, metres("z_m")?);
         let unseen = RecordedState { time_s, at: nothing, heading_rad, velocity: nothing, z_m };
         if self.flag("valid") == Some(false) {
             return Ok(unseen);
@@ -304,9 +307,9 @@ impl<'a> Scenarios<'a> {
         let at = self.place(to)?;
         if at.iter().any(|value| value.is_nan()) {
             let name = if at.x.is_nan() { "x_m" } else { "y_m" };
-            return Err(self.fault(name, "", "a coordinate in metres (or valid = 0)"));
+            return Err(self.fault(name, "", wanted::COORDINATE_OR_INVALID));
         }
-        let mps = |name| self.number(name, 1e4, "a velocity in m/s");
+        let mps = |name| self.number(name, 1e4, wanted::VELOCITY);
         let mut velocity = Vec2::new(mps("vx_mps")?, mps("vy_mps")?);
         if velocity.iter().any(|value| value.is_nan()) {
             velocity = direction(heading_rad) * mps(SPEED)?;
@@ -316,7 +319,7 @@ impl<'a> Scenarios<'a> {
 
     fn user(&self, id: &str, to: &mut Gathered) -> Result<RecordedAgent, ReadError> {
         let metres = |name| {
-            let metres = self.number(name, 1e4, "a size in metres")?;
+            let metres = self.number(name, 1e4, wanted::SIZE)?;
             // Sets that measure no box of a road user give it none.
             Ok::<_, ReadError>((metres > 0.0).then_some(metres))
         };
@@ -347,7 +350,7 @@ impl<'a> Scenarios<'a> {
     /// Sample and mode of a row that is part of a future.
     fn future(&self) -> Result<Option<(u64, u64)>, ReadError> {
         let number = |name| {
-            let number = self.number(name, 1e6, "a number of a future")?;
+            let number = self.number(name, 1e6, wanted::FUTURE)?;
             Ok::<_, ReadError>(if number >= 0.0 { number as u64 } else { 0 })
         };
         match self.text("source").as_deref() {
@@ -355,7 +358,7 @@ impl<'a> Scenarios<'a> {
             Some(GENERATED) => Ok(Some((number("sample")?, number("mode")?))),
             // A table without a `source` column has modes only for futures.
             _ => {
-                let mode = self.number("mode", 1e6, "a number of a future")?;
+                let mode = self.number("mode", 1e6, wanted::FUTURE)?;
                 if mode.is_nan() { Ok(None) } else { Ok(Some((number("sample")?, number("mode")?))) }
             }
         }
@@ -418,8 +421,7 @@ impl<'a> Scenarios<'a> {
                 let mut hasher = DefaultHasher::new();
                 name.hash(&mut hasher);
                 if name.len() > MAX_ID || self.ended.contains(&hasher.finish()) {
-                    let expected = "a scenario whose rows stand together, with a name of up to 256 bytes";
-                    return Err(self.fault("scenario_id", &name, expected));
+                    return Err(self.fault("scenario_id", &name, wanted::SCENARIO_ROWS));
                 }
                 self.gathered = Some(Gathered {
                     name,
@@ -464,9 +466,8 @@ impl Iterator for Scenarios<'_> {
             }
             self.ready = None;
             if self.over {
-                let detail = "a table without rows";
-                let empty = FieldProblem::new("", code::CANNOT_REPRESENT, detail);
-                return (!std::mem::replace(&mut self.given, true)).then(|| Err(empty.into()));
+                let empty = ReadError::other_content(refusals::file_has_no(what::ROW));
+                return (!std::mem::replace(&mut self.given, true)).then_some(Err(empty));
             }
             if let Err(error) = self.read() {
                 (self.over, self.given) = (true, true);

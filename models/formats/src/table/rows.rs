@@ -4,6 +4,7 @@ use super::columns::Wide;
 use crate::columnar::{self, ColumnValue, is_parquet};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
+use crate::refusals::{self, wanted, what};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use std::collections::BTreeMap;
@@ -107,8 +108,8 @@ impl<R: Read> Read for BoundedReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 {
             let most = self.most;
-            let detail = format!("a row of more than {most} bytes");
-            return Err(unpack::excess(code::DECODED_TOO_LARGE, most, detail));
+            let message = refusals::more_than(most, what::ROW_BYTES);
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, most, message));
         }
         let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(buffer.len());
         let count = self.inner.read(buffer.get_mut(..most).unwrap_or_default())?;
@@ -134,7 +135,7 @@ impl<'a> CsvRows<'a> {
         let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
         let mut input = input.map_err(fault)?;
         if is_parquet(&head) {
-            return Err(ReadError::malformed(0, "a Parquet file, not CSV"));
+            return Err(ReadError::malformed(0, refusals::expected(wanted::CSV)));
         }
         let delimiter = delimiter(&head);
         if head.starts_with(b"\xef\xbb\xbf") {
@@ -191,7 +192,7 @@ impl<'a> CsvRows<'a> {
             let told = error.to_string();
             match error.into_kind() {
                 csv::ErrorKind::Io(error) => unpack::fault(&error, offset),
-                _ => ReadError::malformed(offset, format!("line {line}: {told}")),
+                _ => ReadError::malformed(offset, refusals::parser_words(&told).at_line(line)),
             }
         })
     }

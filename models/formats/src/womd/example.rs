@@ -76,7 +76,7 @@ impl Format for WomdExample {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only("tf.Example records are written, not read; Scenario records are read")
+        written_only(&self.info())
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

@@ -22,7 +22,8 @@ pub use record::{MAX_RECORD_BYTES, RecordReader, TfRecord, looks_like, masked_cr
 pub use wire::MAX_TRACKS;
 
 use crate::limits::{MAX_DECODED_BYTES, MAX_EXPANSION, MAX_SCENES};
-use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::problem::{Imported, ReadError};
+use crate::refusals::{self, wanted, what};
 use prost::Message;
 use std::io::Read;
 
@@ -128,15 +129,14 @@ fn is_example(data: &[u8]) -> bool {
 /// `malformed-file` with the byte for broken protobuf; the faults of a scene otherwise.
 pub fn read_record(record: &TfRecord, options: &Options) -> Result<Imported, ReadError> {
     if is_example(&record.data) {
-        let detail = "a tf.Example record; Scenario records are read (the dataset has both forms)";
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        return Err(ReadError::other_content(refusals::expected(wanted::SCENARIO_RECORD)));
     }
     wire::check(&record.data, record.offset)?;
-    let scenario = proto::Scenario::decode(record.data.as_slice())
-        .map_err(|error| ReadError::malformed(record.offset, error.to_string()))?;
+    let scenario = proto::Scenario::decode(record.data.as_slice()).map_err(|error| {
+        ReadError::malformed(record.offset, refusals::unreadable("Scenario", &error.to_string()))
+    })?;
     if scenario.tracks.is_empty() && scenario.map_features.is_empty() {
-        let detail = "a record without tracks and map: no Scenario, or an empty one";
-        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        return Err(ReadError::other_content(refusals::file_has_no(what::TRACKS_OR_MAP)));
     }
     scene(scenario, options)
 }

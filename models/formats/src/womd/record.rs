@@ -4,6 +4,7 @@
 
 use super::Options;
 use crate::problem::ReadError;
+use crate::refusals::{self, what};
 use crate::unpack::{self, Bounds, Unpacked};
 use std::io::{self, BufReader, Read, Write};
 
@@ -116,8 +117,7 @@ impl<R: Read> RecordReader<R> {
         if got == 0 && what == "length" {
             return Err(ReadEnd::End);
         }
-        let detail = format!("the file ends after {got} of the {wanted} bytes of a record's {what}");
-        Err(ReadEnd::Fault(ReadError::malformed(start, detail)))
+        Err(ReadEnd::Fault(ReadError::malformed(start, refusals::file_ends_after(got, wanted))))
     }
 
     fn record(&mut self) -> Result<TfRecord, ReadEnd> {
@@ -126,21 +126,21 @@ impl<R: Read> RecordReader<R> {
         let crc = self.exactly(4, "length checksum")?;
         if self.verify_crc && masked_crc(&head).to_le_bytes() != crc[..] {
             self.ended = true;
-            let detail = "the checksum of a record's length does not match: broken, or not a TFRecord file";
-            return Err(ReadEnd::Fault(ReadError::malformed(start, detail)));
+            let message = refusals::checksum_differs(what::RECORD_LENGTH);
+            return Err(ReadEnd::Fault(ReadError::malformed(start, message)));
         }
         let length = head.iter().rev().fold(0u64, |length, byte| length << 8 | u64::from(*byte));
         if length > self.max_bytes {
             self.ended = true;
-            let detail = format!("a record of {length} bytes, at most {} expected", self.max_bytes);
-            return Err(ReadEnd::Fault(ReadError::malformed(start, detail)));
+            let message = refusals::at_most(length, what::RECORD_BYTES, self.max_bytes);
+            return Err(ReadEnd::Fault(ReadError::malformed(start, message)));
         }
         let offset = self.offset;
         let data = self.exactly(length, "data")?;
         let crc = self.exactly(4, "data checksum")?;
         if self.verify_crc && masked_crc(&data).to_le_bytes() != crc[..] {
-            let detail = format!("the checksum of a record of {length} bytes does not match");
-            return Err(ReadEnd::Fault(ReadError::malformed(offset, detail)));
+            let message = refusals::checksum_differs(what::RECORD_DATA);
+            return Err(ReadEnd::Fault(ReadError::malformed(offset, message)));
         }
         Ok(TfRecord { offset, data })
     }
@@ -158,7 +158,7 @@ impl<R: Read> Iterator for RecordReader<R> {
             Ok(record) => Some(Ok(record)),
             Err(ReadEnd::Fault(error)) => Some(Err(error)),
             Err(ReadEnd::End) if self.offset == 0 => {
-                Some(Err(ReadError::malformed(0, "the file holds no record")))
+                Some(Err(ReadError::malformed(0, refusals::file_has_no(what::RECORD))))
             }
             Err(ReadEnd::End) => None,
         }

@@ -5,6 +5,7 @@ use super::proto::{JointScene, ScenarioRollouts, SimAgentsChallengeSubmission, S
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, written_only};
 use crate::frame::{Frame, wrapped};
 use crate::loss::{Loss, code};
+use crate::refusals;
 use crate::sentences;
 use crate::source::Source;
 use crate::unwritten;
@@ -61,7 +62,7 @@ impl Format for SimAgents {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only("submissions are written, not read: they have no map and no past")
+        written_only(&self.info())
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
@@ -89,12 +90,8 @@ fn begins_as_asked(scene: &Scene, options: &ExportOptions) -> io::Result<()> {
         return Ok(());
     }
     let found = late.map_or(now, |first| first - 1);
-    let detail = format!(
-        "the challenge begins at step {NOW_STEP} (1.0 s), this scene at step {found} ({:.1} s): generate its futures \
-         with --start-time 1.0",
-        found as f64 * STEP_S
-    );
-    Err(io::Error::new(io::ErrorKind::InvalidInput, detail))
+    let message = refusals::challenge_start(NOW_STEP, found, found as f64 * STEP_S);
+    Err(io::Error::new(io::ErrorKind::InvalidInput, message))
 }
 
 fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>) -> ScenarioRollouts {

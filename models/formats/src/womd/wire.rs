@@ -4,6 +4,8 @@
 
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::refusals::{self, more_than, wanted, what};
+use scene::message::Word;
 
 /// Most tracks that are looked at; the nearest 256 become road users.
 pub const MAX_TRACKS: usize = 2_048;
@@ -85,14 +87,13 @@ fn walk(
             *count += 1;
             let (limit, pointer, code) = child.limit();
             if *count > limit {
-                let detail = format!("more than {limit} of one kind; a scene cannot hold so many");
-                return Err(FieldProblem::new(pointer, code, detail).into());
+                return Err(FieldProblem::new(pointer, code, more_than(limit, what::MESSAGES)).into());
             }
         }
         states += usize::from(child == ScenarioMessage::State);
         if states > MAX_STEPS {
-            let detail = format!("a track with more than {MAX_STEPS} states");
-            return Err(FieldProblem::new("/tracks", code::OUT_OF_RANGE, detail).into());
+            let message = more_than(MAX_STEPS, what::TRACK_STATES);
+            return Err(FieldProblem::new("/tracks", code::OUT_OF_RANGE, message).into());
         }
         // Depth is at most five: scenario, feature, lane, neighbour, boundary.
         walk(child, inner, counts)?;
@@ -118,7 +119,7 @@ impl<'a> WireCursor<'a> {
         let key = self.varint()?;
         let (field, wire_type) = (key >> 3, key & 7);
         if field == 0 || field > 0x1fff_ffff {
-            return Err(self.fault(start, "field number out of range"));
+            return Err(self.fault(start, wanted::FIELD_NUMBER));
         }
         let value = match wire_type {
             0 => {
@@ -131,7 +132,7 @@ impl<'a> WireCursor<'a> {
                 let length = self.varint()?;
                 self.take(length)?
             }
-            _ => return Err(self.fault(start, "group or unknown wire type")),
+            _ => return Err(self.fault(start, wanted::WIRE_TYPE)),
         };
         Ok(Some((field, value.filter(|_| wire_type == 2))))
     }
@@ -140,8 +141,8 @@ impl<'a> WireCursor<'a> {
         let start = self.at;
         let rest = (self.bytes.len() - start) as u64;
         if length > rest {
-            let detail = format!("a field of {length} bytes, {rest} are left in its message");
-            return Err(self.fault(start, &detail));
+            let message = refusals::at_most(length, what::FIELD_BYTES, rest);
+            return Err(ReadError::malformed(self.offset + start as u64, message));
         }
         self.at = start + length as usize;
         let bytes = self.bytes.get(start..self.at).unwrap_or_default();
@@ -153,7 +154,7 @@ impl<'a> WireCursor<'a> {
         let mut value = 0u64;
         for shift in (0..70).step_by(7) {
             let Some(byte) = self.bytes.get(self.at) else {
-                return Err(self.fault(start, "a number that ends with its message"));
+                return Err(self.fault(start, wanted::WHOLE_NUMBER));
             };
             self.at += 1;
             value |= u64::from(byte & 0x7f).checked_shl(shift).unwrap_or(0);
@@ -161,11 +162,11 @@ impl<'a> WireCursor<'a> {
                 return Ok(value);
             }
         }
-        Err(self.fault(start, "a number longer than ten bytes"))
+        Err(self.fault(start, wanted::NUMBER_10))
     }
 
-    fn fault(&self, at: usize, what: &str) -> ReadError {
-        ReadError::malformed(self.offset + at as u64, format!("broken protobuf: {what}"))
+    fn fault(&self, at: usize, wanted: Word) -> ReadError {
+        ReadError::malformed(self.offset + at as u64, refusals::expected(wanted))
     }
 }
 

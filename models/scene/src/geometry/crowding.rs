@@ -5,6 +5,8 @@
 
 use super::Vec2;
 use super::segments::{Segment, cells_along};
+use crate::message::Message;
+use crate::sentences::{self, what};
 
 /// Most cells that pieces may pass through, counted once for each piece: ten times what a large map has.
 pub const MAX_CELLS: usize = 2_000_000;
@@ -58,18 +60,14 @@ impl Crowding {
     }
 
     /// What is too much, in words; `None` where all bounds are kept.
-    pub fn excess(&self) -> Option<String> {
+    pub fn excess(&self) -> Option<Message> {
         if self.entries > MAX_CELLS {
-            return Some(format!("lines pass through more than {MAX_CELLS} squares of 8 m"));
+            return Some(sentences::more_than(MAX_CELLS, what::SQUARES));
         }
         if self.most > MAX_CELL_PIECES {
-            let most = self.most;
-            return Some(format!("{most} pieces of lines in 8 m x 8 m; at most {MAX_CELL_PIECES}"));
+            return Some(sentences::at_most(self.most, what::PIECES, MAX_CELL_PIECES));
         }
-        let pairs = self.pairs;
-        (pairs > MAX_CELL_PAIRS).then(|| {
-            format!("{pairs} pairs of pieces of lines in the same 8 m x 8 m; at most {MAX_CELL_PAIRS}")
-        })
+        (self.pairs > MAX_CELL_PAIRS).then(|| sentences::at_most(self.pairs, what::PAIRS, MAX_CELL_PAIRS))
     }
 }
 
@@ -100,10 +98,19 @@ mod tests {
         let streets = (0..30).map(|_| (&street[..], false));
         assert_eq!(Crowding::of(streets).excess(), None, "thirty lanes over each other");
         let one_place = tangle(30_000, 8.0);
-        assert!(Crowding::of([(&one_place[..], false)].into_iter()).excess().unwrap().contains("8 m x 8 m"));
+        assert!(
+            Crowding::of([(&one_place[..], false)].into_iter())
+                .excess()
+                .unwrap()
+                .english
+                .contains("8 m x 8 m")
+        );
         let tangled: Vec<Vec<Vec2>> = (0..5).map(|_| tangle(4_096, 400.0)).collect();
         let of_all = Crowding::of(tangled.iter().map(|line| (&line[..], false)));
-        assert!(of_all.most <= MAX_CELL_PIECES && of_all.excess().unwrap().contains("pairs"), "{of_all:?}");
+        assert!(
+            of_all.most <= MAX_CELL_PIECES && of_all.excess().unwrap().english.contains("pairs"),
+            "{of_all:?}"
+        );
         let far: Vec<Vec<Vec2>> = (0..100).map(|_| tangle(4_096, 20_000.0)).collect();
         let of_all = Crowding::of(far.iter().map(|line| (&line[..], false)));
         // Counting ends soon behind the bound.

@@ -1,10 +1,10 @@
 //! The scene that a request is about, with its road users and conditions of this call.
 
 use super::request::{GenerateRequest, KeptFutures, MOST_ANGLE_RAD, more_than_a_turn};
-use crate::english;
 use crate::problem::{Problem, refuse, unknown_agent};
 use formats::native::{ConditionsDoc, Context, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
+use scene::sentences::{expected, wanted};
 use scene::{STEP_S, Scene};
 
 impl GenerateRequest {
@@ -45,7 +45,7 @@ impl GenerateRequest {
                 Ok(conditions) => {
                     for k in conditions.unknown_edges(&scene.map) {
                         let at = format!("{pointer}/goal/may_cross/{k}");
-                        faults.push(FieldProblem::new(at, "invalid-field", english::unknown_edge().english));
+                        faults.push(FieldProblem::new(at, "invalid-field", expected(wanted::ROAD_EDGE)));
                     }
                     agent.conditions = conditions;
                 }
@@ -70,9 +70,9 @@ fn angles(pointer: &str, doc: &ConditionsDoc) -> Vec<FieldProblem> {
         goal.flat_map(|goal| [("goal/heading_rad", goal.heading_rad), ("goal/turn_rad", goal.turn_rad)]);
     let given = start.into_iter().chain(goal).filter_map(|(name, angle)| Some((name, angle?)));
     let beyond = given.filter(|(_, angle)| angle.is_finite() && angle.abs() > MOST_ANGLE_RAD);
-    let fault = |(name, angle)| FieldProblem {
-        detail: more_than_a_turn(angle),
-        ..FieldProblem::range(format!("{pointer}/{name}"), -MOST_ANGLE_RAD, MOST_ANGLE_RAD, angle)
+    let fault = |(name, angle)| {
+        let (pointer, message) = (format!("{pointer}/{name}"), more_than_a_turn(angle));
+        FieldProblem::range_of(pointer, -MOST_ANGLE_RAD, MOST_ANGLE_RAD, angle, message)
     };
     beyond.map(fault).collect()
 }

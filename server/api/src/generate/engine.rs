@@ -99,7 +99,7 @@ impl GenerateRequest {
                 None => faults.push(FieldProblem::new(
                     format!("/pinned/{i}"),
                     "invalid-field",
-                    english::no_future_kept().english,
+                    english::no_future_kept(),
                 )),
             }
         }

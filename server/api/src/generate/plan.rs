@@ -133,7 +133,7 @@ fn not_asked(id: &str, given: &Conditions, own: &Conditions) -> Vec<FieldProblem
     ];
     let fault = |(part, _)| {
         let pointer = format!("/conditions/{}/{part}", pointer_token(id));
-        FieldProblem::of(pointer, Code::NotAsked.name(), english::not_asked(&shortened(id)))
+        FieldProblem::new(pointer, Code::NotAsked.name(), english::not_asked(&shortened(id)))
     };
     parts.into_iter().filter(|(_, lost)| *lost).map(fault).collect()
 }

@@ -7,6 +7,7 @@ use crate::problem::{Problem, refuse};
 use crate::score;
 use formats::FieldProblem;
 use formats::native::MAX_SAFE_INTEGER;
+use formats::refusals::unequal_columns;
 use scene::Vec2;
 
 /// Half seconds of a planning window.
@@ -31,8 +32,8 @@ impl GenerateRequest {
         let mut faults: Vec<_> =
             outside.map(|(pointer, min, max, got)| FieldProblem::range(pointer, min, max, got)).collect();
         if let Some(got) = self.replan_interval_s.filter(|s| !REPLAN_S.contains(s)) {
-            let detail = english::replan_interval(got).english;
-            faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", detail));
+            let message = english::replan_interval(got);
+            faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", message));
         }
         faults.extend(score::beyond(&self.thresholds));
         refuse(faults)
@@ -43,8 +44,8 @@ impl ShownDoc {
     /// The places that count.
     pub(super) fn places(&self, pointer: &str) -> Result<Vec<Vec2>, FieldProblem> {
         if self.x_m.len() != self.y_m.len() {
-            let detail = english::unequal_columns(self.y_m.len(), self.x_m.len()).english;
-            return Err(FieldProblem::new(format!("{pointer}/y_m"), "invalid-field", detail));
+            let message = unequal_columns(self.y_m.len(), self.x_m.len(), "x_m");
+            return Err(FieldProblem::new(format!("{pointer}/y_m"), "invalid-field", message));
         }
         let places = self.x_m.iter().zip(&self.y_m).take(MOST_SHOWN);
         Ok(places.map(|(x, y)| Vec2::new(*x, *y)).collect())

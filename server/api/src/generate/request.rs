@@ -7,6 +7,7 @@ use crate::home::{AboutScene, SceneRef, one_scene};
 use experts::request::DEFAULTS;
 use formats::native::{AgentDoc, ConditionsDoc, GoalDoc, Members, SceneDoc};
 use scene::STEP_S;
+use scene::message::Message;
 use scene::score::Thresholds;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
@@ -260,8 +261,8 @@ impl GenerateRequest {
 }
 
 /// The message for an angle beyond [`MOST_ANGLE_RAD`], which is usually meant in degrees.
-pub fn more_than_a_turn(got: f64) -> String {
+pub fn more_than_a_turn(got: f64) -> Message {
     let radians = format!("{:.4}", got.to_radians());
     let got = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
-    english::more_than_a_turn(&got, &radians).english
+    english::more_than_a_turn(&got, &radians)
 }

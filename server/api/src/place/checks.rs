@@ -1,6 +1,7 @@
 //! From a request to the placer's input: every member is checked against its range.
 
 use super::request::{ArrivalsDoc, DensityDoc, ParkedDoc, PlaceBody, RegionDoc, SpeedsDoc};
+use crate::english::{self, wanted, what};
 use crate::problem::{Problem, refuse, unknown_agent};
 use experts::placement::{
     Amount, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
@@ -8,7 +9,9 @@ use experts::placement::{
 };
 use formats::native::{MAX_SAFE_INTEGER, Members};
 use formats::problem::MAX_PROBLEMS;
+use formats::refusals::{at_most, expected, out_of_range, wanted::AGENT_TYPE};
 use formats::{FieldProblem, pointer_token};
+use scene::message::Message;
 use scene::{AgentType, STEP_S, Scene, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -77,6 +80,10 @@ fn in_range(faults: &mut Vec<FieldProblem>, pointer: &str, (min, max): (f64, f64
     }
 }
 
+fn invalid(pointer: impl Into<String>, message: Message) -> FieldProblem {
+    FieldProblem::new(pointer, "invalid-field", message)
+}
+
 fn amount(density: &DensityDoc, faults: &mut Vec<FieldProblem>) -> Amount {
     match (density.per_lane_km, density.count) {
         (Some(per_km), None) => {
@@ -88,8 +95,7 @@ fn amount(density: &DensityDoc, faults: &mut Vec<FieldProblem>) -> Amount {
             Amount::Count(count as usize)
         }
         _ => {
-            let detail = "exactly one of per_lane_km and count is needed";
-            faults.push(FieldProblem::new("/density", "invalid-field", detail));
+            faults.push(invalid("/density", english::exactly_one("per_lane_km", "count")));
             Amount::Count(0)
         }
     }
@@ -104,16 +110,14 @@ fn speeds(doc: SpeedsDoc, faults: &mut Vec<FieldProblem>) -> SpeedRange {
 
 fn arrivals(all: &[ArrivalsDoc], faults: &mut Vec<FieldProblem>) -> Vec<Arrivals> {
     if all.len() > MAX_ARMS {
-        let detail = format!("{} arms found, at most {MAX_ARMS} expected", all.len());
-        faults.push(FieldProblem::new("/arrivals", "invalid-field", detail));
+        faults.push(invalid("/arrivals", at_most(all.len(), what::ARMS, MAX_ARMS)));
         return Vec::new();
     }
     let mut seen = BTreeSet::new();
     for (i, ArrivalsDoc { arm, per_hour }) in all.iter().enumerate() {
         in_range(faults, &format!("/arrivals/{i}/per_hour"), (0.0, MAX_PER_HOUR), *per_hour);
         if !seen.insert(arm) {
-            let detail = "this arm is there already; one rate for each expected";
-            faults.push(FieldProblem::new(format!("/arrivals/{i}/arm"), "invalid-field", detail));
+            faults.push(invalid(format!("/arrivals/{i}/arm"), expected(wanted::ONE_RATE)));
         }
     }
     all.iter().map(|doc| Arrivals { arm: doc.arm.clone(), per_hour: doc.per_hour }).collect()
@@ -130,8 +134,7 @@ fn parked(doc: &ParkedDoc, faults: &mut Vec<FieldProblem>) -> Parked {
             Parked::Per100M(count)
         }
         _ => {
-            let detail = "exactly one of share and per_100m is needed";
-            faults.push(FieldProblem::new("/parked", "invalid-field", detail));
+            faults.push(invalid("/parked", english::exactly_one("share", "per_100m")));
             Parked::Share(0.0)
         }
     }
@@ -145,9 +148,8 @@ fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<Agen
             "pedestrian" => AgentType::Pedestrian,
             "cyclist" => AgentType::Cyclist,
             _ => {
-                let detail = "vehicle, pedestrian and cyclist can be placed";
                 let pointer = format!("/types/{}", pointer_token(name));
-                faults.push(FieldProblem::new(pointer, "invalid-field", detail));
+                faults.push(invalid(pointer, expected(AGENT_TYPE)));
                 continue;
             }
         };
@@ -156,19 +158,14 @@ fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<Agen
     }
     let sum: f64 = types.0.values().sum();
     if (sum - 1.0).abs() > SHARE_TOLERANCE || sum.is_nan() {
-        let detail = format!("the shares sum to {sum}; 1 expected");
-        faults.push(FieldProblem::new("/types", "out-of-range", detail));
+        faults.push(FieldProblem::new("/types", "out-of-range", english::share_sum(&sum.to_string())));
     }
     shares
 }
 
 fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Region {
     let Some((low, high)) = map_bounds(&scene.map) else {
-        faults.push(FieldProblem::new(
-            "/region",
-            "invalid-field",
-            "the map is empty: it has no place for a region",
-        ));
+        faults.push(invalid("/region", english::empty_map()));
         return Region::Everywhere;
     };
     let (low, high) = (low - Vec2::repeat(REGION_MARGIN_M), high + Vec2::repeat(REGION_MARGIN_M));
@@ -176,8 +173,8 @@ fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Reg
     match (&doc.polygon_m, &doc.circle) {
         (Some(corners), None) => {
             if !(3..=MAX_CORNERS).contains(&corners.len()) {
-                let detail = format!("{} corners found, 3 to {MAX_CORNERS} expected", corners.len());
-                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+                let message = out_of_range(corners.len() as f64, 3.0, MAX_CORNERS as f64);
+                faults.push(invalid("/region/polygon_m", message));
             }
             for (i, [x, y]) in corners.iter().enumerate().take(MAX_CORNERS) {
                 in_range(faults, &format!("/region/polygon_m/{i}/0"), (low.x, high.x), *x);
@@ -185,8 +182,7 @@ fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Reg
             }
             let ring: Vec<Vec2> = corners.iter().map(|[x, y]| Vec2::new(*x, *y)).collect();
             if faults.len() == before && ring_area_m2(&ring) < 0.1 {
-                let detail = "a ring that encloses some area expected";
-                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+                faults.push(invalid("/region/polygon_m", expected(wanted::AREA)));
             }
             Region::Polygon(ring)
         }
@@ -202,8 +198,7 @@ fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Reg
             Region::Circle { center: Vec2::new(circle.x_m, circle.y_m), radius_m: circle.radius_m }
         }
         _ => {
-            let detail = "exactly one of polygon_m and circle is needed";
-            faults.push(FieldProblem::new("/region", "invalid-field", detail));
+            faults.push(invalid("/region", english::exactly_one("polygon_m", "circle")));
             Region::Everywhere
         }
     }

@@ -32,6 +32,7 @@ export function messageText({ code, values }: Message, english = code, table: Se
   const text = (name: string): string => (name in values ? valueText(name, values[name], onFoot, table) : '');
   const written =
     typeof sentence === 'string' ? sentence : sentence(new Proxy<Values>({}, { get: (_, name) => text(String(name)) }));
-  const { since_s: since } = values;
+  const { since_s: since, line } = values;
+  if (typeof line === 'number') return SENTENCES.inLine(num(line, 0), written);
   return typeof since === 'number' ? SENTENCES.since(seconds(since), written) : written;
 }

@@ -5,6 +5,8 @@ import { table, type Values } from '../table';
 export const SENTENCES = table('messages', {
   /** Before a sentence that applies from a time on. */
   since: (time: string, sentence: string) => `From ${time} on: ${sentence}`,
+  /** Before a sentence about a line of a text file. */
+  inLine: (line: string, sentence: string) => `Line ${line}: ${sentence}`,
   lists: { kind: { vehicle: 'this vehicle', cyclist: 'this cyclist', pedestrian: 'this pedestrian' } },
   sentences: {
     'goal-too-far': (v: Values) =>

@@ -17,17 +17,14 @@ export const SENTENCES = table('problem-messages', {
     'no-future-kept': 'the scene keeps no future of this road user from the start on',
     'replan-interval': (v: Values) => `${v.got} s; null, 3, 6 or 9 expected`,
     'more-than-a-turn': (v: Values) => `${v.got} rad is more than a turn; ${v.got} degrees are ${v.radians} rad`,
-    'unknown-edge': 'the id of a road edge of the map expected',
-    'unequal-columns': (v: Values) =>
-      plural(Number(v.count), {
-        one: `${v.count} value, ${v.expected} expected, as in x_m`,
-        other: `${v.count} values, ${v.expected} expected, as in x_m`,
-      }),
     'one-scene': 'exactly one of scene and scene_id is needed',
     'changed-scene': 'The stored scene has changed since it was read.',
     'no-network': (v: Values) => `a file of format ${v.format} has no network`,
     'no-columns': (v: Values) => `a file of format ${v.format} has no columns to name`,
     'unknown-format': (v: Values) => `No format is named \"${v.format}\"; there are ${v.formats}.`,
     defect: 'The server failed; see its log.',
+    'exactly-one': (v: Values) => `exactly one of ${v.first} and ${v.second} is needed`,
+    'share-sum': (v: Values) => `the shares sum to ${v.sum}; 1 expected`,
+    'empty-map': 'the map is empty: it has no place for a region',
   },
 });

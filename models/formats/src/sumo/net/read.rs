@@ -2,7 +2,8 @@
 
 use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
 use crate::limits::MAX_POLYLINES;
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::ReadError;
+use crate::refusals::{self, wanted, what};
 use crate::sumo::SumoError;
 use crate::sumo::kerb::s_curve;
 use crate::sumo::programs::SignalProgram;
@@ -88,8 +89,7 @@ impl Reader {
         match (self.depth, element.name.as_str(), &mut self.open) {
             (1, "net", _) => self.net.notes.left_hand = element.get("lefthand") == Some("true"),
             (1, ..) => {
-                let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
-                return Err(SumoError::Content { expected: "a SUMO network (<net>)", found });
+                return Err(SumoError::content(refusals::tag(&element.name), wanted::SUMO_NET));
             }
             (2, "location", _) => {
                 let projection = element.get("projParameter").map(str::trim);
@@ -120,11 +120,13 @@ impl Reader {
     fn count(&mut self, element: &Element) -> Result<(), SumoError> {
         self.elements += 1;
         self.attributes += element.attributes.len();
-        if self.elements > MAX_ELEMENTS || self.attributes > MAX_ATTRIBUTES {
-            let line = element.line;
-            let detail =
-                format!("line {line}: more than {MAX_ELEMENTS} elements or {MAX_ATTRIBUTES} attributes");
-            return Err(SumoError::File(too_large(detail)));
+        let counts = [
+            (self.elements, MAX_ELEMENTS, what::ELEMENTS),
+            (self.attributes, MAX_ATTRIBUTES, what::ATTRIBUTES),
+        ];
+        if let Some((most, what)) = refusals::exceeded(&counts) {
+            let message = refusals::network_too_large(most, what).at_line(element.line);
+            return Err(SumoError::File(ReadError::map_too_large(message)));
         }
         Ok(())
     }
@@ -222,16 +224,10 @@ fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
     Some(lane)
 }
 
-/// A network of more than a scene holds.
-pub(in crate::sumo) fn too_large(detail: String) -> ReadError {
-    let advice = "cut a part out with netconvert --keep-edges.in-boundary";
-    FieldProblem::new("", code::MAP_TOO_LARGE, format!("{detail}; {advice}")).into()
-}
-
 /// What was added to the projected coordinates.
 fn offset(location: &Element) -> Result<Vec2, SumoError> {
     let Some(text) = location.get("netOffset") else { return Ok(Vec2::zeros()) };
-    point(text).map(|(offset, _)| offset).ok_or_else(|| SumoError::value(text, POINT, location.line))
+    point(text).map(|(offset, _)| offset).ok_or_else(|| SumoError::value(text, wanted::POINT, location.line))
 }
 
 fn owned(element: &Element, attribute: &'static str) -> Result<String, SumoError> {
@@ -241,7 +237,7 @@ fn owned(element: &Element, attribute: &'static str) -> Result<String, SumoError
 fn number(element: &Element, attribute: &'static str) -> Result<f64, SumoError> {
     let text = element.required(attribute)?;
     let value: Option<f64> = text.parse().ok().filter(|v: &f64| v.is_finite());
-    value.ok_or_else(|| SumoError::value(text, "a number", element.line))
+    value.ok_or_else(|| SumoError::value(text, wanted::NUMBER, element.line))
 }
 
 /// An edge without its lanes; `None` for one of an unknown function.
@@ -323,7 +319,7 @@ fn add_phase(element: &Element, program: &mut SignalProgram) -> Result<(), SumoE
     let duration_s = number(element, "duration")?;
     if duration_s < 0.0 {
         let found = element.required("duration")?;
-        return Err(SumoError::value(found, "a duration in seconds", element.line));
+        return Err(SumoError::value(found, wanted::DURATION, element.line));
     }
     program.jumps |= element.get("next").is_some();
     program.phases.push((duration_s, element.required("state")?.as_bytes().to_vec()));
@@ -362,9 +358,6 @@ fn kind_of(function: EdgeFunction, lane: &Element) -> LaneKind {
     }
 }
 
-/// Words for a point in a message.
-const POINT: &str = "a point such as 1.5,-2.0";
-
 /// A point, and whether it has a height.
 fn point(text: &str) -> Option<(Vec2, bool)> {
     let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
@@ -373,7 +366,7 @@ fn point(text: &str) -> Option<(Vec2, bool)> {
 
 fn shape(lane: &Element, heights: &mut bool) -> Result<Vec<Vec2>, SumoError> {
     let read = |text: &str| {
-        let (point, high) = point(text).ok_or_else(|| SumoError::value(text, POINT, lane.line))?;
+        let (point, high) = point(text).ok_or_else(|| SumoError::value(text, wanted::POINT, lane.line))?;
         *heights |= high;
         Ok(point)
     };

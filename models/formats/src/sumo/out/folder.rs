@@ -48,8 +48,8 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
         files.push((format!("{name}{RECORDING}"), recording::document(scene, &written, options.most())?));
     }
     if files.is_empty() {
-        let detail = "a folder of SUMO has a lane or a road user; this scene has none";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+        let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE_OR_USER);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
     Ok(Exported { bytes: pack::zip(&files)?, losses: losses.into_iter().collect() })
 }

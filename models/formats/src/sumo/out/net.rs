@@ -26,8 +26,8 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     let network = ExportedNetwork::of(scene);
     let (_, steps) = options.motion.all(scene);
     let Some(bytes) = document(scene, &network, steps, options.most())? else {
-        let detail = "a network of SUMO has one lane or more; this scene has none";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+        let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     };
     let mut losses = losses(scene, &network);
     let made = |junction: &Junction| never_green(scene, junction, steps).contains(&true);

@@ -60,8 +60,8 @@ pub(super) fn steps(scene: &Scene, written: &[ExportedAgent<'_>]) -> usize {
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let written = road_users(scene, options);
     if written.is_empty() {
-        let detail = "a SUMO recording needs at least one road user; this scene has no recorded states";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+        let message = crate::refusals::file_needs("FCD", crate::refusals::what::ROAD_USER);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
     let mut losses = losses(scene, options, &written);
     if *scene.map != scene::LaneMap::default() {

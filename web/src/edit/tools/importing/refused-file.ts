@@ -5,13 +5,15 @@ import { inWords } from '../../../net/refusal';
 import type { Problem } from '../../../net/types';
 import { TEXTS } from '../../../texts/files/importing';
 import { SENTENCES } from '../../../texts/messages/file-messages';
+import { SENTENCES as REFUSALS } from '../../../texts/messages/refusal-messages';
 import type { FileVerdict } from './importing';
 
 /** The fault of a file: its sentence where it comes as data. */
 export function faultIn(file: string, p: Problem): string {
   const message = p.message as Message | undefined;
   if (message?.code === 'not-a-known-format') return TEXTS.isNotAScene(file);
-  return message ? messageText(message, inWords(p), SENTENCES) : inWords(p);
+  if (!message) return inWords(p);
+  return messageText(message, inWords(p), message.code in REFUSALS.sentences ? REFUSALS : SENTENCES);
 }
 
 /** The fault of a file, its place and the remedy; without a problem the file has no scene. */

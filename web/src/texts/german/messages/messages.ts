@@ -3,6 +3,7 @@ import type { Said, Values } from '../../table';
 
 export const german: Said<typeof SENTENCES> = {
   since: (time, sentence) => `Ab ${time}: ${sentence}`,
+  inLine: (line, sentence) => `Zeile ${line}: ${sentence}`,
   lists: { kind: { vehicle: 'dieses Fahrzeug', cyclist: 'dieses Fahrrad', pedestrian: 'diese Person' } },
   sentences: {
     'goal-too-far': (v: Values) =>

@@ -19,17 +19,14 @@ export const german: Said<typeof SENTENCES> = {
     'no-future-kept': 'Die Szene hat ab dem Start keine Zukunft dieses Verkehrsteilnehmers',
     'replan-interval': (v: Values) => `${v.got} s; erwartet wird null, 3, 6 oder 9`,
     'more-than-a-turn': (v: Values) => `${v.got} rad ist mehr als eine Umdrehung; ${v.got} Grad sind ${v.radians} rad`,
-    'unknown-edge': 'Erwartet wird die Kennung eines Straßenrands der Karte',
-    'unequal-columns': (v: Values) =>
-      plural(Number(v.count), {
-        one: `${v.count} Wert, erwartet werden so viele wie x_m (${v.expected})`,
-        other: `${v.count} Werte, erwartet werden so viele wie x_m (${v.expected})`,
-      }),
     'one-scene': 'Nötig ist genau eines von scene und scene_id',
     'changed-scene': 'Die gespeicherte Szene wurde seit dem Lesen geändert.',
     'no-network': (v: Values) => `Eine Datei im Format ${v.format} kommt ohne Netz`,
     'no-columns': (v: Values) => `Eine Datei im Format ${v.format} hat keine Spalten zu benennen`,
     'unknown-format': (v: Values) => `Kein Format heißt „${v.format}“; es gibt ${v.formats}.`,
     defect: 'Der Server hat einen Fehler. Mehr steht in seinem Protokoll.',
+    'exactly-one': (v: Values) => `Nötig ist genau eines von ${v.first} und ${v.second}`,
+    'share-sum': (v: Values) => `Die Summe der Anteile ist ${v.sum}; erwartet: 1`,
+    'empty-map': 'Die Karte ist leer: Sie hat keinen Platz für einen Bereich',
   },
 };

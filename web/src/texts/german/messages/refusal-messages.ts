@@ -1,0 +1,85 @@
+import type { SENTENCES } from '../../messages/refusal-messages';
+import type { Said, Values } from '../../table';
+import { plural } from '../plural';
+import { WORDS } from '../refusal-words';
+
+export const german: Said<typeof SENTENCES> = {
+  lists: WORDS,
+  sentences: {
+    'appears-twice': (v: Values) => `${v.what} „${v.id}“ kommt zweimal vor`,
+    'at-most': (v: Values) => `${v.found} ${v.what} gefunden, höchstens ${v.most} erwartet`,
+    expected: (v: Values) => `Erwartet: ${v.expected}`,
+    'found-expected': (v: Values) => `Gefunden: ${v.found}; erwartet: ${v.expected}`,
+    'map-over-limit': (v: Values) =>
+      `${v.lines} Linien mit ${v.points} Punkten; höchstens ${v.most_lines} mit ${v.most_points}`,
+    'more-than': (v: Values) => `Mehr als ${v.most} ${v.what}`,
+    outside: (v: Values) => `Gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+    'state-expected': (v: Values) => `Zustand ${v.step}: erwartet: ${v.expected}`,
+    'track-beyond-scene': (v: Values) => `Die Trajektorie endet nach Schritt ${v.end}, die Szene hat ${v.steps}`,
+    'both-or-neither': (v: Values) => `${v.first} ist festgelegt, ${v.second} nicht; legen Sie beide oder keines fest`,
+    'cannot-decompress': (v: Values) => `Nicht zu entpacken oder zu lesen: ${v.words}`,
+    'challenge-start': (v: Values) =>
+      `Die Challenge beginnt bei Schritt ${v.begin} (1,0 s), diese Szene bei Schritt ${v.found} (${v.found_s}): Erzeugen Sie die Zukünfte mit --start-time 1.0`,
+    'checksum-differs': (v: Values) => `Die Prüfsumme ${v.what} stimmt nicht`,
+    contradiction: (v: Values) => `Nicht als ${v.format} lesbar: Die Datei widerspricht sich`,
+    'element-lacks-attribute': (v: Values) => `<${v.element}> hat kein Attribut „${v.attribute}“`,
+    'element-lacks-child': (v: Values) => `<${v.element}> hat kein <${v.child}>`,
+    'file-ends-after': (v: Values) => `Die Datei endet nach ${v.found} von ${v.expected} Byte eines Datensatzes`,
+    'file-ends-inside': (v: Values) => `Die Datei endet in ${v.what}`,
+    'file-has-no': (v: Values) => `In der Datei fehlt: ${v.what}`,
+    'file-needs': (v: Values) => `Für eine Datei im Format ${v.format} fehlt der Szene: ${v.what}`,
+    'file-too-long': (v: Values) => `Die Datei hat mindestens ${v.bytes} Byte; höchstens ${v.most}`,
+    'found-in-element': (v: Values) => `Gefunden in <${v.element}>: „${v.found}“; erwartet: ${v.expected}`,
+    'found-one-of': (v: Values) => `Gefunden: „${v.found}“; erwartet: eines von ${v.list}`,
+    'index-beyond': (v: Values) => `Gefunden: ${v.index}; erwartet: eine Zahl ab 0 und unter ${v.below}`,
+    'inflates-too-much': (v: Values) => `Entpackt mehr als ${v.most}-mal so groß`,
+    'lane-outside': (v: Values) =>
+      `Fahrstreifen „${v.lane}“, ${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+    'lanelets-in-extract': 'Die Datei hat Lanelets: eine Lanelet2-Karte, die als lanelet2 gelesen wird',
+    'map-too-wide': (v: Values) => `${v.width_m} x ${v.height_m}; eine Karte reicht bis ${v.most_m} um ihre Mitte`,
+    needs: (v: Values) => `${v.what} braucht: ${v.expected}`,
+    'nested-deeper': (v: Values) => `Tiefer als ${v.most} Ebenen verschachtelt`,
+    'netconvert-failed': (v: Values) => `netconvert konnte aus der Datei kein Netz machen: ${v.words}`,
+    'netconvert-missing':
+      'Ein OpenStreetMap-Auszug wird mit netconvert von SUMO gelesen, das hier fehlt: Installieren Sie es mit `pip install eclipse-sumo` und starten Sie neu',
+    'network-too-large': (v: Values) =>
+      `Mehr als ${v.most} ${v.what}; schneiden Sie mit netconvert --keep-edges.in-boundary einen Teil aus`,
+    'no-column': (v: Values) => `Keine Spalte „${v.column}“; vorhanden sind ${v.columns}`,
+    'no-lanelets': 'Keine Lanelets: Ein OpenStreetMap-Auszug wird als osm gelesen',
+    'no-open-lanelets':
+      'Keine Lanelets mit zwei Seiten, die ein Verkehrsteilnehmer befahren darf: Subtypen und Teilnehmer entscheiden',
+    'no-roads-with-lanes': (v: Values) => `Keine Straßen mit Fahrstreifen: ${v.words}`,
+    'not-both': (v: Values) => `Geben Sie ${v.first} oder ${v.second} an, nicht beide`,
+    'not-read': (v: Values) => `${v.what} wird nicht gelesen`,
+    'not-utf8': (v: Values) => `Kein UTF-8 in ${v.what}`,
+    'one-of': (v: Values) => `Erwartet: eines von ${v.list}`,
+    'one-scene-a-file': 'Eine Datei in diesem Format enthält eine Szene',
+    'only-read': (v: Values) => `${v.format} wird gelesen, nicht geschrieben`,
+    'only-written': (v: Values) => `${v.format} wird geschrieben, nicht gelesen`,
+    'other-kind': (v: Values) => `${v.file} wird nicht gelesen; ${v.instead}`,
+    'other-kind-named': (v: Values) =>
+      `${v.file} wird nicht gelesen; ${v.instead} (der Name endet auf .${v.end}, der Inhalt ist etwas anderes)`,
+    'parser-words': (v: Values) => `Nicht wie erwartet: ${v.words}`,
+    'pickle-calls': (v: Values) =>
+      `Byte ${v.byte}: Das Pickle verlangt ${v.name}; gelesen werden Zahlen, Texte, Listen und Arrays, aufgerufen wird nichts`,
+    'pickle-holds': (v: Values) =>
+      `Byte ${v.byte}: gefunden: ${v.what}; gelesen werden Zahlen, Texte, Listen und Arrays`,
+    'positions-over-limit': (v: Values) =>
+      `Mehr als ${v.most} ${v.what} in ${v.within_s}; zeichnen Sie weniger auf (fcd-output.filter-edges.input-file, device.fcd.probability)`,
+    'range-outside': (v: Values) => `${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+    'road-over-limit': (v: Values) => `Straße „${v.road}“ hat ${v.records} Einträge, zu viele für ihre Länge`,
+    'roads-over-memory': (v: Values) =>
+      `${v.lanes_m} Fahrstreifen und ${v.elements} Elemente brauchen mehr Speicher, als eine Datei dieser Größe darf`,
+    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km; schneiden Sie einige Kilometer aus`,
+    'too-far-from-start': (v: Values) => `${v.what} liegt ${v.distance_m} vom Start, höchstens ${v.most_m} erwartet`,
+    'unequal-columns': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Wert, erwartet werden so viele wie ${v.like} (${v.expected})`,
+        other: `${v.count} Werte, erwartet werden so viele wie ${v.like} (${v.expected})`,
+      }),
+    'unknown-map': 'Hier ist keine Karte mit diesem Hash bekannt; senden Sie die Karte selbst',
+    unreadable: (v: Values) => `Nicht als ${v.format} lesbar: ${v.words}`,
+    'unsupported-version': (v: Values) => `Version ${v.found} gefunden, bekannt sind Versionen bis ${v.known}`,
+    'zip-without': (v: Values) => `Ein ZIP ohne Datei, deren Name auf ${v.first} oder ${v.second} endet`,
+  },
+};
