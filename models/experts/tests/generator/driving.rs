@@ -120,6 +120,24 @@ fn a_queue_moves_off_one_after_the_other_and_what_is_parked_stays() {
 }
 
 #[test]
+fn a_column_brakes_one_after_the_other_behind_what_stands() {
+    let ahead = car("ahead", 60.0, 0.0, 0.0);
+    let column = (0..5).map(|i| car(&format!("c{i}"), -15.0 * f64::from(i), 0.0, 12.0));
+    let agents: Vec<Agent> = std::iter::once(ahead).chain(column).collect();
+    let asked: Vec<String> = agents.iter().map(|agent| agent.id.to_string()).collect();
+    let sample = run(
+        &SHIPPED,
+        ask(vec![lane("a", 0.0)], agents, &asked.iter().map(String::as_str).collect::<Vec<_>>()),
+    );
+    let places = |id: &str| shown(&sample, id).states.clone();
+    for pair in asked.windows(2) {
+        let (front, rear) = (places(&pair[0]), places(&pair[1]));
+        let touch = front.iter().zip(&rear).any(|(f, r)| (f.position() - r.position()).norm() < 4.6);
+        assert!(!touch, "{} runs into {}", pair[1], pair[0]);
+    }
+}
+
+#[test]
 fn thresholds_of_a_call_change_no_motion() {
     let shown_by = |harsh_brake_mps2: f64| {
         let mut dragged = car("1", 0.0, 0.0, 12.0);

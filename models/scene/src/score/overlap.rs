@@ -183,9 +183,11 @@ pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Itera
     let moments = near.flat_map(|(chunk, _)| chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len()));
     moments.filter(move |&i| {
         let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
-        pair.is_some_and(|(a, b)| {
-            if parked { a.passes(&b, brush_m, &limits) } else { a.threatens(&b, &limits) }
-        })
+        pair.is_some_and(
+            |(a, b)| {
+                if parked { a.passes(&b, brush_m, &limits) } else { a.threatens(&b, &limits) }
+            },
+        )
     })
 }
 
@@ -244,6 +246,19 @@ mod tests {
         let meetings = [north_through, north_late, beside, far].map(|other| overlap(&east, &other));
         let pairs = meetings.map(|o| (o.overlaps, o.close));
         assert_eq!(pairs, [(true, true), (false, false), (false, true), (false, false)]);
+    }
+
+    #[test]
+    fn dangerous_is_what_scores_call_a_near_miss() {
+        let dangers = |a: &SweptBoxes, b: &SweptBoxes| dangerous_moments(a, b).count();
+        let east = straight((0.0, 0.0), 0.0, 10.0);
+        let beside = |y_m: f64, speed: f64| straight((0.0, y_m), 0.0, speed);
+        assert!(dangers(&east, &beside(2.3, 5.0)) > 0, "0.3 m beside it, 5 m/s slower");
+        assert_eq!(dangers(&east, &beside(2.3, 9.0)), 0, "0.3 m beside it, 1 m/s slower");
+        assert_eq!(dangers(&east, &beside(2.6, 5.0)), 0, "0.6 m beside it");
+        // A parked car is brushed only.
+        assert!(dangers(&east, &straight((20.0, 2.1), 0.0, 0.0)) > 0);
+        assert_eq!(dangers(&east, &straight((20.0, 2.3), 0.0, 0.0)), 0);
     }
 
     #[test]

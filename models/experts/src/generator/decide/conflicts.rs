@@ -45,7 +45,9 @@ impl Decision<'_> {
 
     /// The two of the earliest danger in which one of them may still decide; the second may be a fixed motion.
     fn earliest(&self) -> Option<(usize, usize)> {
-        let of = |i: usize| self.dangers[i].iter().enumerate().filter_map(move |(j, step)| Some((*step.as_ref()?, i, j)));
+        let of = |i: usize| {
+            self.dangers[i].iter().enumerate().filter_map(move |(j, step)| Some((*step.as_ref()?, i, j)))
+        };
         let deciding = (0..self.sweeps.len()).filter(|i| self.left[*i] > 0);
         deciding.flat_map(of).min().map(|(_, i, j)| (i, j))
     }
@@ -66,7 +68,8 @@ impl OptionTable<'_> {
             return settled;
         }
         let others = of.others.with(&settled.reacted);
-        let sweeps: Vec<Arc<Sweep>> = settled.changed.iter().map(|changed| Arc::clone(&changed.sweep)).collect();
+        let sweeps: Vec<Arc<Sweep>> =
+            settled.changed.iter().map(|changed| Arc::clone(&changed.sweep)).collect();
         let fixed: Vec<&Sweep> = others.iter().map(|(_, sweep)| sweep.as_ref()).collect();
         let dangers = vec![vec![None; sweeps.len() + fixed.len()]; sweeps.len()];
         let mut now = Decision { chosen: settled.chosen.clone(), sweeps, fixed, dangers, left };

@@ -2,6 +2,7 @@
 
 mod conflicts;
 
+use crate::features::agent::AgentPlan;
 use crate::generator::candidates::{CandidateOrigin, MotionCandidate, own, shown};
 use crate::generator::choice::{Choice, JointOption};
 use crate::generator::costs::{Yardstick, options};
@@ -16,7 +17,6 @@ use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
 use crate::generator::slot::Slot;
 use crate::generator::trajectory::{Rollout, short_along};
 use crate::generator::verdict::{faults, window_judge};
-use crate::features::agent::AgentPlan;
 use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use crate::tuning::fixed::following::BRAKES;
@@ -292,7 +292,8 @@ impl OptionTable<'_> {
         let own = &settled.changed[i].sweep;
         let is_met = |o: &Sweep| own.starts_apart(o) && own.meets(o);
         let met = others.iter().find(|(_, sweep)| is_met(sweep));
-        let endangers = |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()).next().is_some();
+        let endangers =
+            |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()).next().is_some();
         let collides = met.is_some() || all.iter().any(|o| is_met(o));
         let meets = collides || all.iter().any(endangers);
         // Without a goal nothing is missed by waiting behind an agent in the lawful way.
@@ -352,7 +353,8 @@ impl OptionTable<'_> {
     /// The motion of an option, driven behind the agents that it meets with as little braking as that takes.
     fn follows(&self, i: usize, option: usize, all: &[&Sweep]) -> Option<MotionCandidate> {
         let size = &self.of.actors[i].plan.present.size;
-        let is_met = |sweep: &Sweep| all.iter().any(|o| sweep.starts_apart(o) && sweep.first_danger(o).is_some());
+        let is_met =
+            |sweep: &Sweep| all.iter().any(|o| sweep.starts_apart(o) && sweep.first_danger(o).is_some());
         let motions = self.behind(i, option, all);
         motions.into_iter().find(|c| !is_met(&Sweep::of_rollout(&c.motion.states, size)))
     }
@@ -372,7 +374,9 @@ impl OptionTable<'_> {
         let motions = brakes.filter_map(|brake| Some(driven(plan, &following(own, all, brake)?)));
         let origin = CandidateOrigin::Following(slot);
         let reach = candidate.motion.reach;
-        motions.map(|motion| MotionCandidate { probability: 0.0, origin, motion: motion.with_reason_of(reach) }).collect()
+        motions
+            .map(|motion| MotionCandidate { probability: 0.0, origin, motion: motion.with_reason_of(reach) })
+            .collect()
     }
 
     /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each

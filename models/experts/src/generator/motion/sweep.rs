@@ -137,9 +137,8 @@ impl Sweep {
 
     /// The first step at which two motions touch, or would soon if both went on as they do then.
     pub(in crate::generator) fn first_danger(&self, other: &Self) -> Option<usize> {
-        let touch = |step: &usize| {
-            self.at(*step).zip(other.at(*step)).is_some_and(|(a, b)| overlaps(a, b, 0.0))
-        };
+        let touch =
+            |step: &usize| self.at(*step).zip(other.at(*step)).is_some_and(|(a, b)| overlaps(a, b, 0.0));
         let touched = self.meets(other).then(|| (1..self.states.len()).find(touch)).flatten();
         let danger = dangerous_moments(self.swept(), other.swept()).next();
         touched.into_iter().chain(danger.map(|moment| STRIDE * (moment + 1))).min()

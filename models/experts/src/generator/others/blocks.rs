@@ -2,7 +2,9 @@
 
 use super::path_progress::{BEYOND_M, PathProgress};
 use crate::generator::motion::Sweep;
-use crate::tuning::fixed::blocks::{CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD};
+use crate::tuning::fixed::blocks::{
+    CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD,
+};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
 use scene::routes::Pose;
@@ -192,6 +194,24 @@ mod tests {
         let (first, last) = blocks[0].taken[7];
         assert!((36.5..=37.0).contains(&first) && (43.0..=43.5).contains(&last), "{first} to {last}");
         assert!(blocks[0].comes_behind(44.0) && !blocks[0].comes_behind(40.0));
+    }
+
+    #[test]
+    fn what_crosses_soon_after_the_window_is_in_the_way() {
+        let corridor = Corridor::of(&path(8.0), &CAR);
+        // At the window's end 8 m beside the path at 80 m, with 5 m/s towards it.
+        let north = |i: usize| State {
+            x_m: 80.0,
+            y_m: -53.0 + 0.5 * i as f64,
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            ..State::default()
+        };
+        let crossing: Vec<State> = (0..=HORIZON_STEPS).map(north).collect();
+        let blocks = corridor.blocks(&Sweep::entering(0, &crossing, &CAR));
+        assert_eq!(blocks.len(), 1, "{blocks:?}");
+        assert!((HORIZON_STEPS + 5..HORIZON_STEPS + 15).contains(&blocks[0].from), "{}", blocks[0].from);
+        let leaves: Vec<State> = crossing.iter().take(60).copied().collect();
+        assert!(corridor.blocks(&Sweep::entering(0, &leaves, &CAR)).is_empty());
     }
 
     #[test]
