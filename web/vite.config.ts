@@ -98,6 +98,8 @@ function wholes(): Plugin {
 // nothing is inlined into the page: the server's content security policy refuses inline code.
 export default defineConfig({
   base: '/',
+  // Scripts find each other by their own place, so that a proxy can publish the server below a path.
+  experimental: { renderBuiltUrl: (_, { hostType }) => (hostType === 'html' ? undefined : { relative: true }) },
   plugins: [shortKeys(), wholes(), weighed(), packed()],
   build: {
     outDir: 'dist',

@@ -157,7 +157,7 @@ impl Server {
         let out = child.stdout.take().context("no stdout")?;
         let mut line = String::new();
         BufReader::new(out).read_line(&mut line)?;
-        let address = line.trim().strip_prefix("DragTraffic is at http://").map(|a| a.trim_end_matches('/'));
+        let address = line.trim().strip_prefix("DragTraffic is at http://").and_then(|a| a.split('/').next());
         let Some(address) = address.and_then(|a| a.parse().ok()) else {
             let status = child.wait()?;
             bail!("the server said \"{}\" and ended with {status}", line.trim());

@@ -40,7 +40,7 @@ pub mod what {
         LANE_METRES = "m of lanes";
         LINE = "a line";
         LINES = "lines";
-        LINE_BYTES = "bytes of a line";
+        LINE_BYTES = "bytes in a line";
         LINE_METRES = "m of reference lines";
         MEMBERS = "members of a relation";
         MEMORY = "lists, dictionaries and arrays";
@@ -70,7 +70,7 @@ pub mod what {
         ROAD_USERS = "road users";
         ROW = "row";
         ROWS = "rows";
-        ROW_BYTES = "bytes of a row";
+        ROW_BYTES = "bytes in a row";
         SCENE = "scene";
         SCENES = "scenes of 9.1 s in one scenario";
         SECTION_LANES = "lanes in one lane section";
@@ -80,7 +80,7 @@ pub mod what {
         STATE = "a state of what is no array";
         STATES = "states";
         TAG = "a tag";
-        TAG_BYTES = "bytes of a tag";
+        TAG_BYTES = "bytes in a tag";
         TEXT = "a text";
         TRACKS = "tracks";
         TRACKS_OR_MAP = "tracks and no map features";

@@ -140,7 +140,7 @@ fn refusals_say_what_and_where() {
     let of = |from: &str, to: &str| refused(&STREET.replacen(from, to, 1));
     assert_eq!(
         of("2020a", "2024b"),
-        "cannot-represent at \"\": CommonRoad version 2024b; 2018b and 2020a are read"
+        "cannot-represent at \"\": \"commonRoadVersion=2024b\" found, one of 2018b, 2020a expected"
     );
     assert!(of("timeStepSize=\"0.1\"", "timeStepSize=\"0\"").contains("0.001 to 10 s expected"));
     assert!(of("<x>20</x>", "<x>wide</x>").contains("line 6: \"wide\" found in <x>, a number expected"));
@@ -171,5 +171,5 @@ fn what_is_written_is_read_again() {
     // A scene without a lane is none that the format has a place for.
     let mut bare = scene.clone();
     bare.map = LaneMap::default().into();
-    assert!(format.export(&[&bare], &options).unwrap_err().to_string().contains("one lane or more"));
+    assert!(format.export(&[&bare], &options).unwrap_err().to_string().contains("needs at least one lane"));
 }

@@ -104,7 +104,7 @@ fn faults_have_their_place() {
     assert_eq!((error.problems[0].pointer.as_str(), error.code()), ("/objects/0/width", "invalid-field"));
     let short = of("\"valid\": [true, true, true, true]", "\"valid\": [true]");
     assert_eq!(short.problems[0].pointer, "/objects/0/valid");
-    assert!(short.to_string().contains("1 entries found, 4 expected"));
+    assert!(short.to_string().contains("1 value, 4 expected, as in position"));
     assert_eq!(of("\"width\": 1.9", "\"width\": NaN").code(), "malformed-json");
     let cut = &GPUDRIVE[..GPUDRIVE.len() - 9];
     assert_eq!(import(cut).unwrap_err().code(), "malformed-json");

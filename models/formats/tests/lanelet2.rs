@@ -77,7 +77,11 @@ fn other_files_are_refused_precisely() {
     let extract = "<osm><node id='1' lat='48' lon='11'/><way id='2'><nd ref='1'/><tag k='highway' v='road'/></way></osm>";
     let cases = [
         (extract.to_owned(), "cannot-represent", "OpenStreetMap"),
-        (STREET.replace("node id='1'", "node id='one'"), "invalid-field", "\"one\" found where an id"),
+        (
+            STREET.replace("node id='1'", "node id='one'"),
+            "invalid-field",
+            "\"one\" found, a whole number as id",
+        ),
         (STREET.replace("v='0'", "v='1e300'"), "out-of-range", "found, -100000000"),
         (STREET.replace("v='70'", "v='70000'"), "map-too-large", "from its middle"),
         (STREET.replace("</osm>", ""), "malformed-file", "the file ends inside <osm>"),

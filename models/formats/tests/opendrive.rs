@@ -210,12 +210,12 @@ fn bad_files() -> Vec<Case> {
     let laughs = "<!DOCTYPE OpenDRIVE [<!ENTITY a \"ha\">]><OpenDRIVE>&a;</OpenDRIVE>";
     vec![
         case("no planView", "<planView>", "<plan>", file, "</planView> found"),
-        ("nobody's lanes", STREET.replace("type=\"", "type=\"un").into(), no, "no lane that anybody travels"),
+        ("nobody's lanes", STREET.replace("type=\"", "type=\"un").into(), no, "the file has no lane"),
         case("no length", "length=\"80\" junction", "junction", no, "no roads with lanes"),
         case("length NaN", "length=\"80\" junction", "length=\"NaN\" junction", no, "no roads with lanes"),
         case("far away", "x=\"100\"", "x=\"1e300\"", "out-of-range", "found, -100000000"),
         case("cut off", "</OpenDRIVE>", "", file, "the file ends inside <OpenDRIVE>"),
-        case("unknown entity", "two lanes", "&two;", file, "reference \"&two\""),
+        case("unknown entity", "two lanes", "&two;", file, "\"&two\" found, a known reference"),
         ("billion laughs", laughs.into(), file, "a document type definition"),
         ("deep nesting", format!("<OpenDRIVE>{}", "<road>".repeat(100_000)).into(), file, "deeper than 32"),
         ("no roads", b"<OpenDRIVE/>".into(), no, "no roads with lanes"),

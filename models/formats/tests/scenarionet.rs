@@ -87,7 +87,7 @@ fn a_pickle_that_would_be_a_program_is_refused_by_name() {
         (b"\x80\x02\x82\x01.", "a registry"),
         // A list is no name, whatever its arguments are.
         (b"\x80\x02])R.", "a call of what is no name"),
-        (b"\x80\x02cnumpy\ndtype\n(X\x01\x00\x00\x00OtR.", "an array of \"O\""),
+        (b"\x80\x02cnumpy\ndtype\n(X\x01\x00\x00\x00OtR.", "array(O)"),
     ] {
         let error = refused(bytes);
         assert_eq!(error.code(), "pickle-refused", "{error}");
@@ -97,26 +97,26 @@ fn a_pickle_that_would_be_a_program_is_refused_by_name() {
 
 #[test]
 fn another_sort_of_pickle_is_told() {
-    assert!(import(SUMMARY).unwrap_err().to_string().contains("import its sd_*.pkl files"));
-    assert!(import(b"\x80\x02].").unwrap_err().to_string().contains("no ScenarioNet scenario"));
+    assert!(import(SUMMARY).unwrap_err().to_string().contains("import the sd_*.pkl files"));
+    assert!(import(b"\x80\x02].").unwrap_err().to_string().contains("of a ScenarioNet scenario expected"));
 }
 
 #[test]
 fn broken_pickles_say_where() {
     for (bytes, at, said) in [
         (&b"\x80\x02"[..], 2, "the file ends"),
-        (b"\x80\x09.", 0, "protocol 9"),
-        (b"\x80\x02X\xff\xff\xff\xff", 2, "the file ends within"),
-        (b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\xff", 2, "the file ends within"),
-        (b"\x80\x02t.", 2, "the end of what was not begun"),
-        (b"\x80\x02h\x05.", 2, "never kept"),
-        (b"\x80\x02NNs.", 4, "no dictionary"),
+        (b"\x80\x09.", 0, "version 9"),
+        (b"\x80\x02X\xff\xff\xff\xff", 2, "the file ends inside an instruction"),
+        (b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\xff", 2, "the file ends inside an instruction"),
+        (b"\x80\x02t.", 2, "a mark on the stack"),
+        (b"\x80\x02h\x05.", 2, "a place of the memory"),
+        (b"\x80\x02NNs.", 4, "a dictionary expected"),
         (b"\x80\x02}NNs", 6, "the file ends"),
-        (b"\x80\x02Na.", 3, "no list"),
-        (b"\x80\x02}(Nu.", 5, "a key without a value"),
-        (b"\x80\x02r\xff\xff\xff\x7f", 2, "nothing to remember"),
-        (b"\x80\x02\x8a\x09123456789.", 2, "more than eight bytes"),
-        (b"\x80\x02\xff", 2, "instruction 0xff"),
+        (b"\x80\x02Na.", 3, "a list expected"),
+        (b"\x80\x02}(Nu.", 5, "a value for each key"),
+        (b"\x80\x02r\xff\xff\xff\x7f", 2, "an item on the stack"),
+        (b"\x80\x02\x8a\x09123456789.", 2, "at most eight bytes"),
+        (b"\x80\x02\xff", 2, "a known instruction"),
     ] {
         let error = import(bytes).unwrap_err();
         assert!(error.to_string().contains(said), "{bytes:?}: {error}");
@@ -138,7 +138,7 @@ fn small_files_do_not_become_large() {
     let text = [&b"X\x00\x10\x00\x00"[..], &b"a".repeat(4096)].concat();
     let again = b"c_codecs\nencode\n(h\x00X\x06\x00\x00\x00latin1tR0".repeat(100);
     let bytes = [&b"\x80\x02"[..], &text, b"q\x000", &again, b"N."].concat();
-    assert!(import(&bytes).unwrap_err().to_string().contains("more bytes are made"));
+    assert!(import(&bytes).unwrap_err().to_string().contains("bytes"));
 }
 
 #[test]

@@ -32,7 +32,8 @@ codes! {
     MalformedFile "malformed-file" "Broken file" "The uploaded file is broken at byte `offset` of its decoded form.";
     BadHeader "bad-header" "Unusable header" "A header of the request cannot be read.";
     BadHost "bad-host" "Host missing or given twice" "A request needs exactly one Host header.";
-    Unauthorized "unauthorized" "Token needed" "This server was started with a token; send it as `Authorization: Bearer`.";
+    Unauthorized "unauthorized" "Token needed" "This server was started with tokens; send one of them as `Authorization: Bearer`.";
+    Forbidden "forbidden" "Right missing" "The token's right does not cover this operation; `detail` names the right that is needed.";
     BadOrigin "bad-origin" "Origin not allowed" "The Origin is neither this server's nor one given with --allow-origin.";
     CrossSite "cross-site" "Request from another site" "A browser sent this on behalf of another site.";
     ReadOnly "read-only" "Scene is read-only" "Demo scenes and those of the data folder cannot be changed; duplicate the scene and change the copy.";
@@ -68,6 +69,7 @@ codes! {
     CannotRepresent "cannot-represent" "Format cannot hold this" "The format has no place for something that the scene cannot do without.";
     PickleRefused "pickle-refused" "Pickle refused" "The pickle asks for something beside numbers, texts, lists and arrays. Nothing that a pickle names is ever called.";
     LicenceRefused "licence-refused" "Licence refused" "This server was started with --refuse-nc and the source is for non-commercial use only.";
+    IdempotencyKeyReused "idempotency-key-reused" "Key of another request" "The Idempotency-Key was sent with another request before. Each request has a key of its own; a repeated one has the same body.";
     UpgradeRequired "upgrade-required" "WebSocket expected" "This address is a WebSocket's: its handshake (RFC 6455) is needed.";
     PreconditionRequired "precondition-required" "Precondition needed" "Send If-Match with the ETag last read (or If-None-Match: * to create), so that no change is lost.";
     HeadersTooLarge "headers-too-large" "Headers too large" "The request has more than `limit` header fields or bytes.";

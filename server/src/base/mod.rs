@@ -1,5 +1,6 @@
 //! Foundations of all modules: ids, the clock, limits, refusals, counters, facts about the domain.
 
+pub mod base_path;
 pub mod cache;
 pub mod clock;
 pub mod descriptors;
@@ -9,4 +10,5 @@ pub mod metrics;
 pub mod netconvert;
 pub mod party;
 pub mod problem;
+pub mod process;
 mod status;

@@ -11,6 +11,8 @@ pub enum Party {
     Own,
     /// A machine, or the network of one.
     Peer(IpAddr),
+    /// A user of this machine, by its number, on the unix socket.
+    Local(u32),
 }
 
 impl Party {
@@ -22,6 +24,16 @@ impl Party {
                 Self::Peer(IpAddr::from([a, b, c, d, 0, 0, 0, 0]))
             }
             v4 => Self::Peer(v4),
+        }
+    }
+}
+
+impl std::fmt::Display for Party {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Own => Ok(()),
+            Self::Peer(address) => address.fmt(f),
+            Self::Local(user) => write!(f, "user {user}"),
         }
     }
 }

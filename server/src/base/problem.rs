@@ -2,6 +2,7 @@
 //!
 //! A handler ends with a [`Refusal`]; `http::observe` writes it out once the request id and the path are at hand.
 
+use super::base_path;
 pub use super::status::{code_of, status_of};
 
 use api::code::CodeName;
@@ -42,12 +43,12 @@ impl ProblemDoc {
     /// Of a problem that occurred at an address, in a request.
     pub fn of(problem: &Problem, instance: Option<&str>, request_id: Option<&str>) -> Self {
         Self {
-            page: format!("/docs/problems#{}", problem.code.name()),
+            page: base_path::published(&format!("/docs/problems#{}", problem.code.name())),
             title: problem.code.title(),
             status: status_of(problem.code),
             detail: problem.detail.clone(),
             code: CodeName(problem.code),
-            instance: instance.map(str::to_owned),
+            instance: instance.map(base_path::published),
             request_id: request_id.map(str::to_owned),
             members: (*problem.members).clone(),
         }

@@ -7,7 +7,7 @@ pub fn status_of(code: Code) -> u16 {
     match code {
         Code::MalformedJson | Code::MalformedFile | Code::BadHeader | Code::BadHost => 400,
         Code::Unauthorized => 401,
-        Code::BadOrigin | Code::CrossSite | Code::ReadOnly => 403,
+        Code::Forbidden | Code::BadOrigin | Code::CrossSite | Code::ReadOnly => 403,
         Code::NotFound => 404,
         Code::MethodNotAllowed => 405,
         Code::NotAcceptable => 406,
@@ -33,7 +33,8 @@ pub fn status_of(code: Code) -> u16 {
         | Code::FormatUnknown
         | Code::CannotRepresent
         | Code::PickleRefused
-        | Code::LicenceRefused => 422,
+        | Code::LicenceRefused
+        | Code::IdempotencyKeyReused => 422,
         Code::UpgradeRequired => 426,
         Code::PreconditionRequired => 428,
         Code::HeadersTooLarge => 431,

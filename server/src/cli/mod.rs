@@ -16,6 +16,7 @@ macro_rules! examples {
 
 mod backup;
 mod common;
+mod config;
 mod convert;
 mod document;
 mod exit;
@@ -24,10 +25,12 @@ mod inputs;
 mod interrupt;
 #[cfg(feature = "lab")]
 mod lab;
+mod listen;
 mod map;
 mod output;
 mod parallel;
 mod place;
+mod plan;
 mod pointers;
 mod progress;
 mod score;
@@ -144,7 +147,12 @@ pub fn run() -> ExitCode {
 }
 
 fn parsed() -> Result<Cli, clap::Error> {
-    let matches = without_global_options(Cli::command()).try_get_matches()?;
+    let command = without_global_options(Cli::command());
+    let mut matches = command.clone().try_get_matches()?;
+    let refused = |message| Cli::command().error(ErrorKind::InvalidValue, message);
+    if let Some(command) = config::with_file(command, &matches).map_err(refused)? {
+        matches = command.try_get_matches()?;
+    }
     if let Some((name, _)) = matches.subcommand() {
         stray(&matches, name)?;
     }

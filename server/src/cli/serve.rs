@@ -1,9 +1,11 @@
 //! `dragtraffic serve`: the editor and the HTTP API.
 
+use super::listen::ServerEndpoint;
+use super::plan::ServePlan;
 use super::{Common, Exit, Failure, output};
 use crate::app::{App, AppParts};
-use crate::base::limits::Limits;
-use crate::base::{descriptors, metrics};
+use crate::base::{base_path, descriptors, metrics};
+use crate::http::audit::AuditLog;
 use crate::http::body::Room;
 use crate::http::guard::Guard;
 use crate::http::net;
@@ -14,7 +16,7 @@ use crate::scenes::{Catalog, Library};
 use crate::work::{self, Pool, PoolLane};
 use clap::Args;
 use std::net::SocketAddr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -25,37 +27,66 @@ use tokio::net::TcpListener;
 pub struct ServeArgs {
     /// IP address to listen on. An address that other machines reach needs --token-file.
     #[arg(long, env = "DRAGTRAFFIC_BIND", default_value = "127.0.0.1")]
-    bind: String,
+    pub(super) bind: String,
     /// Port to listen on; 0 takes a free port.
     #[arg(long, env = "DRAGTRAFFIC_PORT", default_value_t = 8080)]
-    port: u16,
+    pub(super) port: u16,
+    /// Listen on a unix socket instead: unix:PATH. The socket of a server that has ended is replaced.
+    #[arg(long, env = "DRAGTRAFFIC_LISTEN", value_name = "unix:PATH")]
+    pub(super) listen: Option<String>,
+    /// Mode of the unix socket, octal.
+    #[arg(long, env = "DRAGTRAFFIC_SOCKET_MODE", value_name = "MODE", default_value = "600")]
+    pub(super) socket_mode: String,
+    /// Path below which a proxy publishes this server, such as /tools/drag.
+    #[arg(long, env = "DRAGTRAFFIC_BASE_PATH", value_name = "PATH", default_value = "")]
+    pub(super) base_path: String,
+    /// Address or network of a proxy, or unix: its X-Forwarded-For and X-Forwarded-User name the client.
+    #[arg(long, env = "DRAGTRAFFIC_TRUST_PROXY", value_name = "ADDRESS", value_delimiter = ',')]
+    pub(super) trust_proxy: Vec<String>,
     /// Database file of the saved scenes, created if missing. Default: dragtraffic/scenes.sqlite in the
     /// user's data folder.
     #[arg(long, env = "DRAGTRAFFIC_DB", value_name = "FILE")]
-    db: Option<PathBuf>,
+    pub(super) db: Option<PathBuf>,
     /// Folder of scenario files to list, read-only.
     #[arg(long, env = "DRAGTRAFFIC_DATA", value_name = "DIR")]
-    data: Option<PathBuf>,
+    pub(super) data: Option<PathBuf>,
     /// Additional Host header to accept, with its port, such as scenes.example:8080.
-    #[arg(long, value_name = "HOST")]
+    #[arg(long, env = "DRAGTRAFFIC_ALLOW_HOST", value_name = "HOST", value_delimiter = ',')]
     allow_host: Vec<String>,
     /// Origin of another web page that may call the API.
-    #[arg(long, value_name = "ORIGIN")]
+    #[arg(long, env = "DRAGTRAFFIC_ALLOW_ORIGIN", value_name = "ORIGIN", value_delimiter = ',')]
     allow_origin: Vec<String>,
-    /// File with a token of at least 32 characters that callers must send; its mode must be 0600.
-    #[arg(long, value_name = "FILE")]
-    token_file: Option<PathBuf>,
+    /// File with a token of at least 32 characters that callers must send, or with lines NAME RIGHT TOKEN (read, edit,
+    /// admin). Its mode must be 0600. A changed file is read again.
+    #[arg(long, env = "DRAGTRAFFIC_TOKEN_FILE", value_name = "FILE")]
+    pub(super) token_file: Option<PathBuf>,
     /// Generations computed in parallel. Default: half the cores.
     #[arg(long, env = "DRAGTRAFFIC_THREADS", value_name = "N")]
-    threads: Option<u64>,
+    pub(super) threads: Option<u64>,
     /// Change a limit of /v1/info, such as --limit queue=4.
-    #[arg(long, value_name = "NAME=N")]
-    limit: Vec<String>,
+    #[arg(long, env = "DRAGTRAFFIC_LIMIT", value_name = "NAME=N", value_delimiter = ',')]
+    pub(super) limit: Vec<String>,
     /// Refuse imports whose licence allows non-commercial use only.
-    #[arg(long)]
+    #[arg(long, env = "DRAGTRAFFIC_REFUSE_NC")]
     refuse_nc: bool,
-    /// Open the editor in the browser.
+    /// Address such as 127.0.0.1:9090 that answers /healthz, /readyz and /metrics without token.
+    #[arg(long, env = "DRAGTRAFFIC_OPS_ADDRESS", value_name = "IP:PORT")]
+    pub(super) ops_address: Option<String>,
+    /// File for the audit log, a JSON object a line: changes of scenes, refusals of tokens and rights. - is standard
+    /// output.
+    #[arg(long, env = "DRAGTRAFFIC_AUDIT", value_name = "FILE")]
+    audit: Option<String>,
+    /// Bytes of an audit file before it makes way; five older ones stay.
+    #[arg(long, env = "DRAGTRAFFIC_AUDIT_BYTES", value_name = "N", default_value_t = 100_000_000)]
+    audit_bytes: u64,
+    /// TOML file with options by their names, such as port = 9000; the command line and the environment precede it.
+    #[arg(long, env = "DRAGTRAFFIC_CONFIG", value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Print what the server would do, or every fault of the options, and end.
     #[arg(long)]
+    check: bool,
+    /// Open the editor in the browser.
+    #[arg(long, env = "DRAGTRAFFIC_OPEN")]
     open: bool,
 }
 
@@ -75,13 +106,12 @@ pub fn run(args: ServeArgs, common: &Common) -> Result<(), Failure> {
 }
 
 async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
-    let mut limits = Limits::default();
-    for assignment in &args.limit {
-        limits.set(assignment).map_err(|reason| Failure::new(Exit::Usage, reason))?;
+    let plan = ServePlan::of(&args)?;
+    if args.check {
+        common.engine()?;
+        return output::print(plan.lines(&args).as_bytes());
     }
-    if let Some(threads) = args.threads {
-        limits.running = threads;
-    }
+    let ServePlan { mut limits, tokens, proxies, endpoint, ops, db } = plan;
     let wanted = limits.connections;
     limits.connections = descriptors::connections(wanted);
     if limits.connections < wanted {
@@ -93,15 +123,12 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         );
     }
     let limits = Arc::new(limits);
-    if let Some(folder) = args.data.as_ref().filter(|folder| !folder.is_dir()) {
-        return Err(Failure::new(Exit::Usage, format!("--data {}: no such folder", folder.display())));
-    }
-    let token = args.token_file.as_deref().map(read_token).transpose()?;
-    let listener = listen(&args, token.is_some()).await?;
-    let address = listener.local_addr()?;
-    let guard = Guard::new(address, &args.allow_host, &args.allow_origin, token)
+    let (listener, address) = endpoint.listen().await?;
+    let guard = Guard::new(address, &args.allow_host, &args.allow_origin, tokens)
         .map_err(|reason| Failure::new(Exit::Usage, reason))?;
-    let db = args.db.clone().map_or_else(default_db, Ok)?;
+    if args.db.is_none() {
+        default_db()?;
+    }
     let store = Store::open(&db, &limits)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error:#}", db.display())))?;
     let experts::Engine { generator, placer } = common.engine()?;
@@ -113,8 +140,11 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let pool = Pool::start(&limits)?;
     let cached_bytes = limits.cached_scene_bytes as usize;
     let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_bytes)?;
+    let audit = args.audit.as_deref().map(|target| AuditLog::open(target, args.audit_bytes));
+    let audit =
+        audit.transpose().map_err(|error| Failure::new(Exit::Failure, format!("--audit: {error}")))?;
     let app = App::new(AppParts {
-        gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
+        gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits), audit: audit.map(Arc::new) },
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
         room: Arc::new(Room::new(&limits)),
         pool,
@@ -127,7 +157,15 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         limits: Arc::clone(&limits),
     });
     start_background(&app)?;
-    let url = format!("http://{address}/");
+    if let Some(address) = ops {
+        answer_probes(address, &app).await?;
+    }
+    let url = match &endpoint {
+        ServerEndpoint::File(path, _) => format!("unix:{}", path.display()),
+        ServerEndpoint::Address(asked) => {
+            format!("http://{}{}", address.unwrap_or(*asked), base_path::published("/"))
+        }
+    };
     output::print(format!("DragTraffic is at {url}\n").as_bytes())?;
     tracing::info!(%url, db = %db.display(), "serving");
     if args.open {
@@ -139,13 +177,16 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         tracing::info!("stopping");
         pool.close();
     };
-    net::serve(listener, router(&app), &limits, stop, || pool.stop()).await;
+    net::serve(listener, router(&app), proxies, &limits, stop, || pool.stop()).await;
     app.pool.stop();
+    if let ServerEndpoint::File(path, _) = &endpoint {
+        let _ = std::fs::remove_file(path);
+    }
     tracing::info!("stopped");
     Ok(())
 }
 
-/// Warms the experts and tidies the store once an hour.
+/// Warms the experts, follows the token file and tidies the store once an hour.
 fn start_background(app: &App) -> std::io::Result<()> {
     let warmed = app.clone();
     let warm_up = move || {
@@ -156,6 +197,9 @@ fn start_background(app: &App) -> std::io::Result<()> {
         tracing::info!("experts are warm");
     };
     std::thread::Builder::new().name("warm-up".into()).spawn(warm_up)?;
+    if let Some(tokens) = app.gate.guard.tokens.clone() {
+        tokio::spawn(async move { tokens.follow().await });
+    }
     let tidied = app.clone();
     tokio::spawn(async move {
         let mut hour = tokio::time::interval(Duration::from_secs(3_600));
@@ -171,54 +215,27 @@ fn start_background(app: &App) -> std::io::Result<()> {
     Ok(())
 }
 
-async fn listen(args: &ServeArgs, has_token: bool) -> Result<TcpListener, Failure> {
-    let wrong = |reason: String| Failure::new(Exit::Usage, format!("--bind {}: {reason}", args.bind));
-    let host = args.bind.trim_start_matches('[').trim_end_matches(']');
-    let host = if host == "localhost" { "127.0.0.1" } else { host };
-    let ip = host.parse::<std::net::IpAddr>().map_err(|_| wrong("an IP address is expected".into()))?;
-    if !ip.is_loopback() && !has_token {
-        let reason = "other machines could reach this server; give --token-file as well";
-        return Err(wrong(reason.into()));
-    }
-    let address = SocketAddr::new(ip, args.port);
-    TcpListener::bind(address).await.map_err(|error| match error.kind() {
-        std::io::ErrorKind::AddrInUse => {
-            let message = format!("{address} is in use; another one with --port, or 0 for a free one");
-            Failure::new(Exit::AddressInUse, message)
-        }
-        _ => Failure::new(Exit::Failure, format!("{address}: {error}")),
-    })
-}
-
-fn read_token(path: &Path) -> Result<String, Failure> {
-    let wrong =
-        |reason: &str| Failure::new(Exit::Usage, format!("--token-file {}: {reason}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = std::fs::metadata(path)?.permissions().mode();
-        if mode & 0o077 != 0 {
-            return Err(wrong("others may read it; use chmod 600"));
-        }
-    }
-    let token = text.trim();
-    if token.len() < 32 || token.contains(char::is_whitespace) || !token.is_ascii() {
-        return Err(wrong("one line of at least 32 characters is expected"));
-    }
-    Ok(token.to_owned())
-}
-
 /// `dragtraffic/scenes.sqlite` in the user's data folder, else in this folder.
-pub(super) fn default_db() -> Result<PathBuf, Failure> {
+pub(super) fn db_path() -> PathBuf {
     let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
     let data = variable("XDG_DATA_HOME").or_else(|| variable("HOME").map(|home| home.join(".local/share")));
-    let Some(folder) = data.map(|data| data.join("dragtraffic")) else {
-        return Ok(PathBuf::from("dragtraffic.sqlite"));
-    };
-    std::fs::create_dir_all(&folder)
+    data.map_or_else(|| "dragtraffic.sqlite".into(), |data| data.join("dragtraffic/scenes.sqlite"))
+}
+
+/// The same, with its folder made.
+pub(super) fn default_db() -> Result<PathBuf, Failure> {
+    let path = db_path();
+    let folder = path.parent().unwrap_or(&path);
+    std::fs::create_dir_all(folder)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", folder.display())))?;
-    Ok(folder.join("scenes.sqlite"))
+    Ok(path)
+}
+
+/// Whether the configuration file may name this option.
+pub(super) fn is_option(name: &str) -> bool {
+    let command = Common::augment_args(ServeArgs::augment_args(clap::Command::new("serve")));
+    let named = command.get_arguments().any(|arg| arg.get_long() == Some(name));
+    named && !["config", "check"].contains(&name)
 }
 
 fn open_browser(url: &str) {
@@ -226,6 +243,16 @@ fn open_browser(url: &str) {
     if let Err(error) = std::process::Command::new(program).arg(url).spawn() {
         tracing::warn!(%error, "no browser could be opened; go to {url}");
     }
+}
+
+/// Answers `/healthz`, `/readyz` and `/metrics` on an address of their own, without token.
+async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
+    let refused = |error| Failure::new(Exit::Failure, format!("--ops-address {address}: {error}"));
+    let listener = TcpListener::bind(address).await.map_err(refused)?;
+    tracing::info!(address = %listener.local_addr()?, "answers probes");
+    let router = crate::routes::probes(app);
+    tokio::spawn(async move { axum::serve(listener, router).await });
+    Ok(())
 }
 
 async fn stop_signal() {

@@ -2,12 +2,13 @@
 
 use super::observe::RequestGate;
 use super::{coding, sign_in};
+use crate::base::base_path;
 use crate::base::problem::{ALLOWED, Refusal};
 use api::{Code, Problem};
 use axum::body::Body;
 use axum::extract::State;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Response};
 use rust_embed::{EmbeddedFile, RustEmbed};
 
 /// The built editor.
@@ -29,10 +30,10 @@ pub async fn fallback(
     if path == "/v1" || path.starts_with("/v1/") {
         return Refusal::from(Problem::new(Code::NotFound, "The API has no such address.")).into_response();
     }
-    if let Some((token, cookie)) = gate.guard.closed_to(&headers).filter(|_| is_page(path)) {
+    if let Some(tokens) = gate.guard.closed_to(&headers).filter(|_| is_page(path)) {
         let address = uri.path_and_query().map_or(path, |address| address.as_str());
         return match method {
-            Method::POST => sign_in::enter(token, cookie, address, &headers, body).await,
+            Method::POST => sign_in::enter(tokens, address, &headers, body).await,
             _ => sign_in::page(""),
         };
     }
@@ -41,7 +42,7 @@ pub async fn fallback(
         return Refusal::from(problem.fact(ALLOWED, "GET, HEAD")).into_response();
     }
     let name = path.strip_prefix('/').unwrap_or(path);
-    match Editor::get(name).filter(|_| !is_packed(name)) {
+    match Editor::get(name).filter(|_| !is_packed(name) && name != "index.html") {
         Some(file) => asset(name, &file, &headers),
         // A missing script must not come back as a page.
         None if name.starts_with("assets/") => {
@@ -51,7 +52,8 @@ pub async fn fallback(
             Refusal::from(Problem::new(Code::NotFound, "Nothing has this address.")).into_response()
         }
         None => match Editor::get("index.html") {
-            Some(page) => asset("index.html", &page, &headers),
+            Some(page) if base_path::base().is_empty() => asset("index.html", &page, &headers),
+            Some(page) => rebased(&page),
             None => {
                 let detail = "This build has no editor inside; the API works.";
                 Refusal::from(Problem::new(Code::NotFound, detail)).into_response()
@@ -76,6 +78,12 @@ fn is_packed(name: &str) -> bool {
 fn packed(name: &str, headers: &HeaderMap) -> Option<(&'static str, EmbeddedFile)> {
     let taken = PACKED.into_iter().filter(|(coding, _)| coding::takes(headers, coding));
     taken.filter_map(|(coding, ending)| Some((coding, Editor::get(&format!("{name}{ending}"))?))).next()
+}
+
+/// The page with its addresses below the server's path.
+fn rebased(page: &EmbeddedFile) -> Response {
+    let text = String::from_utf8_lossy(&page.data).replace("=\"/", &format!("=\"{}/", base_path::base()));
+    ([(header::CACHE_CONTROL, "no-cache")], Html(text)).into_response()
 }
 
 fn asset(name: &str, plain: &EmbeddedFile, headers: &HeaderMap) -> Response {

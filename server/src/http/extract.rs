@@ -37,6 +37,8 @@ pub struct Connection {
     pub is_line: bool,
     /// It is known to belong to another user of this machine.
     pub strangers: bool,
+    /// It comes from a proxy whose word about its clients is taken.
+    pub trusted: bool,
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Connection {

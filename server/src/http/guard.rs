@@ -3,13 +3,14 @@
 //! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
 
 use super::extract::Connection;
-use super::sign_in::{SessionCookie, same_bytes};
+use super::tokens::{Right, TokenList};
 use crate::base::limits::Limits;
 use api::{Code, Problem};
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
 
 /// Access that the command line allows.
 #[derive(Clone, Debug, Default)]
@@ -20,27 +21,29 @@ pub struct Guard {
     own_origins: Vec<String>,
     /// Origins given with `--allow-origin`.
     foreign_origins: Vec<String>,
-    /// Bearer token, when one is needed, and the cookie that stands for it.
-    token: Option<(String, SessionCookie)>,
+    /// Any Host is served: the address is for probes alone.
+    any_host: bool,
+    /// Bearer tokens, when one is needed.
+    pub tokens: Option<Arc<TokenList>>,
 }
 
 impl Guard {
-    /// Rules of a server bound to `address`.
+    /// Rules of a server bound to an address, or to a unix socket.
     ///
     /// # Errors
     /// A sentence when an origin is `*` or `null`.
     pub fn new(
-        address: SocketAddr,
+        address: Option<SocketAddr>,
         allow_hosts: &[String],
         allow_origins: &[String],
-        token: Option<String>,
+        tokens: Option<Arc<TokenList>>,
     ) -> Result<Self, String> {
-        let port = address.port();
+        let port = address.map_or(80, |address| address.port());
         let mut names = vec!["127.0.0.1".to_owned(), "localhost".to_owned(), "[::1]".to_owned()];
-        match address.ip() {
-            ip if ip.is_unspecified() => {}
-            IpAddr::V4(ip) => names.push(ip.to_string()),
-            IpAddr::V6(ip) => names.push(format!("[{ip}]")),
+        match address.map(|address| address.ip()) {
+            Some(IpAddr::V4(ip)) if !ip.is_unspecified() => names.push(ip.to_string()),
+            Some(IpAddr::V6(ip)) if !ip.is_unspecified() => names.push(format!("[{ip}]")),
+            _ => {}
         }
         let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
         if port == 80 {
@@ -53,18 +56,22 @@ impl Guard {
         let own_origins =
             hosts.iter().flat_map(|h| [format!("http://{h}"), format!("https://{h}")]).collect();
         let foreign_origins = allow_origins.iter().map(|o| o.to_ascii_lowercase()).collect();
-        let token = token.map(|token| {
-            let cookie = SessionCookie::of(&token);
-            (token, cookie)
-        });
-        Ok(Self { hosts, own_origins, foreign_origins, token })
+        Ok(Self { hosts, own_origins, foreign_origins, any_host: false, tokens })
     }
 
-    /// The token and its cookie, where a request for a page comes without either.
-    pub fn closed_to(&self, headers: &HeaderMap) -> Option<(&str, &SessionCookie)> {
-        let (token, cookie) = self.token.as_ref()?;
-        let known = is_bearer(headers, token) || cookie.is_in(headers);
-        (!known).then_some((token, cookie))
+    /// Rules of an address for probes: they know it by whatever name.
+    pub fn for_probes() -> Self {
+        Self { any_host: true, ..Self::default() }
+    }
+
+    /// Name of the token that a request carries.
+    pub fn bearer(&self, headers: &HeaderMap) -> Option<String> {
+        self.tokens.as_ref()?.bearer(headers, |token| token.name.clone()).ok()
+    }
+
+    /// The tokens, where a request for a page comes without any of them.
+    pub fn closed_to(&self, headers: &HeaderMap) -> Option<&TokenList> {
+        self.tokens.as_deref().filter(|tokens| tokens.bearer(headers, |_| ()).is_err())
     }
 
     /// The request's Origin, when it is one given with `--allow-origin`.
@@ -95,7 +102,8 @@ pub fn preflight() -> Response {
         (header::ACCESS_CONTROL_ALLOW_METHODS, "GET, HEAD, POST, PUT, PATCH, DELETE"),
         (
             header::ACCESS_CONTROL_ALLOW_HEADERS,
-            "Content-Type, Content-Encoding, Accept, Authorization, If-Match, If-None-Match, X-Request-Id",
+            "Content-Type, Content-Encoding, Accept, Authorization, If-Match, If-None-Match, X-Request-Id, \
+             Idempotency-Key",
         ),
         (header::ACCESS_CONTROL_MAX_AGE, "600"),
     ];
@@ -148,7 +156,7 @@ fn check_host(guard: &Guard, request: &Request) -> Result<(), Problem> {
     };
     let host = host.to_str().unwrap_or_default();
     let authority_fits = request.uri().authority().is_none_or(|a| allowed(a.as_str()));
-    if allowed(host) && authority_fits {
+    if guard.any_host || allowed(host) && authority_fits {
         return Ok(());
     }
     Err(Problem::new(Code::HostNotAllowed, "This server does not answer for that Host."))
@@ -176,32 +184,19 @@ fn check_origin(guard: &Guard, request: &Request) -> Result<(), Problem> {
 }
 
 fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
-    let strangers = request.extensions().get::<Connection>().is_some_and(|connection| connection.strangers);
-    if guard.token.is_none() && !strangers {
-        return Ok(());
-    }
     let path = request.uri().path();
     let open = !path.starts_with("/v1") && !["/metrics", "/readyz", "/openapi.json"].contains(&path);
     if open || request.method() == Method::OPTIONS {
         return Ok(());
     }
-    let detail = match guard.token {
-        Some(_) if guard.closed_to(request.headers()).is_none() => return Ok(()),
-        Some(_) => "A bearer token is needed.",
-        None => {
-            "This connection belongs to another user of this machine: it needs the token of a server that was \
-             started with --token-file."
-        }
+    let Some(tokens) = &guard.tokens else {
+        let strangers = request.extensions().get::<Connection>().is_some_and(|by| by.strangers);
+        let detail = "This connection belongs to another user of this machine: it needs the token of a \
+            server that was started with --token-file.";
+        return if strangers { Err(Problem::new(Code::Unauthorized, detail)) } else { Ok(()) };
     };
-    Err(Problem::new(Code::Unauthorized, detail))
-}
-
-/// The request carries this token.
-fn is_bearer(headers: &HeaderMap, token: &str) -> bool {
-    let given = headers.get(header::AUTHORIZATION).and_then(|v| v.to_str().ok());
-    let scheme =
-        given.and_then(|v| v.split_once(' ')).filter(|(name, _)| name.eq_ignore_ascii_case("bearer"));
-    scheme.is_some_and(|(_, given)| same_bytes(given.trim_start().as_bytes(), token.as_bytes()))
+    let needed = Right::needed(request.method(), path, request.uri().query());
+    tokens.bearer(request.headers(), |token| token.allow(needed))?
 }
 
 #[cfg(test)]
@@ -213,7 +208,8 @@ mod tests {
 
     fn verdict(method: &str, headers: &[(&str, &str)]) -> Option<&'static str> {
         let origins = ["https://tools.example".to_owned()];
-        let guard = Guard::new("127.0.0.1:8080".parse().unwrap(), &[], &origins, None).unwrap();
+        let address = "127.0.0.1:8080".parse().ok();
+        let guard = Guard::new(address, &[], &origins, None).unwrap();
         let mut request = Request::builder().method(method).uri("/v1/scenes");
         for (name, value) in headers {
             request = request.header(*name, *value);
@@ -256,7 +252,7 @@ mod tests {
 
     #[test]
     fn star_is_no_origin() {
-        let address = "127.0.0.1:1".parse().unwrap();
+        let address = "127.0.0.1:1".parse().ok();
         assert!(Guard::new(address, &[], &["*".into()], None).is_err());
         assert!(Guard::new(address, &[], &["null".into()], None).is_err());
     }

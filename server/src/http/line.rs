@@ -6,6 +6,7 @@
 
 use super::frames::WholeMessages;
 use super::net::Carrier;
+use crate::base::base_path;
 use crate::base::limits::Limits;
 use crate::base::problem::{ProblemDoc, Refusal};
 use api::{Code, Problem};
@@ -435,7 +436,7 @@ impl Line {
     fn request(&self, body: String) -> Request<Body> {
         let mut request = Request::new(Body::from(body));
         *request.method_mut() = Method::POST;
-        *request.uri_mut() = axum::http::Uri::from_static(self.path);
+        *request.uri_mut() = base_path::published(self.path).parse().unwrap_or_default();
         *request.headers_mut() = self.headers.clone();
         request
     }

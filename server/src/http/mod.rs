@@ -1,18 +1,24 @@
 //! HTTP for every operation: connections, access rules, bodies, headers, the form of replies.
 
 pub mod accept;
+pub mod audit;
+pub mod below;
 pub mod body;
 pub mod coding;
 pub mod embed;
 pub mod extract;
 mod frames;
 pub mod guard;
+pub mod idempotency;
 pub mod line;
 pub mod net;
 pub mod observe;
 mod owner;
 pub mod packed;
 mod pause;
+pub mod proxies;
 mod sign_in;
+pub mod stream;
+pub mod tokens;
 pub mod upload;
 mod wire;

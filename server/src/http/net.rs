@@ -6,8 +6,11 @@
 
 use super::extract::Connection;
 use super::pause::RefusalPause;
+use super::proxies::{ForwardedUser, TrustedProxies};
+use super::stream::{ByteStream, Listener};
 use super::wire::{self, Socket, Wire};
 use super::{observe, owner};
+use crate::base::base_path;
 use crate::base::limits::Limits;
 use crate::base::party::Party;
 use api::{Code, Problem};
@@ -21,7 +24,6 @@ use std::pin::{Pin, pin};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{Notify, Semaphore, mpsc, watch};
 
 /// Heads up to this size reach our own check, which answers with a problem document.
@@ -99,11 +101,11 @@ impl ConnectionEntry {
     }
 
     /// As its requests carry it.
-    fn connection(&self) -> Connection {
-        let stream = self.socket.stream();
-        let ends = stream.peer_addr().ok().zip(stream.local_addr().ok());
-        let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
-        Connection { number: self.number, party: self.party, is_line: false, strangers }
+    fn connection(&self, proxies: &TrustedProxies) -> Connection {
+        let ends = self.socket.stream().ends();
+        let trusted = proxies.trusts(ends.map(|(peer, _)| peer.ip()));
+        let strangers = !trusted && ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
+        Connection { number: self.number, party: self.party, is_line: false, strangers, trusted }
     }
 
     /// Ends the connection. One that waits for a refusal gets it before, if it takes it soon.
@@ -128,7 +130,7 @@ impl ConnectionTable {
     /// A place for a new connection. A full table takes one from the connection that waits longest for a refusal, else
     /// closes the one that is idle longest, else the one with the slowest request; first among those of parties with
     /// more than a quarter of all places. Of these, a party with less may even take the newest one with work under way.
-    fn enter(&self, stream: TcpStream, party: Party) -> Admission {
+    fn enter(&self, stream: ByteStream, party: Party) -> Admission {
         let place = Arc::new(ConnectionEntry {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             socket: Arc::new(Socket::new(stream)),
@@ -216,6 +218,7 @@ impl Drop for Busy {
 pub struct Carrier {
     router: Router,
     connection: Connection,
+    user: Option<ForwardedUser>,
     place: Arc<ConnectionEntry>,
     closing: watch::Receiver<bool>,
     /// Bounds.
@@ -231,6 +234,9 @@ impl Carrier {
     pub async fn ask(&self, mut request: axum::extract::Request) -> (axum::response::Response, Busy) {
         let busy = Busy::new(&self.place);
         request.extensions_mut().insert(Connection { is_line: true, ..self.connection });
+        if let Some(user) = &self.user {
+            request.extensions_mut().insert(user.clone());
+        }
         let Ok(reply) = tower::ServiceExt::oneshot(self.router.clone(), request).await;
         (reply, busy)
     }
@@ -245,8 +251,9 @@ impl Carrier {
 ///
 /// `on_stop` is called when the grace is over and cancels what still runs.
 pub async fn serve(
-    listener: TcpListener,
+    listener: Listener,
     router: Router,
+    proxies: TrustedProxies,
     limits: &Limits,
     stop: impl Future<Output = ()>,
     on_stop: impl FnOnce(),
@@ -257,7 +264,7 @@ pub async fn serve(
     // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
     let mut look = tokio::time::interval(LOOK);
-    let limits = Arc::new(limits.clone());
+    let (limits, proxies) = (Arc::new(limits.clone()), Arc::new(proxies));
     let mut stop = pin!(stop);
     loop {
         let accepted = tokio::select! {
@@ -269,7 +276,7 @@ pub async fn serve(
             }
             accepted = listener.accept() => accepted,
         };
-        let (stream, peer) = match accepted {
+        let stream = match accepted {
             Ok(accepted) => accepted,
             Err(error) => {
                 // Out of file descriptors, or a peer that left: the next one may be fine.
@@ -278,14 +285,16 @@ pub async fn serve(
                 continue;
             }
         };
-        let place = match table.enter(stream, Party::of(peer.ip())) {
+        let party = stream.party();
+        let place = match table.enter(stream, party) {
             Admission::Place(place) => place,
             Admission::Overflow(place) => {
                 // Beyond these, new connections are closed: each takes a descriptor.
                 if let Ok(held) = Arc::clone(&overflow).try_acquire_owned() {
-                    let router = router.clone();
+                    let (router, connection) = (router.clone(), place.connection(&proxies));
                     tokio::spawn(async move {
-                        let _ = tokio::time::timeout(OVERFLOW_TIME, answer_health(router, &place)).await;
+                        let answered = answer_health(router, connection, &place);
+                        let _ = tokio::time::timeout(OVERFLOW_TIME, answered).await;
                         drop(held);
                     });
                 }
@@ -293,9 +302,9 @@ pub async fn serve(
             }
         };
         let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
-        let limits = Arc::clone(&limits);
+        let (limits, proxies) = (Arc::clone(&limits), Arc::clone(&proxies));
         tokio::spawn(async move {
-            connection(router, &place, closed, &limits, stalled).await;
+            connection(router, &place, &proxies, closed, &limits, stalled).await;
             table.leave(place.number);
         });
     }
@@ -310,12 +319,12 @@ pub async fn serve(
 }
 
 /// Answers one request of a connection beyond all places: about the server's health, else that it is busy.
-async fn answer_health(router: Router, place: &Arc<ConnectionEntry>) {
-    let connection = place.connection();
+async fn answer_health(router: Router, connection: Connection, place: &Arc<ConnectionEntry>) {
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
         let router = router.clone();
         async move {
-            if HEALTH.contains(&request.uri().path()) {
+            let path = request.uri().path();
+            if HEALTH.contains(&base_path::within(path).unwrap_or(path)) {
                 request.extensions_mut().insert(connection);
                 return tower::ServiceExt::oneshot(router, request.map(axum::body::Body::new)).await;
             }
@@ -333,17 +342,20 @@ async fn answer_health(router: Router, place: &Arc<ConnectionEntry>) {
 async fn connection(
     router: Router,
     place: &Arc<ConnectionEntry>,
+    proxies: &Arc<TrustedProxies>,
     mut closed: watch::Receiver<bool>,
     limits: &Arc<Limits>,
     patience: Duration,
 ) {
     let socket = &place.socket;
     let counted = Arc::clone(place);
-    let connection = place.connection();
+    let connection = place.connection(proxies);
+    let proxies = Arc::clone(proxies);
     let (held, mut in_use) = mpsc::channel(1);
     let carrier = Carrier {
         router: router.clone(),
         connection,
+        user: None,
         place: Arc::clone(place),
         closing: closed.clone(),
         limits: Arc::clone(limits),
@@ -351,10 +363,18 @@ async fn connection(
         _in_use: held,
     };
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
-        request.extensions_mut().insert(connection);
-        request.extensions_mut().insert(counted.pause.clone());
+        let (connection, user) = match connection.trusted {
+            true => proxies.seen(connection, request.headers()),
+            false => (connection, None),
+        };
+        let extensions = request.extensions_mut();
+        extensions.insert(connection);
+        extensions.insert(counted.pause.clone());
+        if let Some(user) = &user {
+            extensions.insert(user.clone());
+        }
         if request.headers().contains_key(hyper::header::UPGRADE) {
-            request.extensions_mut().insert(carrier.clone());
+            request.extensions_mut().insert(Carrier { connection, user, ..carrier.clone() });
         }
         let busy = Busy::new(&counted);
         let place = Arc::clone(&counted);

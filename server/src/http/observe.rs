@@ -1,8 +1,13 @@
 //! The outermost layer: request id, access line, metrics, security headers, and the one place where
 //! problems are written.
 
+use super::audit::{self, AuditLine, AuditLog};
+use super::extract::Connection;
 use super::guard::{self, Guard};
+use super::idempotency::Sender;
 use super::pause::RefusalPause;
+use super::proxies::ForwardedUser;
+use super::tokens::Right;
 use crate::base::limits::Limits;
 use crate::base::problem::{ProblemDoc, Refusal, code_of, status_of};
 use crate::base::{id, metrics};
@@ -33,10 +38,12 @@ pub struct RequestGate {
     pub guard: Arc<Guard>,
     /// Bounds of a request's head.
     pub limits: Arc<Limits>,
+    /// Where changes and refusals are noted.
+    pub audit: Option<Arc<AuditLog>>,
 }
 
 /// Wraps every request.
-pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Next) -> Response {
+pub async fn observe(State(gate): State<RequestGate>, mut request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(request.headers());
     let method = request.method().clone();
@@ -45,6 +52,9 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
         request.extensions().get::<MatchedPath>().map_or(NO_ROUTE.to_owned(), |p| p.as_str().to_owned());
     let foreign = gate.guard.foreign_origin(&request);
     let pause = request.extensions().get::<RefusalPause>().cloned();
+    let edits = Right::needed(&method, &path, request.uri().query()) == Right::Edit;
+    let sender = sender(&request, &gate.guard);
+    request.extensions_mut().insert(sender.clone());
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
@@ -56,6 +66,17 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
         guard::allow_cross_origin(response.headers_mut(), origin);
     }
     let status = response.status();
+    if let Some(audit) = gate.audit.filter(|_| audit::is_audited(&method, edits, status)) {
+        audit.add(&AuditLine {
+            time: jiff::Timestamp::now().to_string(),
+            who: sender.name.as_deref(),
+            from: sender.party.to_string(),
+            what: format!("{method} {route}"),
+            scene: audit::scene_in(&path).or_else(|| audit::scene_made(response.headers())),
+            status: status.as_u16(),
+            request_id: &id,
+        });
+    }
     if status == StatusCode::SERVICE_UNAVAILABLE {
         // A client that retries at once would take cores from requests in progress.
         match pause {
@@ -70,6 +91,14 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     metrics::request(&route, Some(&method), status, seconds);
     tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
     response
+}
+
+/// Who sends a request: the the user whom a trusted proxy has signed in, else the name of the token.
+fn sender(request: &Request, guard: &Guard) -> Sender {
+    let extensions = request.extensions();
+    let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());
+    let party = extensions.get::<Connection>().map(|connection| connection.party).unwrap_or_default();
+    Sender { name: user.or_else(|| guard.bearer(request.headers())), party }
 }
 
 /// The refusal of a head that could not be read, so that no route, method or id of it is known.

@@ -1,5 +1,7 @@
-//! A way in for browsers: a page that takes the token, and a cookie that stands for it. Scripts send the token itself.
+//! A way in for browsers: a page that takes a token, and a cookie that stands for it. Scripts send the token itself.
 
+use super::tokens::TokenList;
+use crate::base::base_path::published;
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -18,7 +20,7 @@ const STAYS_S: u32 = 7 * 24 * 3600;
 const FORM_BYTES: usize = 8 << 10;
 const FORM_TIME: Duration = Duration::from_secs(5);
 
-/// The cookie of a server with a token. It names the token without containing it: a new token ends all sessions, a
+/// The cookie for a token. It names the token without containing it: a new token ends all sessions, a
 /// restart none.
 #[derive(Clone, Debug)]
 pub struct SessionCookie {
@@ -46,8 +48,9 @@ impl SessionCookie {
     /// The field that sets it; over TLS it is never sent without.
     fn field(&self, secure: bool) -> Option<HeaderValue> {
         let secure = if secure { "; Secure" } else { "" };
-        let Self { name, value } = self;
-        let field = format!("{name}={value}; Path=/; HttpOnly; SameSite=Strict; Max-Age={STAYS_S}{secure}");
+        let (Self { name, value }, path) = (self, published("/"));
+        let field =
+            format!("{name}={value}; Path={path}; HttpOnly; SameSite=Strict; Max-Age={STAYS_S}{secure}");
         HeaderValue::from_str(&field).ok()
     }
 }
@@ -65,23 +68,17 @@ pub fn page(status: &str) -> Response {
     (StatusCode::UNAUTHORIZED, head, PAGE.replace(STATUS, status)).into_response()
 }
 
-/// Answers the page's form: back to the same address with the cookie, where the token is the right one.
-pub async fn enter(
-    token: &str,
-    cookie: &SessionCookie,
-    address: &str,
-    headers: &HeaderMap,
-    body: Body,
-) -> Response {
+/// Answers the page's form: back to the same address with the cookie, where the token is one of the server's.
+pub async fn enter(tokens: &TokenList, address: &str, headers: &HeaderMap, body: Body) -> Response {
     let form = tokio::time::timeout(FORM_TIME, axum::body::to_bytes(body, FORM_BYTES)).await;
     let Ok(Ok(form)) = form else { return page("The form did not arrive. Try again.") };
     let mut fields = form_urlencoded::parse(&form);
     let given = fields.find(|(name, _)| name == "token").map(|(_, given)| given).unwrap_or_default();
-    if !same_bytes(given.trim().as_bytes(), token.as_bytes()) {
-        return page("That is not this server’s token.");
-    }
     let secure = headers.get(header::ORIGIN).is_some_and(|origin| origin.as_bytes().starts_with(b"https:"));
-    let (Some(cookie), Ok(address)) = (cookie.field(secure), HeaderValue::from_str(address)) else {
+    let Some(cookie) = tokens.named(given.trim(), |token| token.cookie.field(secure)) else {
+        return page("That is not a token of this server.");
+    };
+    let (Some(cookie), Ok(address)) = (cookie, HeaderValue::from_str(&published(address))) else {
         return page("That address cannot be opened.");
     };
     let head = [

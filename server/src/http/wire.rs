@@ -3,6 +3,7 @@
 //! hyper answers what it cannot read by itself, with a status and nothing else. [`Wire`] holds such an
 //! answer back; [`refuse`] gives the problem document in its place, as for every other refusal.
 
+use super::stream::ByteStream;
 use crate::base::limits::Limits;
 use api::{Code, Problem};
 use axum::http::header;
@@ -16,7 +17,6 @@ use std::sync::atomic::{AtomicU16, AtomicUsize, Ordering};
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, Interest, ReadBuf};
-use tokio::net::TcpStream;
 
 /// Most bytes of hyper's own answer: status line, Connection, Content-Length and Date.
 const BARE_ANSWER: usize = 192;
@@ -27,7 +27,7 @@ const PARTING: Duration = Duration::from_secs(2);
 
 /// Socket of a connection, with its state.
 pub struct Socket {
-    stream: TcpStream,
+    stream: ByteStream,
     /// Requests that are worked on or answered.
     pub requests: AtomicUsize,
     /// Status of hyper's own answer, which was held back; 0 without one.
@@ -36,14 +36,12 @@ pub struct Socket {
 
 impl Socket {
     /// Of an accepted connection.
-    pub fn new(stream: TcpStream) -> Self {
-        // Events are small and must leave at once.
-        let _ = stream.set_nodelay(true);
+    pub fn new(stream: ByteStream) -> Self {
         Self { stream, requests: AtomicUsize::new(0), held_back: AtomicU16::new(0) }
     }
 
     /// The connection itself.
-    pub fn stream(&self) -> &TcpStream {
+    pub fn stream(&self) -> &ByteStream {
         &self.stream
     }
 
@@ -55,7 +53,7 @@ impl Socket {
 
     /// Shuts down both directions, for all owners.
     pub fn end(&self) {
-        let _ = socket2::SockRef::from(&self.stream).shutdown(std::net::Shutdown::Both);
+        self.stream.shutdown(std::net::Shutdown::Both);
     }
 
     async fn send(&self, mut bytes: &[u8]) -> io::Result<()> {
@@ -169,8 +167,8 @@ impl AsyncWrite for Wire {
 }
 
 /// Ends the sending direction.
-fn shut(stream: &TcpStream) {
-    let _ = socket2::SockRef::from(stream).shutdown(std::net::Shutdown::Write);
+fn shut(stream: &ByteStream) {
+    stream.shutdown(std::net::Shutdown::Write);
 }
 
 /// Refusal for a client with an unreadable head; `None` if it has left, or never sent one.

@@ -2,6 +2,7 @@
 //! without scripts and without anything from elsewhere.
 
 use super::openapi;
+use crate::base::base_path;
 use crate::base::problem::status_of;
 use api::Code;
 use axum::http::header;
@@ -35,12 +36,13 @@ pub async fn problems() -> Html<&'static str> {
 }
 
 fn page(title: &str, body: &str) -> String {
+    let base = base_path::base();
     format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-         <link rel=\"stylesheet\" href=\"/docs/style.css\"></head><body><main>\
-         <nav><a href=\"/\">Editor</a> <a href=\"/docs\">API</a> <a href=\"/docs/problems\">Problems</a> \
-         <a href=\"/openapi.json\">openapi.json</a></nav><h1>{title}</h1>{body}</main></body></html>\n"
+         <link rel=\"stylesheet\" href=\"{base}/docs/style.css\"></head><body><main>\
+         <nav><a href=\"{base}/\">Editor</a> <a href=\"{base}/docs\">API</a> \
+         <a href=\"{base}/docs/problems\">Problems</a> <a href=\"{base}/openapi.json\">openapi.json</a></nav><h1>{title}</h1>{body}</main></body></html>\n"
     )
 }
 

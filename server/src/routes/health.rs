@@ -2,6 +2,7 @@
 
 use crate::app::App;
 use crate::base::problem::Refusal;
+use crate::base::process;
 use crate::work::PoolLane;
 use api::{Code, Problem};
 use axum::extract::State;
@@ -66,5 +67,6 @@ pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusa
         Refused))]
 pub async fn metrics(State(app): State<App>) -> impl IntoResponse {
     app.metrics.run_upkeep();
+    process::measure();
     ([(header::CONTENT_TYPE, "text/plain; version=0.0.4; charset=utf-8")], app.metrics.render())
 }

@@ -19,13 +19,18 @@ pub mod scenes;
 pub mod score;
 
 use crate::app::App;
+use crate::base::base_path;
 use crate::base::problem::Refusal;
-use crate::http::{embed, observe};
+use crate::http::guard::Guard;
+use crate::http::idempotency::{self, Replies};
+use crate::http::observe::RequestGate;
+use crate::http::{below, embed, observe};
 use api::Problem;
 use axum::Router;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
 use std::any::Any;
+use std::sync::Arc;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -63,7 +68,7 @@ fn pages() -> Router<App> {
     Router::new()
         .route("/openapi.json", get(docs::document))
         .route("/docs", get(docs::reference))
-        .route("/docs/", get(|| async { Redirect::permanent("/docs") }))
+        .route("/docs/", get(|| async { Redirect::permanent(&base_path::published("/docs")) }))
         .route("/docs/problems", get(docs::problems))
         .route("/docs/style.css", get(docs::style))
 }
@@ -71,14 +76,28 @@ fn pages() -> Router<App> {
 /// All routes with their layers.
 pub fn router(app: &App) -> Router {
     let (router, _) = documented().split_for_parts();
-    router
+    let router = router
         .merge(pages())
         .fallback(embed::fallback)
         // Bodies are bounded by `http::body`, with limits of their own.
         .layer(axum::extract::DefaultBodyLimit::disable())
         .layer(tower_http::catch_panic::CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(Replies::default(), idempotency::once))
         .layer(axum::middleware::from_fn_with_state(app.gate.clone(), observe::observe))
-        .with_state(app.clone())
+        .with_state(app.clone());
+    below::below(router)
+}
+
+/// Routes for probes, without token.
+pub fn probes(app: &App) -> Router {
+    let gate =
+        RequestGate { guard: Guard::for_probes().into(), limits: Arc::clone(&app.limits), audit: None };
+    let (router, _) = OpenApiRouter::new()
+        .routes(routes!(health::healthz))
+        .routes(routes!(health::readyz))
+        .routes(routes!(health::metrics))
+        .split_for_parts();
+    router.layer(axum::middleware::from_fn_with_state(gate, observe::observe)).with_state(app.clone())
 }
 
 fn panicked(cause: Box<dyn Any + Send>) -> Response {

@@ -2,7 +2,7 @@
 //! table of codes.
 
 use super::{health, import, maps, scenes};
-use crate::base::problem::ProblemDoc;
+use crate::base::{base_path::published, problem::ProblemDoc};
 use crate::generation::events;
 use api::GenerateRequest;
 use api::info::ProgramInfo;
@@ -37,7 +37,8 @@ pub fn head() -> OpenApi {
 pub fn document() -> Value {
     let (_, paths) = super::documented().split_for_parts();
     let mut document = serde_json::to_value(paths).unwrap_or(Value::Null);
-    document["servers"] = json!([{"url": "/", "description": "the server that gave this document"}]);
+    document["servers"] =
+        json!([{"url": published("/"), "description": "the server that gave this document"}]);
     let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
     document["security"] = json!([{}, {"token": []}]);
     tidy(&mut document);

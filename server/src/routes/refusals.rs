@@ -15,6 +15,7 @@ pub const ANYWHERE: &[Code] = &[
     Code::HeadTimeout,
     Code::HostNotAllowed,
     Code::Unauthorized,
+    Code::Forbidden,
     Code::CrossSite,
     Code::UriTooLong,
     Code::HeadersTooLarge,

@@ -34,10 +34,7 @@ impl Caller {
     /// The names under which callers take turns, from the whole to its parts: the party; the client or the WebSocket,
     /// or all plain requests of the party together; the connection.
     pub(super) fn names(&self) -> CallerNames {
-        let party = match self.party {
-            Party::Own => String::new(),
-            Party::Peer(address) => address.to_string(),
-        };
+        let party = self.party.to_string();
         let share = match (&self.client, self.line) {
             (Some((client, _)), _) => format!("{party} {client}"),
             (None, Some(number)) => format!("{party} #{number}"),

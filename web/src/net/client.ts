@@ -1,5 +1,6 @@
 // Plain requests to the server. Every failure is one of two: a refusal (`Refused`), or no answer (`Away`).
 import { problemOf } from './problem';
+import { ROOT } from './root';
 import { inWords } from './refusal';
 import type {
   ImportReply,
@@ -42,7 +43,7 @@ export interface Beside {
 
 export class Client {
   constructor(
-    private readonly base = '',
+    private readonly base = ROOT,
     private readonly fetcher: typeof fetch = (...a) => fetch(...a),
   ) {}
 

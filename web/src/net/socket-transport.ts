@@ -4,6 +4,7 @@ import { askHere, type Head, type Sender } from './http-transport';
 import { problemIn } from './problem';
 import { Multiplexer } from './multiplexer';
 import { eventsOf, type Together } from './stream';
+import { ROOT } from './root';
 
 type Ask = ReturnType<typeof askHere>;
 
@@ -106,7 +107,7 @@ function headOf({ status, retry_after_s, scene }: Told, rest: string): Head | nu
 /** A connection to the server that a script came from. */
 export function connection(script: string): WebSocket | null {
   if (typeof WebSocket === 'undefined') return null;
-  const address = new URL('/v1/generate', script);
+  const address = new URL(`${ROOT}/v1/generate`, script);
   address.protocol = address.protocol.replace('http', 'ws');
   return new WebSocket(address);
 }

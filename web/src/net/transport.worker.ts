@@ -1,6 +1,7 @@
 // Runs in a worker: sends questions to the generator, reads and unpacks the stream, and passes it on. Events that
 // arrive together go in one message: each message costs the page a task, sixty times a second.
 import type { Head } from './http-transport';
+import { ROOT } from './root';
 import { connection, SocketTransport } from './socket-transport';
 import type { Together } from './stream';
 import type { GenerateEvent } from './types';
@@ -16,7 +17,9 @@ type Failed = { readonly failed: string };
 /** The last event of an answer. */
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
-const line = new SocketTransport({ send: (path, init) => fetch(path, init) }, () => connection(self.location.href));
+const line = new SocketTransport({ send: (path, init) => fetch(ROOT + path, init) }, () =>
+  connection(self.location.href),
+);
 const open = new Map<number, AbortController>();
 const tell = (said: FromWorker): void => self.postMessage(said);
 

@@ -548,7 +548,10 @@ impl<'a> Machine<'a> {
     fn make_bytes(&mut self, count: usize) -> Done<()> {
         self.made += count;
         if self.made > self.bytes.len() {
-            return Err(self.too_many(self.bytes.len(), what::BYTES));
+            return Err(ReadError::malformed(
+                self.op as u64,
+                refusals::more_than(self.bytes.len(), what::BYTES),
+            ));
         }
         Ok(())
     }

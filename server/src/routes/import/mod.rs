@@ -7,6 +7,7 @@ mod reply;
 pub use reply::ImportedBody;
 
 use crate::app::App;
+use crate::base::base_path::published;
 use crate::base::metrics;
 use crate::base::problem::Refusal;
 use crate::http::body::{self, JsonText, Reading};
@@ -56,11 +57,12 @@ const UPLOADS: &[&str] = &[
 const MULTIPART: &str = "multipart/form-data";
 
 refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
-    FormatUnknown, CannotRepresent, PickleRefused, LicenceRefused, StoreFull);
+    FormatUnknown, CannotRepresent, PickleRefused, LicenceRefused, StoreFull, IdempotencyKeyReused);
 
 /// Stores the scenes of a file, or of the files of a form. Each of several files has its own result, and the
 /// request is refused if none of them can be read.
-#[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
+#[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files",
+    params(ImportParams, ("Idempotency-Key" = Option<String>, Header)),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody")),
         (status = 200, description = "dry run", body = ref("#/components/schemas/ImportedBody")), Refused))]
@@ -111,7 +113,7 @@ pub async fn import(
     let ids: Vec<String> = rows.iter().map(|(id, _)| id.clone()).collect();
     let etags = if rows.is_empty() { Vec::new() } else { app.catalog.store.put_new(rows).await? };
     done();
-    let first = ids.first().map(|id| format!("/v1/scenes/{id}"));
+    let first = ids.first().map(|id| published(&format!("/v1/scenes/{id}")));
     for (scene, (id, etag)) in reply.scenes().zip(ids.into_iter().zip(etags)) {
         (scene.id, scene.etag) = (Some(id), Some(etag));
     }

@@ -14,7 +14,6 @@ use crate::scenes::{Facts, record};
 use api::import::{ReadScene, SceneFile, names};
 use api::{Code, Problem};
 use experts::Cancel;
-use formats::FieldProblem;
 use formats::native::{MapForm, SceneDoc};
 use scene::licence::is_noncommercial;
 use std::sync::Arc;
@@ -97,8 +96,7 @@ impl<'o> ImportProgress<'o> {
                 Err(problem) if self.ends(&problem) => return Err(problem),
                 Err(problem) => {
                     self.rows.truncate(kept);
-                    let error =
-                        FieldProblem::new(format!("/file/{at}"), problem.code.name(), &problem.detail);
+                    let error = problem.as_fault(format!("/file/{at}"));
                     faults.push((problem.code, error));
                     self.fault(name, &problem)?
                 }

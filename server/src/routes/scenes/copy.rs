@@ -23,11 +23,11 @@ pub struct DuplicateRequest {
     name: Option<String>,
 }
 
-refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull);
+refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull, IdempotencyKeyReused);
 
 /// Copies a scene, read-only ones too; `meta.parent_id` names the original.
 #[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",
-    params(("id" = String, Path)),
+    params(("id" = String, Path), ("Idempotency-Key" = Option<String>, Header)),
     request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json",
         example = json!({"name": "left turn, later"})),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncopied))]

@@ -5,6 +5,7 @@ pub mod list;
 pub mod read;
 pub mod write;
 
+use crate::base::base_path::published;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -19,6 +20,6 @@ pub struct Saved {
 }
 
 fn saved(status: StatusCode, id: String, etag: String) -> Response {
-    let head = [(header::ETAG, etag.clone()), (header::LOCATION, format!("/v1/scenes/{id}"))];
+    let head = [(header::ETAG, etag.clone()), (header::LOCATION, published(&format!("/v1/scenes/{id}")))];
     (status, head, axum::Json(Saved { id, etag })).into_response()
 }

@@ -16,10 +16,11 @@ use axum::response::Response;
 use formats::native::{self, SceneDoc};
 use serde::Deserialize;
 
-refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull);
+refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull, IdempotencyKeyReused);
 
-/// Saves a new scene; the id of the document is ignored.
+/// Saves a new scene; the id of the document is ignored. The same Idempotency-Key and body give the same reply.
 #[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
+    params(("Idempotency-Key" = Option<String>, Header)),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
 pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {

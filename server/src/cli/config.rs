@@ -1,0 +1,57 @@
+//! Options of the server from a TOML file: they stand behind those of the command line and of the environment.
+
+use clap::{Arg, ArgMatches, Command};
+use std::path::Path;
+
+/// The command line, where its options from the file are the defaults; `None` where no file is named.
+///
+/// # Errors
+/// A sentence about the file.
+pub fn with_file(command: Command, matches: &ArgMatches) -> Result<Option<Command>, String> {
+    let own = match matches.subcommand() {
+        None => matches,
+        Some(("serve", own)) => own,
+        Some(_) => return Ok(None),
+    };
+    let Some(path) = own.get_one::<std::path::PathBuf>("config") else { return Ok(None) };
+    let wrong = |reason: String| format!("--config {}: {reason}", path.display());
+    let options = read(path).map_err(wrong)?;
+    for (name, _) in &options {
+        if !super::serve::is_option(name) {
+            return Err(wrong(format!("\"{name}\" is no option of serve")));
+        }
+    }
+    let filled = |command: Command| {
+        command.mut_args(|arg| match options.iter().find(|(name, _)| arg.get_long() == Some(name)) {
+            Some((_, values)) => with_default(arg, values),
+            None => arg,
+        })
+    };
+    Ok(Some(filled(command.mut_subcommand("serve", filled))))
+}
+
+fn with_default(arg: Arg, values: &[String]) -> Arg {
+    // Read once for the whole run of the program.
+    let values = values.iter().map(|value| &*Box::leak(value.clone().into_boxed_str()));
+    arg.default_values(values)
+}
+
+/// Values by the name of their option.
+fn read(path: &Path) -> Result<Vec<(String, Vec<String>)>, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+    table.into_iter().map(|(name, value)| Ok((name.replace('_', "-"), values(&name, value)?))).collect()
+}
+
+fn values(name: &str, value: toml::Value) -> Result<Vec<String>, String> {
+    let one = |value: toml::Value| match value {
+        toml::Value::String(text) => Ok(text),
+        toml::Value::Integer(number) => Ok(number.to_string()),
+        toml::Value::Boolean(flag) => Ok(flag.to_string()),
+        _ => Err(format!("{name}: a text, a whole number, a boolean or a list of them is expected")),
+    };
+    match value {
+        toml::Value::Array(list) => list.into_iter().map(one).collect(),
+        value => Ok(vec![one(value)?]),
+    }
+}

@@ -1,0 +1,42 @@
+//! Requests of a server that is published below a path.
+
+use super::observe;
+use crate::base::base_path;
+use api::{Code, Problem};
+use axum::Router;
+use axum::extract::Request;
+use axum::http::Uri;
+use axum::http::uri::PathAndQuery;
+use axum::response::{IntoResponse, Redirect, Response};
+
+/// Addresses that probes ask for without the path.
+const PROBED: [&str; 3] = ["/healthz", "/readyz", "/metrics"];
+
+/// The routes below the server's path.
+pub fn below(router: Router) -> Router {
+    if base_path::base().is_empty() {
+        return router;
+    }
+    Router::new().fallback(move |request: Request| serve(router.clone(), request))
+}
+
+async fn serve(router: Router, mut request: Request) -> Response {
+    let uri = request.uri();
+    let path = uri.path();
+    if path == base_path::base() {
+        let query = uri.query().map(|query| format!("?{query}")).unwrap_or_default();
+        return Redirect::permanent(&format!("{path}/{query}")).into_response();
+    }
+    let Some(inner) = base_path::within(path).or(Some(path).filter(|path| PROBED.contains(path))) else {
+        let detail = format!("This server is below {}/.", base_path::base());
+        return observe::unread(Problem::new(Code::NotFound, detail), 0.0);
+    };
+    let target = uri.query().map_or_else(|| inner.to_owned(), |query| format!("{inner}?{query}"));
+    let mut parts = uri.clone().into_parts();
+    parts.path_and_query = PathAndQuery::try_from(target).ok();
+    if let Ok(uri) = Uri::from_parts(parts) {
+        *request.uri_mut() = uri;
+    }
+    let Ok(reply) = tower::ServiceExt::oneshot(router, request).await;
+    reply
+}
