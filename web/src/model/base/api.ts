@@ -260,7 +260,7 @@ export interface paths {
         /** Lists scenes without their content: saved ones, demos, and those of the data folder. */
         get: operations["listScenes"];
         put?: never;
-        /** Saves a new scene; the id of the document is ignored. */
+        /** Saves a new scene; the id of the document is ignored. The same Idempotency-Key and body give the same reply. */
         post: operations["createScene"];
         delete?: never;
         options?: never;
@@ -1559,7 +1559,7 @@ export interface components {
         FieldProblem: {
             /** @description A word that programs can switch on. */
             code: string;
-            /** @description Value found and value expected, for people. */
+            /** @description Value found and value expected, in English. */
             detail: string;
             /**
              * Format: double
@@ -1571,7 +1571,7 @@ export interface components {
              * @description Greatest value allowed, where that is the fault.
              */
             max?: number;
-            /** @description The fault as data, where it has a sentence of its own. */
+            /** @description The fault as data; faults outside of bodies and files may have none. */
             message?: components["schemas"]["Message"];
             /**
              * Format: double
@@ -3181,7 +3181,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -4899,7 +4899,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4907,7 +4907,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -5027,7 +5027,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5035,7 +5035,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -5155,7 +5155,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5163,7 +5163,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -5303,7 +5303,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5311,7 +5311,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -5489,7 +5489,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5497,7 +5497,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -5653,7 +5653,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5661,7 +5661,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -5847,7 +5847,9 @@ export interface operations {
                 /** @description Name of the file, a label only. */
                 name?: string;
             };
-            header?: never;
+            header?: {
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -5906,7 +5908,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5914,7 +5916,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -5990,7 +5992,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused, idempotency-key-reused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5998,7 +6000,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused";
                     };
                 };
             };
@@ -6106,7 +6108,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6114,7 +6116,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -6234,7 +6236,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6242,7 +6244,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -6387,7 +6389,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6395,7 +6397,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -6575,7 +6577,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6583,7 +6585,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -6703,7 +6705,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6711,7 +6713,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -6840,7 +6842,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6848,7 +6850,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -7030,7 +7032,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7038,7 +7040,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -7255,7 +7257,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7263,7 +7265,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -7356,7 +7358,9 @@ export interface operations {
     createScene: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -7400,7 +7404,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7408,7 +7412,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -7484,7 +7488,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, idempotency-key-reused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7492,7 +7496,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "idempotency-key-reused";
                     };
                 };
             };
@@ -7612,7 +7616,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7620,7 +7624,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -7807,7 +7811,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin, read-only */
+            /** @description forbidden, cross-site, bad-origin, read-only */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7815,7 +7819,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin" | "read-only";
+                        code?: "forbidden" | "cross-site" | "bad-origin" | "read-only";
                     };
                 };
             };
@@ -8045,7 +8049,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin, read-only */
+            /** @description forbidden, cross-site, bad-origin, read-only */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8053,7 +8057,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin" | "read-only";
+                        code?: "forbidden" | "cross-site" | "bad-origin" | "read-only";
                     };
                 };
             };
@@ -8234,7 +8238,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin, read-only */
+            /** @description forbidden, cross-site, bad-origin, read-only */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8242,7 +8246,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin" | "read-only";
+                        code?: "forbidden" | "cross-site" | "bad-origin" | "read-only";
                     };
                 };
             };
@@ -8431,7 +8435,9 @@ export interface operations {
     duplicateScene: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                "Idempotency-Key"?: string | null;
+            };
             path: {
                 id: string;
             };
@@ -8481,7 +8487,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8489,7 +8495,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
@@ -8577,7 +8583,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range */
+            /** @description invalid-field, out-of-range, idempotency-key-reused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8585,7 +8591,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range";
+                        code?: "invalid-field" | "out-of-range" | "idempotency-key-reused";
                     };
                 };
             };
@@ -8710,7 +8716,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8718,7 +8724,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -8895,7 +8901,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site */
+            /** @description forbidden, cross-site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8903,7 +8909,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site";
+                        code?: "forbidden" | "cross-site";
                     };
                 };
             };
@@ -9068,7 +9074,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description cross-site, bad-origin */
+            /** @description forbidden, cross-site, bad-origin */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9076,7 +9082,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "cross-site" | "bad-origin";
+                        code?: "forbidden" | "cross-site" | "bad-origin";
                     };
                 };
             };
