@@ -129,7 +129,7 @@ fn a_column_brakes_one_after_the_other_behind_what_stands() {
         &SHIPPED,
         ask(vec![lane("a", 0.0)], agents, &asked.iter().map(String::as_str).collect::<Vec<_>>()),
     );
-    let places = |id: &str| shown(&sample.samples[0], id).states.clone();
+    let places = |id: &str| shown(&answer.samples[0], id).states.clone();
     for pair in asked.windows(2) {
         let (front, rear) = (places(&pair[0]), places(&pair[1]));
         let touch = front.iter().zip(&rear).any(|(f, r)| (f.position() - r.position()).norm() < 4.6);
