@@ -125,7 +125,7 @@ fn a_column_brakes_one_after_the_other_behind_what_stands() {
     let column = (0..5).map(|i| car(&format!("c{i}"), -15.0 * f64::from(i), 0.0, 12.0));
     let agents: Vec<Agent> = std::iter::once(ahead).chain(column).collect();
     let asked: Vec<String> = agents.iter().map(|agent| agent.id.to_string()).collect();
-    let sample = run(
+    let answer = run(
         &SHIPPED,
         ask(vec![lane("a", 0.0)], agents, &asked.iter().map(String::as_str).collect::<Vec<_>>()),
     );

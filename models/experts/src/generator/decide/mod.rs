@@ -14,7 +14,6 @@ use crate::generator::others::{ChangedMotion, Reacted, caused, following, reacti
 use crate::generator::replan::{ReplanField, stop_before, swerve};
 use crate::generator::repulsion::{Outline, outlines};
 use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
-use crate::generator::slot::Slot;
 use crate::generator::trajectory::{Rollout, short_along};
 use crate::generator::verdict::{faults, window_judge};
 use crate::planning::PER_INSTANT;
@@ -479,7 +478,7 @@ fn driven(plan: &AgentPlan, states: &[State]) -> Rollout {
 
 #[cfg(test)]
 mod tests {
-    use crate::generator::*;
+    use super::*;
 
     fn settled(chosen: Vec<usize>) -> Settled {
         Settled { chosen, causes: Vec::new(), changed: Vec::new(), reacted: Vec::new() }
