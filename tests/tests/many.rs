@@ -158,7 +158,7 @@ fn values_are_told_in_words_of_the_command_line() {
         assert!(told.contains(expected) && !told.contains("/horizon_s"), "{flags:?}: {told}");
     }
     for (flags, expected) in [
-        (&["--types", "car=1"][..], "--types car: vehicle, pedestrian and cyclist can be placed"),
+        (&["--types", "car=1"][..], "--types car: vehicle, pedestrian or cyclist expected"),
         (&["--keep=99"], "--keep: the scene has no road user \"99\""),
         (&["--arrivals", "nowhere=10"], "--arrivals: "),
     ] {

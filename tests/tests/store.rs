@@ -138,7 +138,7 @@ fn trouble_at_the_start_has_its_exit_code() {
         run(&["serve", "--db", db, "--port", "0", "--weights", "/nonexistent"]).status.code(),
         Some(7)
     );
-    assert_eq!(run(&["serve", "--db", "/nonexistent/x.sqlite", "--port", "0"]).status.code(), Some(1));
+    assert_eq!(run(&["serve", "--db", "/nonexistent/x.sqlite", "--port", "0"]).status.code(), Some(2));
     std::fs::write(folder.path().join("broken.sqlite"), "this is no database, not at all").unwrap();
     let broken = folder.path().join("broken.sqlite");
     assert_eq!(run(&["serve", "--port", "0", "--db", broken.to_str().unwrap()]).status.code(), Some(1));

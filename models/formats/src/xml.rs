@@ -444,18 +444,18 @@ mod tests {
     #[test]
     fn says_where_it_breaks() {
         for (text, expected) in [
-            ("", "line 1: no XML element"),
-            ("text", "line 1: no XML element"),
+            ("", "line 1: the file has no XML element"),
+            ("text", "line 1: the file has no XML element"),
             ("<a>\n<b></a>", "line 2: </a> found, </b> expected"),
             ("<a>\n<b>", "line 2: the file ends inside <b>"),
             ("<a x=1/>", "line 1: \"x=1\" found, an attribute"),
             ("<a x='1' x='2'/>", "line 1: attribute \"x\" appears twice"),
-            ("<a\nx='", "line 1: the file ends within a tag"),
+            ("<a\nx='", "line 1: the file ends inside a tag"),
             ("<a/><b/>", "line 1: <b> after the end"),
             ("</a>", "line 1: </a> found where nothing"),
             ("<a x='&who;'/>", "line 1: reference \"&who\""),
             ("<!DOCTYPE a [<!ENTITY b 'c'>]><a/>", "line 1: a document type"),
-            ("<!-- never", "line 1: the file ends within a tag"),
+            ("<!-- never", "line 1: the file ends inside a tag"),
             ("< a/>", "line 1: \"<\" found"),
         ] {
             let error = all(text).unwrap_err();

@@ -123,6 +123,8 @@ numbers! {
         CROSSING_M: f64 = 1.1;
         /// As long as it is faster than this, m/s.
         CROSSING_MPS: f64 = 0.5;
+        /// So long after the window others are looked at, seconds.
+        BEYOND_S: f64 = 2.0;
         /// A stop line belongs to a path that passes it nearer than this, metres.
         LINE_BESIDE_M: f64 = 2.0;
         /// The same for the angle between the path and the lane of the line, radians.

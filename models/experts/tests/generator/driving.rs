@@ -2,6 +2,7 @@
 
 use super::run;
 use experts::{Engine, Generator, ReachReport, React, Request};
+use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::map::{Lane, LaneMap};
 use scene::{Agent, AgentType, Future, Goal, STEP_S, Sample, Scene, State, Subtype, Vec2, wrap_angle};
 use std::sync::{Arc, LazyLock};
@@ -124,16 +125,17 @@ fn a_column_brakes_one_after_the_other_behind_what_stands() {
     let ahead = car("ahead", 60.0, 0.0, 0.0);
     let column = (0..5).map(|i| car(&format!("c{i}"), -15.0 * f64::from(i), 0.0, 12.0));
     let agents: Vec<Agent> = std::iter::once(ahead).chain(column).collect();
-    let asked: Vec<String> = agents.iter().map(|agent| agent.id.to_string()).collect();
-    let answer = run(
-        &SHIPPED,
-        ask(vec![lane("a", 0.0)], agents, &asked.iter().map(String::as_str).collect::<Vec<_>>()),
-    );
-    let places = |id: &str| shown(&answer.samples[0], id).states.clone();
+    let (size, ids) = (agents[0].size, agents.iter().map(|agent| agent.id.to_string()).collect::<Vec<_>>());
+    let asked: Vec<&str> = ids.iter().map(String::as_str).collect();
+    let answer = run(&SHIPPED, ask(vec![lane("a", 0.0)], agents, &asked));
+    let outlines = |id: &str| {
+        let states = &shown(&answer.samples[0], id).states;
+        states.iter().map(|state| OrientedBox::of_state(state, &size)).collect::<Vec<_>>()
+    };
     for pair in asked.windows(2) {
-        let (front, rear) = (places(&pair[0]), places(&pair[1]));
-        let touch = front.iter().zip(&rear).any(|(f, r)| (f.position() - r.position()).norm() < 4.6);
-        assert!(!touch, "{} runs into {}", pair[1], pair[0]);
+        let (front, rear) = (outlines(pair[0]), outlines(pair[1]));
+        let touch = front.iter().zip(&rear).position(|(f, r)| overlaps(f, r, 0.0));
+        assert!(touch.is_none(), "{} runs into {} after {touch:?} steps", pair[1], pair[0]);
     }
 }
 

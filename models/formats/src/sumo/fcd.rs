@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn says_where_a_number_is_missing() {
         let error = read_csv(format!("{HEAD}90.00;x;v1;5;c;1;2\n").as_bytes()).unwrap_err();
-        assert_eq!(error.to_string(), "line 2: \"x\" found where a number was expected");
+        assert_eq!(error.to_string(), "line 2: \"x\" found, a number expected");
         assert!(matches!(read_csv("a;b\n".as_bytes()), Err(SumoError::Content(_))));
     }
 }

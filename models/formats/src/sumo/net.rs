@@ -174,7 +174,7 @@ mod tests {
         assert!(matches!(Net::read("<routes/>"), Err(SumoError::Content(_))));
         assert!(matches!(Net::read("<!DOCTYPE net><net/>"), Err(SumoError::File(_))));
         let error = Net::read(&SMALL.replace("0,0 10,0", "0,zero")).unwrap_err();
-        assert_eq!(error.to_string(), "line 7: \"0,zero\" found where a point such as 1.5,-2.0 was expected");
+        assert_eq!(error.to_string(), "line 7: \"0,zero\" found, a point such as 1.5,-2.0 expected");
         assert!(matches!(
             Net::read("<net><edge/></net>"),
             Err(SumoError::Missing(Missing { attribute: "id", .. }))

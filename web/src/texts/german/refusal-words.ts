@@ -3,7 +3,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
   what: {
     'XML element': 'ein XML-Element',
     'a call of what is no name': 'ein Aufruf ohne Namen',
-    'a document type definition': 'Eine Dokumenttyp-Definition',
+    'a document type definition': 'eine Dokumenttyp-Definition',
     'a line': 'einer Zeile',
     'a name by its number in a registry': 'ein Name nach seiner Nummer im Register',
     'a reference to something outside of the file': 'ein Verweis auf etwas außerhalb der Datei',

@@ -3,7 +3,7 @@
 use super::path_progress::{BEYOND_M, PathProgress};
 use crate::generator::motion::Sweep;
 use crate::tuning::fixed::blocks::{
-    CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD,
+    BEYOND_S, CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD,
 };
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
@@ -15,8 +15,7 @@ use std::f64::consts::FRAC_PI_6;
 const SPACING_M: f64 = 0.5;
 /// Places between two bounding circles.
 const CHUNK: usize = 8;
-/// How long others are looked at after the window, seconds, and how often, steps.
-const BEYOND_S: f64 = 2.0;
+/// Steps between two looks at others after the window.
 const BEYOND_STRIDE: usize = 3;
 /// An agent that is out of the way for fewer steps has not left.
 const FLICKER: usize = 3;
@@ -190,10 +189,10 @@ mod tests {
         let blocks = corridor.blocks(&Sweep::entering(0, &crossing, &CAR));
         assert_eq!(blocks.len(), 1);
         let (from, until) = (blocks[0].from, blocks[0].from + blocks[0].taken.len());
-        assert!((33..=34).contains(&from) && (47..=48).contains(&until), "{from} to {until}");
+        assert!((31..=33).contains(&from) && (48..=50).contains(&until), "{from} to {until}");
         let (first, last) = blocks[0].taken[7];
-        assert!((36.5..=37.0).contains(&first) && (43.0..=43.5).contains(&last), "{first} to {last}");
-        assert!(blocks[0].comes_behind(44.0) && !blocks[0].comes_behind(40.0));
+        assert!((35.5..=36.5).contains(&first) && (43.5..=44.5).contains(&last), "{first} to {last}");
+        assert!(blocks[0].comes_behind(45.0) && !blocks[0].comes_behind(40.0));
     }
 
     #[test]
