@@ -26,7 +26,7 @@ async function resultOf(e) {
 
 journeys('goals and values', (stage) => {
   it('gives a quick and a slow drag to one place the same futures', { timeout: 120_000 }, async () => {
-    const e = await stage.visit(`${stage.program.url}/?scene=demo-roundabout`);
+    const e = await stage.visit(`${stage.program.url}?scene=demo-roundabout`);
     await e.begin();
     const walkers = (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.5);
     let compared = 0;
@@ -52,9 +52,9 @@ journeys('goals and values', (stage) => {
         await e.settled();
       }
       assert.deepEqual(results[1], results[0], name);
-      compared++;
+      if (++compared === 3) break;
     }
-    assert.ok(compared >= 3, `${compared} road users with a flag in view`);
+    assert.ok(compared === 3, `${compared} road users with a flag in view`);
   });
 
   it('explains an unreachable goal and fixes it with one click, in German too', { timeout: 90_000 }, async () => {
