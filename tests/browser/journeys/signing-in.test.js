@@ -24,7 +24,7 @@ journeys('signing in', (stage) => {
       };
       await e.page.getByRole('heading', { name: 'This server needs a token' }).waitFor();
       await enter(`${TOKEN}x`);
-      await e.page.getByText('That is not this server’s token.').waitFor();
+      await e.page.getByText('That is not a token of this server.').waitFor();
       await e.picture('sign-in');
       await enter(TOKEN);
       await e.ready();
