@@ -62,7 +62,7 @@ refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
 /// Stores the scenes of a file, or of the files of a form. Each of several files has its own result, and the
 /// request is refused if none of them can be read.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files",
-    params(ImportParams, ("Idempotency-Key" = Option<String>, Header)),
+    params(ImportParams, ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody")),
         (status = 200, description = "dry run", body = ref("#/components/schemas/ImportedBody")), Refused))]

@@ -27,7 +27,7 @@ refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull, IdempotencyKey
 
 /// Copies a scene, read-only ones too; `meta.parent_id` names the original.
 #[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",
-    params(("id" = String, Path), ("Idempotency-Key" = Option<String>, Header)),
+    params(("id" = String, Path), ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json",
         example = json!({"name": "left turn, later"})),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncopied))]

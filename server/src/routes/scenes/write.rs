@@ -20,7 +20,7 @@ refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull, Idempoten
 
 /// Saves a new scene; the id of the document is ignored. The same Idempotency-Key and body give the same reply.
 #[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
-    params(("Idempotency-Key" = Option<String>, Header)),
+    params(("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
 pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {
