@@ -130,10 +130,11 @@ impl<'a> Going<'a> {
         OrientedBox::new(center, self.outline.half_length_m(), self.outline.half_width_m(), heading)
     }
 
-    /// They pass each other at speed within this gap.
-    fn passes(&self, other: &Self, gap_m: f64, limits: &Thresholds) -> bool {
+    /// They pass each other at speed within the gap at which a parked one is brushed.
+    fn brushes(&self, other: &Self, limits: &Thresholds) -> bool {
         let is_fast = (self.velocity - other.velocity).norm() > limits.pass_mps;
-        is_fast && gap_and_direction(self.outline, other.outline).0 < gap_m
+        let brush_m = BRUSH_M.min(limits.pass_gap_m);
+        is_fast && gap_and_direction(self.outline, other.outline).0 < brush_m
     }
 
     /// They pass or cross within the gap of a near miss, or touch soon if both go on as they do and no easy braking of a
@@ -146,7 +147,7 @@ impl<'a> Going<'a> {
             return false;
         }
         let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
-        if self.passes(other, limits.pass_gap_m, limits) {
+        if gap_m < limits.pass_gap_m && speed > limits.pass_mps {
             return true;
         }
         let closing = relative.dot(&towards);
@@ -175,19 +176,14 @@ pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Itera
     let stays = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
     let parked = stays(a) || stays(b);
     let limits = Thresholds::default();
-    let brush_m = BRUSH_M.min(limits.pass_gap_m);
-    let margin_m = if parked { brush_m } else { limits.ttc_s * (a.top_mps + b.top_mps) };
+    let margin_m = if parked { BRUSH_M } else { limits.ttc_s * (a.top_mps + b.top_mps) };
     let possible = !(walks(a) && walks(b)) && a.whole.near(&b.whole, margin_m);
     let chunks = a.chunks.iter().zip(&b.chunks).enumerate().filter(move |_| possible);
     let near = chunks.filter(move |(_, (in_a, in_b))| in_a.near(in_b, margin_m));
     let moments = near.flat_map(|(chunk, _)| chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len()));
     moments.filter(move |&i| {
         let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
-        pair.is_some_and(
-            |(a, b)| {
-                if parked { a.passes(&b, brush_m, &limits) } else { a.threatens(&b, &limits) }
-            },
-        )
+        pair.is_some_and(|(a, b)| if parked { a.brushes(&b, &limits) } else { a.threatens(&b, &limits) })
     })
 }
 
