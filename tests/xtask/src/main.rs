@@ -27,6 +27,7 @@ mod report;
 mod schemathesis;
 mod soak;
 mod suites;
+mod system;
 mod tools;
 mod wasm;
 

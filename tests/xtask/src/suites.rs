@@ -1,15 +1,23 @@
 //! `test`: everything that `cargo test --workspace` runs, by `cargo nextest` where it can be had: it runs as many tests
 //! at a time as there are cores, whatever program they are in. `.config/nextest.toml` says in which order.
 
+use crate::system::SystemProgram;
 use crate::{Outcome, WHOLE, cargo_command, run, tools};
 use std::process::Command;
 
 /// Packages without a library.
 const WITHOUT_LIBRARY: &[&str] = &["dragtraffic", "xtask"];
 
+/// The proxy of the test of `docs/hosting.md`.
+const NGINX: SystemProgram = SystemProgram { variable: "NGINX", names: &["nginx"], package: "nginx-light" };
+
 /// Runs all tests, and the documentation's examples.
 pub fn check() -> anyhow::Result<Outcome> {
     let (mut tests, _) = runner()?;
+    // Where it cannot be installed its test says so and is passed over.
+    if let Ok(Some(nginx)) = NGINX.find() {
+        tests.env(NGINX.variable, nginx);
+    }
     let mut examples = cargo_command();
     examples.arg("test").args(WHOLE).arg("--doc");
     let outcomes = [run(tests.args(WHOLE))?, run(&mut examples)?];

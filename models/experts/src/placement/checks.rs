@@ -109,13 +109,17 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
 
 /// The vehicle does not overhang the edge of the map, and a long one does not stand across lanes.
 fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
-    let Some(lane) = placed.lane.map(|lane| &graph.lanes()[lane]) else { return true };
+    let Some(index) = placed.lane else { return true };
+    let lane = &graph.lanes()[index];
     let half_m = 0.5 * placed.size.length_m;
     let (before_m, after_m) = (placed.pose.s_m, lane.path.length_m() - placed.pose.s_m);
     let long_enough = lane.path.length_m() > 2.0 * (half_m + END_M);
     let leaves = long_enough && lane.successors.is_empty() && after_m < half_m + END_M;
     let hangs = long_enough && lane.predecessors.is_empty() && before_m < half_m;
-    if leaves || hangs {
+    // Drivers have left a lane that ends before its last metres.
+    let should_have_changed =
+        graph.leaves_before_m(index, placed.agent_type).is_some_and(|last_m| placed.pose.s_m > last_m);
+    if leaves || hangs || should_have_changed {
         return false;
     }
     let outline = placed.outline();

@@ -2,7 +2,7 @@
 
 use super::assemble::{self, Hop};
 use super::start::{StartLane, start_lanes, with_lanes_beside};
-use super::{LaneGraph, Pose, Route};
+use super::{LaneGraph, Pose, Route, search};
 use crate::{AgentType, Vec2, wrap_angle};
 use std::collections::VecDeque;
 
@@ -79,7 +79,7 @@ fn ends_with(longer: &[Hop], hops: &[Hop]) -> bool {
 }
 
 /// All chains from one start, breadth first and bounded. A lane comes twice only where there is no other
-/// way on.
+/// way on. A lane that ends is left before its end for a lane beside that goes on.
 fn chains_from(graph: &LaneGraph, start: &StartLane, agent_type: AgentType, length_m: f64) -> Vec<Chain> {
     let lanes = graph.lanes();
     let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
@@ -94,20 +94,38 @@ fn chains_from(graph: &LaneGraph, start: &StartLane, agent_type: AgentType, leng
         let lane = last.lane;
         let mut next: Vec<usize> =
             lanes[lane].successors.iter().copied().filter(|n| lanes[*n].carries(agent_type)).collect();
+        if length < length_m && next.is_empty() {
+            let ways_on: Vec<Vec<Hop>> = lanes[lane]
+                .beside()
+                .filter(|b| b.same_direction && lanes[b.lane].carries(agent_type))
+                .filter(|b| hops.iter().all(|h| h.lane != b.lane))
+                .filter_map(|b| search::change_before_end(graph, last, b))
+                .map(|(left_m, onto)| before_last(&hops).chain([Hop { to_m: left_m, ..*last }, onto]).collect())
+                .collect();
+            if !ways_on.is_empty() && hops.len() < MAX_HOPS {
+                open.extend(ways_on.into_iter().map(|hops| (hops.iter().map(Hop::length_m).sum(), hops)));
+                continue;
+            }
+        }
         if length >= length_m || next.is_empty() || hops.len() >= MAX_HOPS {
             done.push(chain(graph, start, hops, length, length_m));
             continue;
         }
+        let left_over_m = (last.change_m - last.length_m()).max(0.0);
         if next.iter().any(|n| hops.iter().all(|h| h.lane != *n)) {
             next.retain(|n| hops.iter().all(|h| h.lane != *n));
         }
         for n in next {
-            let hop = Hop::along(n, 0.0, lanes[n].path.length_m());
+            let hop = Hop { change_m: left_over_m, ..Hop::along(n, 0.0, lanes[n].path.length_m()) };
             let hops: Vec<Hop> = hops.iter().copied().chain([hop]).collect();
             open.push_back((length + hop.length_m(), hops));
         }
     }
     done
+}
+
+fn before_last(hops: &[Hop]) -> impl Iterator<Item = Hop> {
+    hops.iter().take(hops.len().saturating_sub(1)).copied()
 }
 
 fn chain(graph: &LaneGraph, start: &StartLane, mut hops: Vec<Hop>, length: f64, asked: f64) -> Chain {

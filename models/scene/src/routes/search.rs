@@ -3,7 +3,7 @@
 use super::assemble::Hop;
 use super::graph::AdjacentLane;
 use super::start::StartLane;
-use super::{LaneGraph, LaneHit};
+use super::{GraphLane, LaneGraph, LaneHit};
 use crate::AgentType;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -142,6 +142,47 @@ fn change(graph: &LaneGraph, from_m: f64, beside: &AdjacentLane, change_m: f64) 
     let most_m = if lane.successors.is_empty() { room } else { f64::INFINITY };
     let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(most_m), follows: false };
     (room >= LEAST_CHANGE * change_m).then_some((left_m, hop))
+}
+
+/// Change from the last lane of a chain, which ends, to the one beside that goes on beyond it: where the lane is left,
+/// and the hop that follows. It is complete half its length before the end where there is room.
+pub(super) fn change_before_end(graph: &LaneGraph, last: &Hop, beside: &AdjacentLane) -> Option<(f64, Hop)> {
+    let lanes = graph.lanes();
+    if !goes_on(graph, beside) {
+        return None;
+    }
+    let change_m = unhurried_change_m(&lanes[last.lane]);
+    let earliest_m = beside.own_m.0.max(last.from_m + last.change_m);
+    let left_m = (beside.own_m.1 - 1.5 * change_m).max(earliest_m);
+    let room_m = beside.own_m.1 - left_m;
+    let from_m = beside.across(left_m)?;
+    let to_m = lanes[beside.lane].path.length_m();
+    let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(room_m), follows: false };
+    (room_m >= CHANGE_M).then_some((left_m, hop))
+}
+
+/// The lane beside leads on from where the own one ends.
+fn goes_on(graph: &LaneGraph, beside: &AdjacentLane) -> bool {
+    let lane = &graph.lanes()[beside.lane];
+    !lane.successors.is_empty() || lane.path.length_m() > beside.other_m.1 + CHANGE_M
+}
+
+/// Length of a lane change at a lane's speed limit, metres.
+fn unhurried_change_m(lane: &GraphLane) -> f64 {
+    (CHANGE_S * lane.speed_limit_mps).max(CHANGE_M)
+}
+
+impl LaneGraph {
+    /// Arc length up to which drivers on a lane that ends have begun to change to a lane beside that goes on, metres;
+    /// `None` where the lane goes on, or none beside it does.
+    pub fn leaves_before_m(&self, lane: usize, agent_type: AgentType) -> Option<f64> {
+        let own = self.lanes().get(lane).filter(|own| own.successors.is_empty())?;
+        let leads_on = |b: &&AdjacentLane| {
+            b.same_direction && self.lanes()[b.lane].carries(agent_type) && goes_on(self, b)
+        };
+        let last_m = own.beside().filter(leads_on).map(|b| b.own_m.1).reduce(f64::max)?;
+        Some(last_m - unhurried_change_m(own))
+    }
 }
 
 /// Hops from the start to settled state `at`, ending at `goal_s_m` of its lane.

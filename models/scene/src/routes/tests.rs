@@ -100,6 +100,29 @@ fn a_lane_beside_is_a_route_and_the_end_is_known() {
     assert!(routes.iter().all(|r| r.terminal && (r.path.length_m() - 50.0).abs() < 1.0));
 }
 
+/// A motorway entry: its lane ends beside one that goes on.
+#[test]
+fn a_lane_that_ends_is_left_before_its_end() {
+    let entry = lane("entry", line(v(-200.0, 0.0), v(0.0, 0.0)));
+    let through = lane("through", line(v(-200.0, 3.5), v(300.0, 3.5)));
+    let map = map(vec![entry, through]);
+    let graph = LaneGraph::new(&map);
+    let routes = routes_ahead(&graph, Pose::xyh(-180.0, 0.0, 0.0), AgentType::Vehicle, 300.0);
+    assert_eq!(ids(&map, &routes[0]), ["entry", "through"]);
+    assert_continuous(&routes[0].path);
+    let lateral_m = |x: f64| {
+        let foot = routes[0].path.project(v(x, 0.0));
+        routes[0].path.sample(foot.s_m).position.y
+    };
+    assert!(lateral_m(-100.0).abs() < 0.1 && (lateral_m(-10.0) - 3.5).abs() < 0.1);
+    assert!(!routes[0].terminal && routes[0].path.length_m() > 295.0);
+    // Too near the end to change: the lane ends.
+    let late = routes_ahead(&graph, Pose::xyh(-6.0, 0.0, 0.0), AgentType::Vehicle, 100.0);
+    assert!(late[0].terminal);
+    let leaves_m = |lane: usize| graph.leaves_before_m(lane, AgentType::Vehicle);
+    assert!((100.0..190.0).contains(&leaves_m(0).unwrap()) && leaves_m(1).is_none());
+}
+
 #[test]
 fn relaxed_start_off_the_lane() {
     let graph = LaneGraph::new(&two_lanes());

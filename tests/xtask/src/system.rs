@@ -1,0 +1,47 @@
+//! Programs of the system that checks need: on the path, or installed by `apt-get` where that is allowed.
+
+use crate::{Outcome, run};
+use anyhow::bail;
+use std::path::Path;
+use std::process::Command;
+
+/// A program: the variable that may name it, its names on the path, and its Debian package.
+pub struct SystemProgram {
+    pub variable: &'static str,
+    pub names: &'static [&'static str],
+    pub package: &'static str,
+}
+
+impl SystemProgram {
+    /// The one that its variable names, one on the path, or one installed now where that is allowed.
+    pub fn find(&self) -> anyhow::Result<Option<String>> {
+        if let Ok(given) = std::env::var(self.variable) {
+            return Ok(Some(given));
+        }
+        if let Some(found) = self.on_path() {
+            return Ok(Some(found));
+        }
+        let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout == b"0\n");
+        let has_apt = Path::new("/usr/bin/apt-get").exists();
+        if !is_root || !has_apt {
+            return Ok(None);
+        }
+        let apt = |arguments: &[&str]| {
+            run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
+        };
+        apt(&["update", "-q"])?;
+        match apt(&["install", "-y", "-q", "--no-install-recommends", self.package])? {
+            Outcome::Passed | Outcome::Told(_) => Ok(self.on_path()),
+            Outcome::Failed(why) | Outcome::Skipped(why) => {
+                bail!("{} could not be installed: {why}", self.package)
+            }
+        }
+    }
+
+    fn on_path(&self) -> Option<String> {
+        let path = std::env::var_os("PATH")?;
+        let folders: Vec<_> = std::env::split_paths(&path).chain(["/usr/sbin".into()]).collect();
+        let places = self.names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+        places.filter(|place| place.is_file()).map(|place| place.display().to_string()).next()
+    }
+}
