@@ -2,7 +2,7 @@
 
 use super::window_setting::WindowSetting;
 use crate::request::Request;
-use scene::judge::{Fault, Judge, Other};
+use scene::judge::{Change, Fault, Judge, Other};
 use scene::motion::Trajectory;
 use scene::score::Actor;
 use scene::{Agent, Future, HORIZON_STEPS, Vec2};
@@ -18,13 +18,22 @@ pub(super) fn window_judge<'a>(setting: &'a WindowSetting<'_>) -> Judge<'a> {
     Judge::new(&world.scene.map, &world.scene.signals, &setting.map.drivable, steps)
 }
 
+/// An agent that does not keep its motion.
+pub(super) struct ChangedAgent {
+    /// Index into the scene's agents.
+    pub(super) agent: usize,
+    pub(super) future: Future,
+    /// The judged motion is the cause.
+    pub(super) is_caused: bool,
+}
+
 /// The faults of a motion of an agent, given by its index; `changed` are the agents that do not keep theirs.
 pub(super) fn faults(
     setting: &WindowSetting<'_>,
     judge: &Judge<'_>,
     agent: usize,
     motion: &Trajectory,
-    changed: &[(usize, Future)],
+    changed: &[ChangedAgent],
 ) -> Vec<Fault> {
     let request = &*setting.request;
     let agents = &request.scene.agents;
@@ -34,12 +43,15 @@ pub(super) fn faults(
     let mut faults = judge.alone(&actor);
     let ground = MotionExtent::about(motion.iter().map(|s| s.position));
     let others = agents.iter().enumerate().filter(|(i, _)| *i != agent).map(|(i, other)| {
-        let new = changed.iter().find(|(j, _)| *j == i).map(|(_, future)| future);
+        let new = changed.iter().find(|other| other.agent == i).map(|other| &other.future);
         as_taken(request, other, new)
     });
     let others = others.filter(|o| o.track.states.iter().flatten().any(|s| ground.holds(s.position())));
     let others: Vec<Other<'_>> = others.map(|other| judge.other(other)).collect();
     faults.extend(judge.among(&actor, others.iter()));
+    let caused = changed.iter().filter(|other| other.is_caused);
+    let changes = caused.map(|other| change(request, &agents[other.agent], &other.future));
+    faults.extend(judge.towards(&actor, &changes.collect::<Vec<_>>()));
     faults
 }
 
@@ -50,6 +62,11 @@ pub(super) fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&
         Some(future) => Actor::of_future(agent, future, &[]),
         None => Actor::of_log(agent),
     }
+}
+
+/// A road user with the motion that another causes, and without it.
+pub(super) fn change<'a>(request: &'a Request, agent: &'a Agent, now: &'a Future) -> Change<'a> {
+    Change { now: as_taken(request, agent, Some(now)), before: as_taken(request, agent, None) }
 }
 
 /// Upright rectangle about motions, with room for the agents that can meet them.

@@ -205,7 +205,7 @@ pub fn brisk_mps(v0: f64) -> f64 {
 }
 
 /// Progress that is there when it must be at an even pace; `None` where that is too fast.
-fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
+pub(super) fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
     let even = even_pace(v0, length_m, target.step)?;
     let seconds = target.step as f64 * STEP_S;
     // An agent that is to arrive at a speed changes to it over all of the way.

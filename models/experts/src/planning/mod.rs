@@ -5,6 +5,7 @@
 //! [`pullback`] takes gradients in the plane back to those numbers.
 
 pub mod anchors;
+mod around;
 pub mod coordinates;
 pub mod crossing;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Ways to a goal position: along lanes where they lead there in time, off them where nothing else does.
 
+use super::around::around;
 use super::coordinates::MODES;
 use super::crossing::by_crosswalk;
 use super::legal::broken_m;
@@ -95,7 +96,8 @@ pub(super) fn paths_to_goal(
     if model.kind == MotionKind::Walk {
         let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
         let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
-        return by_crosswalk.into_iter().chain([straight]).collect();
+        let around = around(world, who, model, target, goal, &straight.path);
+        return by_crosswalk.into_iter().chain(around).chain([straight]).collect();
     }
     let hurried = project(&model.hurried(), &model.coasting(), target, None);
     let least =

@@ -228,6 +228,21 @@ numbers! {
         /// A corner of a path is rounded off over this, metres.
         ROUNDED_M: f64 = 1.0;
     }
+    /// Of ways on foot round what stands.
+    around {
+        /// Room kept beside the walker, metres.
+        ROOM_M: f64 = 0.2;
+        /// Corners of a way lie so far outside that room, metres.
+        SPARE_M: f64 = 0.05;
+        /// Such a way may be so many times the straight one.
+        DETOUR: f64 = 1.5;
+        /// Or so much longer, metres.
+        DETOUR_M: f64 = 6.0;
+        /// Rounds in which boxes on the way found are added to those that it goes round.
+        MOST_ROUNDS: usize = 12;
+        /// A corner of a way is rounded off over this, metres.
+        ROUNDED_M: f64 = 0.5;
+    }
     /// Of ways that keep the rules of the road.
     legal {
         /// Metres that crossing an edge of the road counts as.

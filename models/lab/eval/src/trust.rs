@@ -37,7 +37,7 @@ const PRESSED_SHARE: f64 = 0.8;
 const SHOWN: usize = 18;
 
 /// Faults in the order of the columns.
-const KINDS: [(FaultKind, &str); 13] = [
+const KINDS: [(FaultKind, &str); 15] = [
     (FaultKind::Collision, "collision"),
     (FaultKind::RedLight, "red light"),
     (FaultKind::WrongWay, "wrong way"),
@@ -50,6 +50,8 @@ const KINDS: [(FaultKind, &str); 13] = [
     (FaultKind::HarshSteering, "harsh steering"),
     (FaultKind::Running, "running"),
     (FaultKind::Askew, "askew"),
+    (FaultKind::FailsToYield, "fails to yield"),
+    (FaultKind::ForcesBraking, "forces braking"),
     (FaultKind::NearMiss, "near miss"),
 ];
 
@@ -130,10 +132,12 @@ fn worst(
     seed: u64,
 ) -> Result<Vec<(String, String)>> {
     let road = [FaultKind::WrongWay, FaultKind::OverMedian, FaultKind::OffRoad];
+    let forced = [FaultKind::FailsToYield, FaultKind::ForcesBraking];
     let has = |d: &Drag, kinds: &[FaultKind]| kinds.iter().any(|k| d.shown.contains(k));
     type Measure<'a> = &'a dyn Fn(&Drag) -> Option<f64>;
-    let kinds: [(&str, Measure<'_>); 11] = [
+    let kinds: [(&str, Measure<'_>); 13] = [
         ("collision", &|d| (d.free && has(d, &[FaultKind::Collision])).then_some(d.extent)),
+        ("foot", &|d| (!d.vehicle && d.met && has(d, &[FaultKind::Collision])).then_some(d.extent)),
         ("road", &|d| (d.met && d.vehicle && d.by_road && has(d, &road)).then_some(d.extent)),
         ("near", &|d| (d.met && d.by_road && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
         ("steering", &|d| (d.met && d.by_road && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
@@ -142,6 +146,7 @@ fn worst(
         ("speeding", &|d| (d.met && d.by_road && has(d, &[FaultKind::Speeding])).then_some(d.extent)),
         ("running", &|d| (d.met && has(d, &[FaultKind::Running])).then_some(d.extent)),
         ("askew", &|d| (d.met && d.by_road && has(d, &[FaultKind::Askew])).then_some(d.extent)),
+        ("forces", &|d| (d.met && has(d, &forced)).then_some(d.extent)),
         ("jump", &|d| (d.jump_m > 1.0).then_some(d.jump_m)),
         ("copies", &|d| (d.copies > 1).then_some(d.copies as f64)),
     ];

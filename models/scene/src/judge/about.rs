@@ -33,6 +33,10 @@ pub enum FaultKind {
     Running,
     /// Ends at an angle to its lane; `extent` in radians.
     Askew,
+    /// A pedestrian waits at a crosswalk that this one drives over; `extent` is the pedestrian's delay, seconds.
+    FailsToYield,
+    /// Another has to brake hard; `extent` is that braking, m/s2.
+    ForcesBraking,
     /// Another is met all but; `extent` is the gap, metres.
     NearMiss,
     /// A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.

@@ -1,11 +1,13 @@
 //! Judges every future by the rules of a scene's score; each fault has its time, place and extent.
 
 mod about;
+mod forcing;
 mod manoeuvre;
 mod relations;
 mod trace;
 
 pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
+pub use forcing::Change;
 pub use manoeuvre::manoeuvre;
 pub use relations::relations;
 pub use trace::{SharedGround, Trace, crossing};

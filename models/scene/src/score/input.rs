@@ -36,6 +36,8 @@ pub struct Thresholds {
     pub moving_mps: f64,
     /// Braking above this is harsh, m/s2.
     pub harsh_brake_mps2: f64,
+    /// Braking above this of another that gives way is forced on it, m/s2.
+    pub forced_brake_mps2: f64,
     /// Sideways acceleration above this is harsh, m/s2.
     pub harsh_lateral_mps2: f64,
     /// A corner farther outside than this is off the road, metres.
@@ -77,6 +79,7 @@ impl Default for Thresholds {
             pass_mps: 3.0,
             moving_mps: 0.5,
             harsh_brake_mps2: 4.0,
+            forced_brake_mps2: 3.0,
             harsh_lateral_mps2: 4.0,
             offroad_m: 0.1,
             off_map_m: 5.0,
@@ -119,7 +122,7 @@ impl Thresholds {
     /// [`Self::gap_m`].
     pub const GAP_M: Threshold = Threshold { name: "gap_m", range: (0.0, 60.0), of: |t| t.gap_m };
     /// All of them. Beyond these ranges a number decides nothing any more.
-    pub const ALL: [Threshold; 22] = [
+    pub const ALL: [Threshold; 23] = [
         Self::IOU,
         Threshold { name: "covered_share", range: (0.0, 2.0), of: |t| t.covered_share },
         Self::TTC_S,
@@ -130,6 +133,7 @@ impl Thresholds {
         Threshold { name: "pass_mps", range: (0.0, 300.0), of: |t| t.pass_mps },
         Threshold { name: "moving_mps", range: (0.0, 300.0), of: |t| t.moving_mps },
         Threshold { name: "harsh_brake_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_brake_mps2 },
+        Threshold { name: "forced_brake_mps2", range: (0.0, 1_000.0), of: |t| t.forced_brake_mps2 },
         Threshold { name: "harsh_lateral_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_lateral_mps2 },
         Threshold { name: "offroad_m", range: (0.0, 100.0), of: |t| t.offroad_m },
         Threshold { name: "off_map_m", range: (0.0, 1_000.0), of: |t| t.off_map_m },

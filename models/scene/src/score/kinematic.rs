@@ -192,14 +192,24 @@ pub fn harsh_braking(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> 
     if actor.agent_type == AgentType::Pedestrian {
         return Vec::new();
     }
-    let speed = |i: usize| actor.state(i).filter(|_| input.steps.contains(&i)).map(State::speed_mps);
-    let braking = |i: usize| {
+    let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_brake_mps2;
+    let flagged: Vec<_> = braking(actor, input.steps.clone()).filter(harsh).collect();
+    stretches(actor, &flagged)
+}
+
+/// Braking at each step, m/s2: speeds 0.2 s before and after.
+fn braking(actor: &Actor<'_>, steps: Range<usize>) -> impl Iterator<Item = (usize, f64)> {
+    let within = steps.clone();
+    let speed = move |i: usize| actor.state(i).filter(|_| within.contains(&i)).map(State::speed_mps);
+    steps.filter_map(move |i| {
         let change = speed(i.checked_sub(HARSH_STEPS)?)? - speed(i + HARSH_STEPS)?;
         Some((i, change / (2.0 * HARSH_STEPS as f64 * STEP_S)))
-    };
-    let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_brake_mps2;
-    let flagged: Vec<_> = input.steps.clone().filter_map(braking).filter(harsh).collect();
-    stretches(actor, &flagged)
+    })
+}
+
+/// The step of the hardest braking and its rate, m/s2.
+pub fn hardest_braking(actor: &Actor<'_>, steps: Range<usize>) -> Option<(usize, f64)> {
+    braking(actor, steps).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Stretches of turning above the threshold of sideways acceleration, as [`harsh_braking`].

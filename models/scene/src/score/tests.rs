@@ -73,7 +73,7 @@ fn xy(points: &[(f64, f64)]) -> Vec<Vec2> {
 }
 
 /// An area without holes.
-pub(super) fn area(points: &[(f64, f64)]) -> Area {
+pub(crate) fn area(points: &[(f64, f64)]) -> Area {
     Area { id: "area".into(), polygon: xy(points).into(), holes: Vec::new() }
 }
 

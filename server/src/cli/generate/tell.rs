@@ -141,11 +141,18 @@ fn fault(fault: &Fault) -> String {
         FaultKind::HarshSteering => "steers hard",
         FaultKind::Running => "runs",
         FaultKind::Askew => "ends askew",
+        FaultKind::FailsToYield => "does not give way at the crosswalk",
+        FaultKind::ForcesBraking => "forces hard braking",
         FaultKind::NearMiss => "nearly collides",
         FaultKind::ViaMissed => "misses a via point",
         FaultKind::GoalMissed => "misses its goal",
     };
-    let with = fault.with.as_ref().map_or_else(String::new, |with| format!(" with {with}"));
+    let preposition = match fault.kind {
+        FaultKind::FailsToYield => "to",
+        FaultKind::ForcesBraking => "of",
+        _ => "with",
+    };
+    let with = fault.with.as_ref().map_or_else(String::new, |with| format!(" {preposition} {with}"));
     format!("{what}{with} at {:.1} s", fault.time_s)
 }
 

@@ -51,6 +51,8 @@ export const FAULT_KINDS: readonly FaultKind[] = [
   'harsh_steering',
   'running',
   'askew',
+  'fails_to_yield',
+  'forces_braking',
   'near_miss',
   'via_missed',
   'goal_missed',

@@ -52,6 +52,12 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return f.extent === null ? TEXTS.brakesHard : TEXTS.brakes(acceleration(f.extent));
     case 'harsh_steering':
       return f.extent === null ? TEXTS.steersHard : TEXTS.steers(acceleration(f.extent));
+    case 'fails_to_yield':
+      return TEXTS.failsToYield(somebody(f, nameOf));
+    case 'forces_braking':
+      return f.extent === null
+        ? TEXTS.forcesBraking(somebody(f, nameOf))
+        : TEXTS.forcesBrakingOf(somebody(f, nameOf), acceleration(f.extent));
     case 'near_miss':
       if (f.extent !== null && f.extent < TOUCH_M) return TEXTS.touchingly(somebody(f, nameOf));
       // Far apart, but at such a closing speed that the time was short.
@@ -214,6 +220,14 @@ function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): 
       return group(worst.kind, TEXTS.brakeHard, TEXTS.brakesHard);
     case 'harsh_steering':
       return group(worst.kind, TEXTS.steerHard, TEXTS.steersHard);
+    case 'fails_to_yield': {
+      const whom = somebody(worst, said.who.nameOf);
+      return group(`yield:${worst.with}`, TEXTS.failToYield(whom), TEXTS.failsToYield(whom));
+    }
+    case 'forces_braking': {
+      const whom = somebody(worst, said.who.nameOf);
+      return group(`forces:${worst.with}`, TEXTS.forceBraking(whom), TEXTS.forcesBraking(whom));
+    }
     case 'near_miss': {
       const whom = somebody(worst, said.who.nameOf);
       return group(`near:${worst.with}`, TEXTS.nearlyHit(whom), TEXTS.nearlyHits(whom));

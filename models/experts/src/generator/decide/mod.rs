@@ -15,7 +15,7 @@ use crate::generator::replan::{ReplanField, stop_before, swerve};
 use crate::generator::repulsion::{Outline, outlines};
 use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
 use crate::generator::trajectory::{Rollout, short_along};
-use crate::generator::verdict::{faults, window_judge};
+use crate::generator::verdict::{ChangedAgent, faults, window_judge};
 use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use crate::tuning::fixed::following::BRAKES;
@@ -182,13 +182,21 @@ impl OptionTable<'_> {
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
         let setting = self.of.setting;
         let first_step = setting.world.step + 1;
+        let id = &self.of.actors[i].id;
         let acting = |(j, option): (usize, &usize)| {
             let (actor, motion) = (&self.of.actors[j], &self.candidates[j][*option]);
             let changes = motion.origin != CandidateOrigin::Kept;
-            let future = || Future::bare(1.0, first_step, setting.cut(&motion.motion.states));
-            (changes && j != i).then(|| (actor.plan.present.index, future()))
+            (changes && j != i).then(|| ChangedAgent {
+                agent: actor.plan.present.index,
+                future: Future::bare(1.0, first_step, setting.cut(&motion.motion.states)),
+                is_caused: settled.causes[j].as_ref() == Some(id),
+            })
         };
-        let reacted = settled.reacted.iter().map(|reacted| (reacted.index, reacted.future(setting)));
+        let reacted = settled.reacted.iter().map(|reacted| ChangedAgent {
+            agent: reacted.index,
+            future: reacted.future(setting),
+            is_caused: reacted.reaction.as_ref().is_some_and(|r| r.cause == *id),
+        });
         let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
         let motion = &self.candidates[i][settled.chosen[i]].motion.states;
         let faults = faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed);

@@ -64,9 +64,9 @@ pub(super) struct Ledger {
     pub(super) timings: Timings,
 }
 
-/// The motions of others if a future of an agent were taken that is not shown, by agent and future; `None` is the motion of
+/// The reactions of others if a future of an agent were taken that is not shown, by agent and future; `None` is that of
 /// an agent that has no other in its way.
-pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<Future>)>>;
+pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<AgentFutures>)>>;
 
 impl Ledger {
     /// The progress of an agent in the present sample, if it got futures.
@@ -163,7 +163,7 @@ impl Ledger {
                 let who: BTreeSet<usize> = shown().chain(reactions.iter().map(|a| a.index)).collect();
                 let future = |agent: usize| {
                     let reacted = reactions.iter().find(|a| a.index == agent)?;
-                    window.reaction(reacted).modes.into_iter().next()
+                    Some(window.reaction(reacted))
                 };
                 let instead = who.into_iter().map(|agent| (agent, future(agent))).collect();
                 self.instead.insert((decided.agent, k), instead);

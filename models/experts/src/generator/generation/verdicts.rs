@@ -4,14 +4,14 @@
 use super::future_relations::ShownAgents;
 use super::ledger::Instead;
 use super::targets::due;
-use crate::generator::verdict::{MotionExtent, as_taken};
+use crate::generator::verdict::{MotionExtent, as_taken, change};
 use crate::generator::workers::WorkerPool;
 use crate::maps::KnownMap;
 use crate::planning::MODES;
 use crate::request::Request;
-use scene::judge::{About, Judge, Other, by_weight};
+use scene::judge::{About, Change, Judge, Other, by_weight};
 use scene::score::Actor;
-use scene::{Agent, Future, STEP_S, Sample};
+use scene::{Agent, AgentFutures, Future, STEP_S, Sample};
 
 /// So many futures are judged by several threads: more than one road user has.
 const MANY: usize = MODES + 1;
@@ -49,17 +49,28 @@ pub(super) fn judge(
         let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
         let due_s = (request.start_step as isize + due(request, i)) as f64 * STEP_S;
         actor.goal.time_s = actor.goal.time_s.or(Some(due_s));
-        let taken: Vec<(usize, Actor<'_>)> = instead
-            .get(&(i, k))
+        let other_reactions = instead.get(&(i, k));
+        let taken: Vec<(usize, Actor<'_>)> = other_reactions
             .into_iter()
             .flatten()
-            .map(|(j, future)| (*j, as_taken(request, &scene.agents[*j], future.as_ref())))
+            .map(|(j, reacts)| (*j, as_taken(request, &scene.agents[*j], reacts.as_ref().and_then(shown_future))))
             .collect();
+        let reactions: Vec<(&Agent, &AgentFutures)> = match other_reactions {
+            Some(others) => {
+                others.iter().filter_map(|(j, f)| Some((&scene.agents[*j], f.as_ref()?))).collect()
+            }
+            None => scene.agents.iter().filter_map(|a| Some((a, sample.agents.get(&a.id)?))).collect(),
+        };
+        let id = &scene.agents[i].id;
+        let caused = reactions.into_iter().filter(|(_, f)| f.reaction.as_ref().is_some_and(|r| r.cause == *id));
+        let changes: Vec<Change<'_>> =
+            caused.filter_map(|(other, f)| Some(change(request, other, shown_future(f)?))).collect();
         let relations = standing.relations(i, future, &taken);
         let answers: Vec<Other<'_>> = taken.into_iter().map(|(_, actor)| judge.other(actor)).collect();
         let shown = others.iter().filter(|other| answers.iter().all(|own| own.id() != other.id()));
         let mut faults = judge.alone(&actor);
         faults.extend(judge.among(&actor, shown.chain(&answers)));
+        faults.extend(judge.towards(&actor, &changes));
         by_weight(&mut faults);
         About { faults, relations, manoeuvre: standing.manoeuvre(i, future) }
     });
@@ -75,5 +86,9 @@ pub(super) fn judge(
 /// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
 /// its log.
 fn as_shown<'a>(request: &'a Request, sample: &'a Sample, agent: &'a Agent) -> Actor<'a> {
-    as_taken(request, agent, sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen)))
+    as_taken(request, agent, sample.agents.get(&agent.id).and_then(shown_future))
+}
+
+fn shown_future(futures: &AgentFutures) -> Option<&Future> {
+    futures.modes.get(futures.chosen)
 }

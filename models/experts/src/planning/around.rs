@@ -1,0 +1,135 @@
+//! Ways on foot round what stands between start and goal: parked vehicles, and people who wait.
+
+use super::crossing::walking;
+use super::way::{PathKind, UntimedPath};
+use super::world::{AgentAtStart, World};
+use crate::tuning::fixed::around::{DETOUR, DETOUR_M, MOST_ROUNDS, ROOM_M, ROUNDED_M, SPARE_M};
+use scene::geometry::obb::OrientedBox;
+use scene::motion::{MotionModel, Target};
+use scene::routes::Polyline;
+use scene::{STANDING_MPS, Vec2};
+
+/// Distance between the points of a way, metres.
+const SPACING_M: f64 = 0.5;
+/// Ways round boxes are named from here on.
+const IDENTITY: u64 = 1_000_000;
+
+/// The shortest way to a goal round those who stand; `None` where `straight` is free, and where no way round is short
+/// enough.
+pub(super) fn around(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+    straight: &Polyline,
+) -> Option<UntimedPath> {
+    let start = who.start.position();
+    let room_m = 0.5 * who.size.width_m.max(who.size.length_m) + ROOM_M;
+    let standing = world.obstacles(who.index).into_iter().filter(|o| o.speed_mps < STANDING_MPS);
+    let holds = |b: &OrientedBox, place: Vec2| b.meets_segment(place, place);
+    let boxes: Vec<OrientedBox> = standing
+        .map(|o| o.outline.grown(room_m))
+        .filter(|b| !holds(b, start) && !holds(b, goal))
+        .collect();
+    let mut known: Vec<usize> = met(&boxes, straight.points());
+    if known.is_empty() {
+        return None;
+    }
+    let straight_m = (goal - start).norm();
+    let longest_m = (DETOUR * straight_m).max(straight_m + DETOUR_M);
+    for _ in 0..MOST_ROUNDS {
+        let way = shortest(&boxes, &known, start, goal, longest_m)?;
+        let more: Vec<usize> = met(&boxes, &way.places).into_iter().filter(|i| !known.contains(i)).collect();
+        if !more.is_empty() {
+            known.extend(more);
+            continue;
+        }
+        let path = Polyline::new(way.places).resample(SPACING_M).smoothed(ROUNDED_M);
+        let pace = walking(model.start_speed_mps(), path.length_m(), target);
+        let (limit_mps, tuning) = (model.limits.speed_mps, &world.tuning.anchors);
+        let kind = PathKind::LeastEffort;
+        let untimed = UntimedPath::new(path, 2.0, limit_mps, kind, None, IDENTITY + way.identity, tuning);
+        return Some(UntimedPath { pace, ..untimed });
+    }
+    None
+}
+
+/// Indices of the boxes that a line meets.
+fn met(boxes: &[OrientedBox], line: &[Vec2]) -> Vec<usize> {
+    let meets = |b: &OrientedBox| line.windows(2).any(|ends| b.meets_segment(ends[0], ends[1]));
+    (0..boxes.len()).filter(|i| meets(&boxes[*i])).collect()
+}
+
+/// A line from corner to corner, named by these corners.
+struct CornerWay {
+    places: Vec<Vec2>,
+    identity: u64,
+}
+
+/// The shortest line of at most `longest_m` past the corners of the known boxes that meets none of them.
+fn shortest(
+    boxes: &[OrientedBox],
+    known: &[usize],
+    start: Vec2,
+    goal: Vec2,
+    longest_m: f64,
+) -> Option<CornerWay> {
+    let corners = known.iter().flat_map(|i| boxes[*i].grown(SPARE_M).corners());
+    let places: Vec<Vec2> = [start, goal].into_iter().chain(corners).collect();
+    let is_free = |a: Vec2, b: Vec2| !known.iter().any(|i| boxes[*i].meets_segment(a, b));
+    let mut from = vec![0; places.len()];
+    let mut length_m = vec![f64::INFINITY; places.len()];
+    let mut open = vec![true; places.len()];
+    length_m[0] = 0.0;
+    loop {
+        let next = (0..places.len()).filter(|i| open[*i] && length_m[*i] <= longest_m);
+        let at = next.min_by(|a, b| length_m[*a].total_cmp(&length_m[*b]))?;
+        if at == 1 {
+            break;
+        }
+        open[at] = false;
+        for to in (1..places.len()).filter(|to| open[*to]) {
+            let through_m = length_m[at] + (places[to] - places[at]).norm();
+            if through_m < length_m[to] && is_free(places[at], places[to]) {
+                (length_m[to], from[to]) = (through_m, at);
+            }
+        }
+    }
+    let (mut at, mut way, mut identity) = (1, vec![goal], 0_u64);
+    while at != 0 {
+        at = from[at];
+        way.push(places[at]);
+        // Corners are told by their box and their place on it, whatever else is in the way.
+        if let Some(corner) = at.checked_sub(2) {
+            identity = identity.wrapping_mul(1_009).wrapping_add((4 * known[corner / 4] + corner % 4) as u64 + 1);
+        }
+    }
+    way.reverse();
+    Some(CornerWay { places: way, identity: identity % IDENTITY })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_of_parked_cars_is_passed_at_its_end_or_through_a_gap() {
+        let car = |y_m: f64| OrientedBox::new(Vec2::new(5.0, y_m), 2.4, 1.0, 0.0).grown(0.5);
+        let (start, goal) = (Vec2::zeros(), Vec2::new(10.0, 0.0));
+        let way = |boxes: &[OrientedBox]| {
+            let known: Vec<usize> = (0..boxes.len()).collect();
+            shortest(boxes, &known, start, goal, 40.0).map(|way| way.places)
+        };
+        let row = [car(0.0), car(2.5), car(-2.5)];
+        let round = way(&row).unwrap();
+        assert!(met(&row, &round).is_empty());
+        assert!(round.iter().any(|p| p.y.abs() > 3.9), "{round:?}");
+        let with_gap = [car(0.4), car(-3.1), car(2.9)];
+        let through = way(&with_gap).unwrap();
+        assert!(met(&with_gap, &through).is_empty());
+        assert!(through.iter().all(|p| p.y.abs() < 2.0), "{through:?}");
+        let wall: Vec<OrientedBox> = (-20..=20).map(|i| car(2.5 * f64::from(i))).collect();
+        assert!(way(&wall).is_none());
+    }
+}
