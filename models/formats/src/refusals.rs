@@ -254,6 +254,9 @@ scene::messages! {
     one_scene_a_file() = "one-scene-a-file", "a file of this format holds one scene";
     only_read(format: &str) = "only-read", "{format} is read, not written";
     only_written(format: &str) = "only-written", "{format} is written, not read";
+    empty_file() = "empty-file", "the file is empty";
+    json_array() =
+        "json-array", "the file is a JSON array; a scene is a JSON object with the format dragtraffic.scene";
     other_kind(file: &str, instead: &str) = "other-kind", "{file} is not read; {instead}";
     other_kind_named(file: &str, instead: &str, end: &str) =
         "other-kind-named",
