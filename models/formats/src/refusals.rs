@@ -8,6 +8,8 @@ pub use scene::sentences::{
 
 /// Things that are counted, missing or not read: the values `what` of sentences.
 pub mod what {
+    pub use scene::sentences::what::{ENTRIES, ID, SIGNALS};
+
     scene::words! {
         ATTRIBUTE = "attribute";
         ATTRIBUTES = "attributes";
@@ -21,7 +23,6 @@ pub mod what {
         DOCTYPE = "a document type definition";
         DOCUMENT_VALUES = "values in a document of this size";
         ELEMENTS = "elements";
-        ENTRIES = "entries";
         FEATURES = "features";
         FIELD_BYTES = "bytes of a protobuf field";
         FILE_BYTES = "bytes of a Parquet file";
@@ -29,7 +30,6 @@ pub mod what {
         GOAL = "goal";
         GROUP_BYTES = "bytes of the pages of a row group once unpacked";
         HIGHWAY = "way that is tagged highway";
-        ID = "id";
         INSTRUCTION = "an instruction";
         IDS = "ids";
         LANE = "lane";
@@ -74,7 +74,6 @@ pub mod what {
         SCENE = "scene";
         SCENES = "scenes of 9.1 s in one scenario";
         SECTION_LANES = "lanes in one lane section";
-        SIGNALS = "signals";
         SIGNS = "signs, lights and references";
         SPEED = "speed in m/s";
         STATE = "a state of what is no array";
