@@ -48,6 +48,7 @@ pub fn promise(method: &str, target: &str) -> Option<Promise> {
 impl Promise {
     /// Holds a whole reply against the promise.
     pub fn check(&self, reply: &Reply) {
+        self.check_headers(reply);
         match reply.header("content-type") {
             "application/x-ndjson" => reply.text().lines().for_each(|line| self.check_event(line)),
             "text/event-stream" => {
@@ -62,6 +63,15 @@ impl Promise {
     fn check_status(&self, status: u16) {
         let known = self.operation["responses"].get(status.to_string()).is_some();
         assert!(known, "{}: {status} is not in the document", self.name);
+    }
+
+    /// Headers that clients act on are in the document.
+    fn check_headers(&self, reply: &Reply) {
+        let declared = &self.operation["responses"][reply.status.to_string()]["headers"];
+        for name in ["ETag", "Location", "Retry-After"] {
+            let sent = !reply.header(&name.to_ascii_lowercase()).is_empty();
+            assert!(!sent || declared[name].is_object(), "{}: {} sends {name}", self.name, reply.status);
+        }
     }
 
     fn check_body(&self, status: u16, media: &str, body: &Value) {

@@ -13,6 +13,7 @@ pub mod rooms;
 pub mod scenes;
 #[cfg(target_os = "linux")]
 pub mod soak;
+pub mod untuned;
 pub mod writers;
 
 pub use http::{Reply, Request};

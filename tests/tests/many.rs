@@ -343,6 +343,10 @@ fn samples_are_scored_picked_and_copied() {
     let lines =
         |flags: &[&str]| ends(folder.path(), &[&["score", "a.json"], flags].concat(), 0).0.lines().count();
     assert_eq!((lines(&[]), lines(&["--sample", "all"]), lines(&["--sample", "1..2"])), (1, 4, 2));
+    let told = ends(folder.path(), &["score", "a.json", "--sample", "7"], 2).1;
+    assert!(told.contains("a.json: no sample 7; the scene has 4 samples, numbers 0 to 3"), "{told}");
+    let told = ends(folder.path(), &["score", &scene, "--sample", "0"], 2).1;
+    assert!(told.contains("no sample 0; the scene has no samples"), "{told}");
     let all = ["--sample", "all"];
     let low = lines(&[&all[..], &["--where", "min_ttc_s < 1"]].concat());
     assert_eq!(low + lines(&[&all[..], &["--where", "!(min_ttc_s < 1)"]].concat()), 4);

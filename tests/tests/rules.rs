@@ -5,6 +5,7 @@
 
 use dragtraffic_tests::program::root;
 use dragtraffic_tests::rooms::{House, files, rings};
+use dragtraffic_tests::untuned::{CONSTANTS, LITERALS, OF_FOLDERS, float_constants, float_literals};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -212,67 +213,6 @@ const HOUSES: &[House] = &[
     },
 ];
 
-/// Numbers that stand outside `experts::tuning`: file, name, and why in a word.
-const UNTUNED: &[(&str, &str, &str)] = &[
-    ("features/agent.rs", "BEYOND_M", "input"),
-    ("features/ahead.rs", "QUEUE_M", "input"),
-    ("features/ahead.rs", "MEETS_M", "input"),
-    ("features/block.rs", "BOUND", "input"),
-    ("features/encode.rs", "STILL_MPS", "input"),
-    ("features/encode.rs", "FAR_M", "input"),
-    ("features/encode.rs", "NEVER_S", "input"),
-    ("features/mod.rs", "STANDING_SHARE", "training"),
-    ("features/mod.rs", "MOVING_DRAWS", "training"),
-    ("maps.rs", "CELL_NS", "measured"),
-    ("maps.rs", "PAIR_NS", "measured"),
-    ("maps.rs", "USUAL_CROWD", "measured"),
-    ("generator/replan.rs", "ASIDE_M", "grid"),
-    ("generator/replan.rs", "AHEAD_M", "grid"),
-    ("generator/replan.rs", "TAIL_M", "numerics"),
-    ("generator/replan.rs", "SHIFTED_M", "geometry"),
-    ("generator/verdict.rs", "AWAY_M", "bound"),
-    ("generator/variations.rs", "END_S", "geometry"),
-    ("generator/variations.rs", "HELD_AT_S", "grid"),
-    ("generator/others/blocks.rs", "SPACING_M", "grid"),
-    ("generator/others/path_progress.rs", "GRAIN_M", "grid"),
-    ("generator/others/yielding.rs", "HAIR_M", "rounding"),
-    ("generator/repulsion.rs", "NEAR_M", "bound"),
-    ("generator/subgoal.rs", "THERE_M", "rounding"),
-    ("generator/trajectory.rs", "LEAST_CHORD_M", "numerics"),
-    ("net/initializer.rs", "SPREAD", "architecture"),
-    ("net/inputs.rs", "NO", "architecture"),
-    ("net/layers.rs", "RELU_GAIN", "architecture"),
-    ("net/ops/norm.rs", "EPSILON", "numerics"),
-    ("net/ops/pool.rs", "PADDING", "numerics"),
-    ("net/refiner.rs", "SPREAD", "architecture"),
-    ("placement/arms.rs", "LOOK_STEP_M", "grid"),
-    ("placement/arms.rs", "TIME_STEP_M", "grid"),
-    ("placement/cells.rs", "CELL_M", "table"),
-    ("placement/cells.rs", "MAX_CELLS", "bound"),
-    ("placement/cells.rs", "LEADER_M", "table"),
-    ("placement/cells.rs", "LEADER_REACH_M", "table"),
-    ("placement/context.rs", "GAPS", "table"),
-    ("placement/following.rs", "SPEED_STEP_M", "grid"),
-    ("placement/learn.rs", "SEEN_M", "training"),
-    ("placement/model.rs", "SPEED_STEP", "table"),
-    ("placement/request.rs", "MAX_PER_LANE_KM", "range"),
-    ("placement/request.rs", "MAX_GAP_M", "range"),
-    ("placement/request.rs", "MAX_PER_HOUR", "range"),
-    ("placement/request.rs", "MAX_PARKED_PER_100M", "range"),
-    ("placement/request.rs", "MAX_SPEED_MPS", "range"),
-    ("placement/room.rs", "STEP_M", "grid"),
-    ("placement/speeds.rs", "ROUNDING_MPS", "rounding"),
-    ("planning/coordinates.rs", "INSTANT_S", "format"),
-    ("planning/coordinates.rs", "STAYS_WITHIN_M", "format"),
-    ("planning/coordinates.rs", "ALONG_SCALE", "format"),
-    ("planning/coordinates.rs", "ACROSS_SCALE", "format"),
-    ("planning/crossing.rs", "LOOK_M", "grid"),
-    ("planning/crossing.rs", "SPACING_M", "grid"),
-    ("planning/legal.rs", "STEP_M", "grid"),
-    ("planning/pullback.rs", "LONGEST", "training"),
-    ("planning/smooth.rs", "LENGTH_S", "training"),
-];
-
 fn short_name(package: &Value) -> String {
     let name = package.as_str().unwrap();
     name.strip_prefix("dragtraffic-").unwrap_or(name).to_owned()
@@ -350,7 +290,7 @@ fn type_names_of_the_engine_are_unique() {
 }
 
 /// Type names that several files of the program declare. The number may only fall.
-const SHARED_TYPE_NAMES: usize = 33;
+const SHARED_TYPE_NAMES: usize = 32;
 
 #[test]
 fn fewer_type_names_stand_in_several_files() {
@@ -368,38 +308,30 @@ fn fewer_type_names_stand_in_several_files() {
     );
 }
 
-/// Constants of floating point numbers in a text, by name; tests at its end are left out.
-fn float_constants(text: &str) -> Vec<&str> {
-    let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);
-    let declared = code.split("const ").skip(1).filter_map(|rest| rest.split_once(" ="));
-    let floats = declared.filter_map(|(head, _)| head.split_once(": ")).filter(|(name, of)| {
-        let named = name.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_');
-        named && !of.contains(['>', '{']) && (of.contains("f64") || of.contains("f32"))
-    });
-    floats.map(|(name, _)| name).collect()
-}
-
 #[test]
 fn tuned_numbers_stand_in_the_tables_alone() {
-    assert_eq!(
-        float_constants("const A: f64 = 1.0;\nconst B: [f32; 2] = [0.0; 2];\nconst C: usize = 1;"),
-        ["A", "B"]
-    );
     let sources = root().join("models/experts/src");
-    let mut found = BTreeSet::new();
+    let (mut names, mut literals) = (BTreeSet::new(), BTreeSet::new());
     for file in files(&sources).unwrap() {
         let path = file.strip_prefix(&sources).unwrap().to_str().unwrap().replace('\\', "/");
-        if path.starts_with("tuning/") || path.ends_with("tests.rs") {
+        if path.starts_with("tuning/") || path.ends_with("tests.rs") || path.ends_with("samples.rs") {
             continue;
         }
         let text = std::fs::read_to_string(&file).unwrap();
-        found.extend(float_constants(&text).into_iter().map(|name| format!("{path} {name}")));
+        names.extend(float_constants(&text).into_iter().map(|name| format!("{path} {name}")));
+        if !OF_FOLDERS.iter().any(|(folder, _)| path.starts_with(folder)) {
+            literals.extend(float_literals(&text).into_iter().map(|literal| format!("{path} {literal}")));
+        }
     }
-    let listed: BTreeSet<String> = UNTUNED.iter().map(|(path, name, _)| format!("{path} {name}")).collect();
-    let unlisted: Vec<_> = found.difference(&listed).collect();
-    assert!(unlisted.is_empty(), "a weight or threshold belongs into experts::tuning: {unlisted:?}");
-    let gone: Vec<_> = listed.difference(&found).collect();
-    assert!(gone.is_empty(), "listed, but not there: {gone:?}");
+    let listed = |rows: &[(&str, &str, &str)]| -> BTreeSet<String> {
+        rows.iter().map(|(path, number, _)| format!("{path} {number}")).collect()
+    };
+    for (found, listed) in [(names, listed(CONSTANTS)), (literals, listed(LITERALS))] {
+        let unlisted: Vec<_> = found.difference(&listed).collect();
+        assert!(unlisted.is_empty(), "a weight or threshold belongs into experts::tuning: {unlisted:?}");
+        let gone: Vec<_> = listed.difference(&found).collect();
+        assert!(gone.is_empty(), "listed, but not there: {gone:?}");
+    }
 }
 
 #[test]

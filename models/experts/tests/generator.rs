@@ -10,12 +10,12 @@ use scene::{Agent, AgentType, Future, Goal, Scene, State, Vec2};
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
+#[path = "generator/blocked_lane.rs"]
+mod blocked_lane;
 #[path = "generator/crossing.rs"]
 mod crossing;
 #[path = "generator/driving.rs"]
 mod driving;
-#[path = "generator/evading.rs"]
-mod evading;
 #[path = "generator/leaks.rs"]
 mod leaks;
 #[path = "generator/planning.rs"]

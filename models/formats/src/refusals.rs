@@ -8,6 +8,8 @@ pub use scene::sentences::{
 
 /// Things that are counted, missing or not read: the values `what` of sentences.
 pub mod what {
+    pub use scene::sentences::what::{ENTRIES, ID, SIGNALS};
+
     scene::words! {
         ATTRIBUTE = "attribute";
         ATTRIBUTES = "attributes";
@@ -21,7 +23,6 @@ pub mod what {
         DOCTYPE = "a document type definition";
         DOCUMENT_VALUES = "values in a document of this size";
         ELEMENTS = "elements";
-        ENTRIES = "entries";
         FEATURES = "features";
         FIELD_BYTES = "bytes of a protobuf field";
         FILE_BYTES = "bytes of a Parquet file";
@@ -29,7 +30,6 @@ pub mod what {
         GOAL = "goal";
         GROUP_BYTES = "bytes of the pages of a row group once unpacked";
         HIGHWAY = "way that is tagged highway";
-        ID = "id";
         INSTRUCTION = "an instruction";
         IDS = "ids";
         LANE = "lane";
@@ -74,7 +74,6 @@ pub mod what {
         SCENE = "scene";
         SCENES = "scenes of 9.1 s in one scenario";
         SECTION_LANES = "lanes in one lane section";
-        SIGNALS = "signals";
         SIGNS = "signs, lights and references";
         SPEED = "speed in m/s";
         STATE = "a state of what is no array";
@@ -254,6 +253,9 @@ scene::messages! {
     one_scene_a_file() = "one-scene-a-file", "a file of this format holds one scene";
     only_read(format: &str) = "only-read", "{format} is read, not written";
     only_written(format: &str) = "only-written", "{format} is written, not read";
+    empty_file() = "empty-file", "the file is empty";
+    json_array() =
+        "json-array", "the file is a JSON array; a scene is a JSON object with the format dragtraffic.scene";
     other_kind(file: &str, instead: &str) = "other-kind", "{file} is not read; {instead}";
     other_kind_named(file: &str, instead: &str, end: &str) =
         "other-kind-named",

@@ -16,9 +16,10 @@ use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
 use crate::osm_items::holds_lanelets;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::refusals;
 use crate::scenarionet::format::ScenarioNet;
 use crate::sentences;
-use crate::source::{Source, head};
+use crate::source::{BYTE_ORDER_MARK, Source, head};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::{Csv, Parquet};
@@ -96,6 +97,12 @@ pub fn sniff(bytes: &[u8], name: &str) -> Option<&'static dyn Format> {
 /// # Errors
 /// `format-unknown`.
 pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadError> {
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
+    let refused = |message| Err(FieldProblem::new("", code::FORMAT_UNKNOWN, message).into());
+    if first.is_none() {
+        return refused(refusals::empty_file());
+    }
     let scored = FORMATS.iter().map(|format| (format.sniff(bytes, name), *format));
     let best = scored.filter(|(score, _)| *score > 0).max_by_key(|(score, _)| *score);
     if let Some((BY_CONTENT.., format)) = best {
@@ -106,7 +113,11 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     if let Some(refusal) = kinds::refusal(bytes, name, &ends) {
         return Err(refusal);
     }
-    best.map(|(_, format)| format).ok_or_else(unknown)
+    match best {
+        Some((_, format)) => Ok(format),
+        None if first == Some(&b'[') => refused(refusals::json_array()),
+        None => Err(unknown()),
+    }
 }
 
 /// The format of a file: by how it begins, and where two formats begin alike, by all of it.
@@ -210,4 +221,33 @@ pub fn losses_header(losses: &[Loss]) -> String {
         }
     }
     ascii
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(bytes: &[u8], name: &str) -> String {
+        recognised(bytes, name)
+            .map_or_else(|error| error.problems[0].detail.clone(), |found| found.info().id.into())
+    }
+
+    #[test]
+    fn files_without_a_scene_are_named() {
+        for empty in [&b""[..], b" \n", BYTE_ORDER_MARK] {
+            assert_eq!(said(empty, "a.json"), "the file is empty");
+        }
+        assert!(said(b" []", "a.json").starts_with("the file is a JSON array; a scene is a JSON object"));
+        assert!(said(b"hello", "a.txt").starts_with("not a file of a known format"));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_the_text() {
+        let scene =
+            std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/scenes/demo-crossing.json"));
+        let marked = [BYTE_ORDER_MARK, &scene.unwrap()].concat();
+        assert_eq!(said(&marked, "a.json"), "dragtraffic");
+        let read = import(&marked, "a.json", "auto", &ImportOptions::default()).unwrap().remove(0).unwrap();
+        assert!(read.0.agents.len() > 1);
+    }
 }

@@ -52,6 +52,22 @@ impl<S: Source + ?Sized> Source for Arc<S> {
     }
 }
 
+/// What text in UTF-8 may begin with; it is no part of the text.
+pub const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// The same text without a byte order mark.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn unmarked<R: Read>(mut input: R) -> io::Result<impl Read + use<R>> {
+    let mut begins = Vec::with_capacity(BYTE_ORDER_MARK.len());
+    input.by_ref().take(BYTE_ORDER_MARK.len() as u64).read_to_end(&mut begins)?;
+    if begins == BYTE_ORDER_MARK {
+        begins.clear();
+    }
+    Ok(io::Cursor::new(begins).chain(input))
+}
+
 /// The first bytes of a file, by which it is recognised; for a file identified at its end (Parquet), the last
 /// ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {

@@ -29,7 +29,7 @@ pub struct ArmPlace {
 
 /// A way through a junction that is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Way {
+pub struct JunctionPath {
     /// From where to where.
     #[serde(flatten)]
     pub connection: Connection,
@@ -166,12 +166,12 @@ impl MapDraft {
     }
 
     /// Ways for motor vehicles, by the order of the parameters.
-    pub fn ways(&self) -> Vec<Way> {
+    pub fn ways(&self) -> Vec<JunctionPath> {
         let way = |m: &Movement| {
             let [lane_in, lane_out] = m.lanes?;
             let lane = self.map.lanes[m.lane].id.clone();
             let connection = Connection { from: [m.from, lane_in], to: [m.to, lane_out] };
-            Some(Way { connection, lane, turn: m.turn, added: m.added })
+            Some(JunctionPath { connection, lane, turn: m.turn, added: m.added })
         };
         self.movements.iter().filter_map(way).collect()
     }

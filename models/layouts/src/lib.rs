@@ -31,7 +31,7 @@ mod roundabout;
 mod turns;
 
 pub use checks::{Check, CheckKind};
-pub use draft::{ArmPlace, CornerPlace, Way};
+pub use draft::{ArmPlace, CornerPlace, JunctionPath};
 pub use parameters::{
     ARMS, Arm, CarPark, Connection, Connections, Control, Junction, LEAST_BETWEEN_ARMS_DEG, Merge, Program,
     Road, Roundabout, Traffic, Turn, TurnAcross,
@@ -233,7 +233,7 @@ pub struct Built {
     /// Where the kerbs bend between them, counter-clockwise.
     pub corners: Vec<CornerPlace>,
     /// Ways from lane to lane through a junction; none where roads meet otherwise.
-    pub ways: Vec<Way>,
+    pub ways: Vec<JunctionPath>,
 }
 
 /// Draws a layout.

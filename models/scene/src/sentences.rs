@@ -2,11 +2,12 @@
 
 use crate::message::{Message, Placeholder, Word};
 
-/// Things that are counted or missing: the values `what` of sentences.
+/// Things that are counted or missing: the values `what` of sentences. A word that several crates need stands here.
 pub mod what {
     crate::words! {
         AREA_CORNERS = "corners of areas";
         CHARACTERS = "characters";
+        ENTRIES = "entries";
         ID = "id";
         LANE_LINKS = "links of lanes";
         LINKS = "links";

@@ -2,9 +2,10 @@
 
 /// Things that are counted in requests: the values `what` of sentences.
 pub mod what {
+    pub use scene::sentences::what::ENTRIES;
+
     scene::words! {
         ARMS = "arms";
-        ENTRIES = "entries";
         PLACES = "places";
         TRAITS = "traits";
     }

@@ -4,7 +4,9 @@ use crate::problem::Problem;
 use formats::native::{AnyDoc, MapForm, SceneDoc};
 use formats::refusals::parser_words;
 use formats::{FieldProblem, ReadError};
-use layouts::{ArmPlace, Built, Check, CornerPlace, Layout, ParameterFault, TEMPLATES, Template, Way};
+use layouts::{
+    ArmPlace, Built, Check, CornerPlace, JunctionPath, Layout, ParameterFault, TEMPLATES, Template,
+};
 use scene::{MAX_NAME_CHARS, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +43,7 @@ pub struct MapReply {
     /// Where kerbs bend between them.
     pub corners: Vec<CornerPlace>,
     /// Ways from lane to lane where roads meet at grade.
-    pub ways: Vec<Way>,
+    pub ways: Vec<JunctionPath>,
 }
 
 /// A template and its own parameters.

@@ -44,3 +44,24 @@ pub fn text() -> String {
     text.push('\n');
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::english;
+    use formats::refusals;
+    use scene::sentences;
+
+    #[test]
+    fn a_word_stands_in_one_list() {
+        let lists = [
+            [sentences::what::WORDS, refusals::what::WORDS, english::what::WORDS],
+            [sentences::wanted::WORDS, refusals::wanted::WORDS, english::wanted::WORDS],
+        ];
+        for lists in lists {
+            let mut words = lists.concat();
+            words.sort_unstable();
+            let twice: Vec<_> = words.windows(2).filter(|pair| pair[0] == pair[1]).collect();
+            assert!(words.len() > 30 && twice.is_empty(), "{twice:?}");
+        }
+    }
+}

@@ -33,9 +33,9 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// A failure with one sentence.
+    /// A failure with one sentence; the numbers of the system's errors are left out.
     pub fn new(exit: Exit, message: impl Into<String>) -> Self {
-        Self { exit, message: message.into() }
+        Self { exit, message: without_error_numbers(&message.into()) }
     }
 
     /// A command line that makes no sense.
@@ -52,5 +52,27 @@ impl Failure {
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         Self::new(Exit::Failure, error.to_string())
+    }
+}
+
+/// The words of system errors say what happened: "No such file or directory (os error 2)".
+fn without_error_numbers(message: &str) -> String {
+    let mut parts = message.split(" (os error ");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |kept, part| kept + part.split_once(')').map_or("", |(_, rest)| rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_has_the_words_of_a_system_error_alone() {
+        let error = std::io::Error::from_raw_os_error(2);
+        assert!(error.to_string().contains("(os error 2)"), "{error}");
+        let message = Failure::input(format!("a.json: {error}, b.json: {error}; c.json")).message;
+        assert!(!message.contains("os error"), "{message}");
+        assert!(message.starts_with("a.json: ") && message.ends_with("; c.json"), "{message}");
+        assert_eq!(Failure::input("a (b)").message, "a (b)");
     }
 }

@@ -221,7 +221,7 @@ const LAB_COMMANDS: &[&str] = &[
     "prepare",
     "train",
     "train-placement",
-    "eval-place",
+    "eval-placement",
     "eval-filled",
     "eval",
     "reproduce",

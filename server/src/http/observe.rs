@@ -93,7 +93,7 @@ pub async fn observe(State(gate): State<RequestGate>, mut request: Request, next
     response
 }
 
-/// Who sends a request: the the user whom a trusted proxy has signed in, else the name of the token.
+/// Who sends a request: the user whom a trusted proxy has signed in, else the name of the token.
 fn sender(request: &Request, guard: &Guard) -> Sender {
     let extensions = request.extensions();
     let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());

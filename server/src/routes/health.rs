@@ -12,10 +12,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::Ordering;
 
-/// Condition of the server, for its operators.
+/// Health of the server in a word, for its operators.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Condition {
+pub enum HealthStatus {
     /// The process answers.
     Ok,
     /// It takes work.
@@ -25,7 +25,7 @@ pub enum Condition {
 /// Health of the server.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Health {
-    status: Condition,
+    status: HealthStatus,
 }
 
 refusals!(Refused:);
@@ -36,7 +36,7 @@ refusals!(NotYet:, NotReady);
     responses((status = 200, description = "the process answers", body = ref("#/components/schemas/Health")),
         Refused))]
 pub async fn healthz() -> axum::Json<Health> {
-    axum::Json(Health { status: Condition::Ok })
+    axum::Json(Health { status: HealthStatus::Ok })
 }
 
 /// Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer.
@@ -55,7 +55,7 @@ pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusa
     ];
     let failing: Vec<_> = checks.iter().filter(|(_, fine)| !fine).map(|(name, _)| *name).collect();
     if failing.is_empty() {
-        return Ok(axum::Json(Health { status: Condition::Ready }));
+        return Ok(axum::Json(Health { status: HealthStatus::Ready }));
     }
     let detail = format!("Not ready: {}.", failing.join(", "));
     Err(Problem::new(Code::NotReady, detail).with(|m| m.failing = Some(failing)).retry_after(1).into())

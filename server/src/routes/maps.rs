@@ -52,8 +52,10 @@ pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Refusal
 /// Reads a map. It never changes, so it may be kept for ever.
 #[utoipa::path(get, path = "/v1/maps/{sha256}", operation_id = "readMap", tag = "maps",
     params(("sha256" = String, Path)),
-    responses((status = 200, description = "the map", body = ref("#/components/schemas/Map")),
-        (status = 304, description = "not changed"), Unread))]
+    responses((status = 200, description = "the map", body = ref("#/components/schemas/Map"),
+            headers(("ETag" = String, description = "hash of the map"))),
+        (status = 304, description = "not changed",
+            headers(("ETag" = String, description = "hash of the map"))), Unread))]
 pub async fn read(
     State(app): State<App>,
     path: Result<Path<String>, axum::extract::rejection::PathRejection>,

@@ -1,8 +1,7 @@
-//! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
-//! table of codes.
+//! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the table of codes.
 
 use super::{health, import, maps, scenes};
-use crate::base::{base_path::published, problem::ProblemDoc};
+use crate::base::{base_path::published, limits::Limits, problem::ProblemDoc};
 use crate::generation::events;
 use api::GenerateRequest;
 use api::info::ProgramInfo;
@@ -46,8 +45,8 @@ pub fn document() -> Value {
     document
 }
 
-/// Facts that the paths' macros cannot express. A body is required except for a copy, documents have their
-/// own media type too, an uploaded file may come in a form, and an export has its format's media type.
+/// Facts that the paths' macros cannot express. A body is required except for a copy, documents have their own media
+/// type too, an uploaded file is bytes or in a form, and an export has its format's media type.
 fn tidy(document: &mut Value) {
     let operations = document["paths"].as_object_mut().into_iter().flat_map(|paths| paths.values_mut());
     for operation in operations.flat_map(|item| item.as_object_mut().into_iter().flat_map(Map::values_mut)) {
@@ -67,11 +66,12 @@ fn tidy(document: &mut Value) {
         }
         if id == "importScenes" {
             let part = json!({"type": "string", "format": "binary"});
-            let most = crate::base::limits::Limits::default().import_files;
+            let most = Limits::default().import_files;
             let files = json!({"type": "array", "items": part, "minItems": 1, "maxItems": most});
-            let form = json!({"type": "object", "required": ["file"], "properties":
-                    {"file": files, "net": part, "columns": part}});
+            let parts = json!({"file": files, "net": part, "columns": part});
+            let form = json!({"type": "object", "required": ["file"], "properties": parts});
             content.insert("multipart/form-data".into(), json!({"schema": form}));
+            content.insert("application/octet-stream".into(), json!({"schema": part}));
         }
     }
 }

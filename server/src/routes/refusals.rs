@@ -5,8 +5,8 @@ use crate::base::problem::status_of;
 use api::Code;
 use std::collections::BTreeMap;
 use utoipa::openapi::content::ContentBuilder;
-use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
-use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
+use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType, Type};
+use utoipa::openapi::{HeaderBuilder, Ref, RefOr, Response, ResponseBuilder};
 
 /// Any operation: checks before its handler, and too many connections at work.
 pub const ANYWHERE: &[Code] = &[
@@ -56,6 +56,9 @@ pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
 /// Operations that may wait for a worker.
 pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
 
+/// Codes of refusals that say when to try again.
+const WAITS: &[Code] = &[Code::Busy, Code::NotReady, Code::ShuttingDown, Code::StoreUnavailable];
+
 /// Replies of these codes, one a status.
 pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {
     let mut by_status: BTreeMap<u16, Vec<&'static str>> = BTreeMap::new();
@@ -74,7 +77,14 @@ fn response(names: &[&'static str]) -> Response {
     let narrowed = untyped(ObjectBuilder::new()).property("code", code);
     let schema = AllOfBuilder::new().item(Ref::from_schema_name("Problem")).item(narrowed);
     let content = ContentBuilder::new().schema(Some(Schema::from(schema))).build();
-    ResponseBuilder::new().description(names.join(", ")).content("application/problem+json", content).build()
+    let reply =
+        ResponseBuilder::new().description(names.join(", ")).content("application/problem+json", content);
+    if !WAITS.iter().any(|code| names.contains(&code.name())) {
+        return reply.build();
+    }
+    let seconds = ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1));
+    let wait = HeaderBuilder::new().schema(Some(seconds)).description(Some("seconds until another attempt"));
+    reply.header("Retry-After", wait.build()).build()
 }
 
 /// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and its own

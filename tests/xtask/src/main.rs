@@ -17,6 +17,7 @@
 mod advisories;
 mod browser;
 mod checkers;
+mod commits;
 mod dependencies;
 mod environments;
 mod figures;
@@ -50,6 +51,7 @@ type Check = (&'static str, fn() -> anyhow::Result<Outcome>);
 /// In the order of what is found fastest.
 const CHECKS: &[Check] = &[
     ("web-packages", web_packages),
+    ("commits", commits::check),
     ("fmt", || cargo(&["fmt", "--all", "--check"])),
     ("web-lint", || npm("web", &["run", "lint"])),
     ("web-types", || npm("web", &["run", "check"])),

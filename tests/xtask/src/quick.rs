@@ -1,8 +1,8 @@
 //! `cargo xtask quick`: what a developer runs before each commit. It looks at what changed since the branch began:
-//! format, lints, unit tests of the crates that changed and, for the page, lint, types and tests without a browser.
+//! words of commits, format, lints, unit tests of the crates that changed and, for the page, lint, types and tests without a browser.
 //! Lints look at the crates that depend on a changed one, too, and share what the full run has compiled.
 
-use crate::{Outcome, cargo, cargo_command, clippy, npm, report, root, suites, web_packages};
+use crate::{Outcome, cargo, cargo_command, clippy, commits, npm, report, root, suites, web_packages};
 use anyhow::{Context, ensure};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ pub fn run() -> ExitCode {
     };
     let (page_lint, page_types) = (page(&["lint"]), page(&["check"]));
     let page_test = page(&["test", "--", "--exclude", "test/browser/**"]);
-    let mut checks: Vec<(&str, report::Work<'_>)> = vec![("fmt", &format)];
+    let mut checks: Vec<(&str, report::Work<'_>)> = vec![("commits", &commits::check), ("fmt", &format)];
     if changed.page {
         checks.extend([
             ("web-lint", &page_lint as _),

@@ -3,7 +3,8 @@
 
 use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
-use crate::tuning::fixed::choice::MOST_MOMENTS;
+use crate::tuning::fixed::choice::{LEAST_SPREAD_M, MOST_MOMENTS};
+use scene::HORIZON_STEPS;
 use scene::motion::Trajectory;
 use scene::score::{SweptBoxes, dangerous_moments, overlap};
 use std::collections::HashMap;
@@ -28,17 +29,20 @@ impl JointOption {
     }
 }
 
+/// Steps between the states that two motions are compared at.
+const EVERY: usize = 5;
+
 /// Mean distance of two motions, metres.
 pub(super) fn distance(a: &Trajectory, b: &Trajectory) -> f64 {
-    let sum: f64 = (5..a.len()).step_by(5).map(|i| (a[i].position - b[i].position).norm()).sum();
-    sum / 18.0
+    let sum: f64 = (EVERY..a.len()).step_by(EVERY).map(|i| (a[i].position - b[i].position).norm()).sum();
+    sum / (HORIZON_STEPS / EVERY) as f64
 }
 
 /// Costs of an actor's options by themselves: expected distance to its modes over the least of them.
 pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]) -> Vec<f64> {
     let expected: Vec<f64> =
         options.iter().map(|o| modes.iter().map(|(m, p)| p * distance(o, m)).sum::<f64>()).collect();
-    let least = expected.iter().copied().fold(f64::INFINITY, f64::min).max(0.3);
+    let least = expected.iter().copied().fold(f64::INFINITY, f64::min).max(LEAST_SPREAD_M);
     expected.into_iter().map(|e| e / least).collect()
 }
 

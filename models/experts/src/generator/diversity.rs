@@ -12,6 +12,7 @@ use super::stepping_out::steps_out;
 use super::variations::{DraftView, HURRY, pace_steps};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DuplicateTuning;
+use crate::tuning::fixed::duplicate_modes::NO_COPY;
 use scene::judge::{Trace, crossing};
 
 /// Most crossing agents that the best guess considers: those with the smallest time shift.
@@ -195,7 +196,7 @@ impl<'a> Diversifying<'a> {
         let tries = pace_steps(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
         tries
             .filter(|made| !waits || made.way_m() <= from.way_m())
-            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.views[*j]) > 1.05 * copy_m))
+            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.views[*j]) > NO_COPY * copy_m))
             .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
     }
 

@@ -12,6 +12,7 @@ use crate::features::agent::AgentPlan;
 use crate::planning::profile::{Caps, approaching};
 use crate::planning::{ALONG_SCALE, INSTANTS, MODES, Modes, PER_INSTANT, Residual};
 use crate::tuning::DuplicateTuning;
+use crate::tuning::fixed::duplicate_modes::RIDGE;
 use nalgebra::{SMatrix, SVector};
 use scene::motion::MotionKind;
 use scene::{AgentType, KNOTS, Vec2};
@@ -115,7 +116,7 @@ fn pace(plan: &AgentPlan, slot: Slot, rule: &Rule, speed_mps: f64) -> [f32; KNOT
         let rows = BASIS.along;
         let basis = SMatrix::<f64, INSTANTS, KNOTS>::from_fn(|i, k| f64::from(ALONG_SCALE * rows[i][k]));
         // A little ridge keeps the last knots, which hardly move anything, small.
-        let normal = basis.tr_mul(&basis) + SMatrix::identity() * 0.05;
+        let normal = basis.tr_mul(&basis) + SMatrix::identity() * RIDGE;
         normal.cholesky().map_or_else(SMatrix::zeros, |c| c.solve(&basis.transpose()))
     });
     let anchor = &plan.anchors[slot.index()];

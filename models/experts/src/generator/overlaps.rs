@@ -7,6 +7,7 @@ use super::repulsion::{Outline, SceneEnergy, Terms, leading_outlines};
 use super::slot::Slot;
 use super::trajectory::places;
 use crate::planning::Residual;
+use crate::tuning::fixed::overlaps::STEP_SHARES;
 
 /// Plain steps downhill from the leading drafts, one actor after the other, so that of two in each other's way the
 /// second sees where the first has gone. A step that does not lower the energy is not taken. The drafts stay as
@@ -58,7 +59,8 @@ fn step_downhill(
 ) -> Option<(Residual, Places)> {
     let (before, downhill) = energy.downhill(actor, slot, residual, others, Terms::All)?;
     let longest = energy.tuning.share as f32;
-    [longest, 0.5 * longest, 0.25 * longest].into_iter().find_map(|share| {
+    STEP_SHARES.into_iter().find_map(|part| {
+        let share = part * longest;
         let moved = std::array::from_fn(|i| residual[i] + share * downhill[i]);
         let places = places(&actor.plan, slot, &moved);
         let lower = energy.at(actor, &places, others, Terms::All).0 < before;

@@ -8,7 +8,7 @@ use super::trajectory::{Rollout, along_places, short_along};
 use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::tuning::ReplanTuning;
-use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M};
+use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M, THERE_M};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::motion::{Gear, MotionKind, Trajectory};
@@ -162,7 +162,7 @@ pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Tra
     let along_m = best?;
     let centres: [Vec2; INSTANTS] =
         std::array::from_fn(|i| search.path.extrapolate(along_m[(i + 1) * PER_INSTANT]).position);
-    let gets_there = along_m[plan.target.step] >= search.along_m[plan.target.step] - 0.1;
+    let gets_there = along_m[plan.target.step] >= search.along_m[plan.target.step] - THERE_M;
     Some(short_along(plan, &centres, gets_there))
 }
 

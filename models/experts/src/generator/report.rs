@@ -8,7 +8,7 @@ use crate::request::{
     Source, Warning, WarningCode,
 };
 use crate::sentences::{self, Need, Speed, kind};
-use crate::tuning::fixed::report::OFF_ROAD_M;
+use crate::tuning::fixed::report::{BEYOND_REACH, OFF_ROAD_M, OVERLAP_IOU};
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::message::Message;
 use scene::motion::{Limiting, MotionKind, MotionState, Reach};
@@ -202,7 +202,9 @@ pub(super) fn warnings<'a>(
             }
             let distance = (position - present.start.position()).norm();
             let seconds = due as f64 * STEP_S;
-            if distance > 1.1 * seconds * actor.plan.model.limits.speed_mps.max(present.start.speed_mps()) {
+            if distance
+                > BEYOND_REACH * seconds * actor.plan.model.limits.speed_mps.max(present.start.speed_mps())
+            {
                 warn(WarningCode::GoalUnreachable, sentences::goal_beyond_top_speed(distance, seconds));
             }
         }
@@ -212,7 +214,7 @@ pub(super) fn warnings<'a>(
             }
             let own = OrientedBox::of_state(&present.start, &present.size);
             for other in world.present.iter().filter(|p| p.index != present.index) {
-                if iou(&own, &OrientedBox::of_state(&other.start, &other.size)) > 0.02 {
+                if iou(&own, &OrientedBox::of_state(&other.start, &other.size)) > OVERLAP_IOU {
                     warn(WarningCode::StartOverlaps, sentences::start_overlaps(&world.agent(other).id));
                 }
             }

@@ -7,6 +7,7 @@ use super::slot::Slot;
 use super::variations::{DraftView, HURRY, moves_m, tangent};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DiversityTuning;
+use crate::tuning::fixed::sampling::{FULL_DRIVING_M, FULL_ON_FOOT_M, FULL_RIDING_M, MORE_HURRY, SHARES};
 use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
 
 /// Draws of each mode; the one farthest from the others is taken.
@@ -77,10 +78,10 @@ impl DrawSpread {
         let along = share * share;
         let (along_m, across_m, way_m) = match actor.plan.present.agent_type {
             AgentType::Pedestrian => {
-                (if goal { t.goal_on_foot_m } else { t.on_foot_m }, t.aside_on_foot_m, 8.0)
+                (if goal { t.goal_on_foot_m } else { t.on_foot_m }, t.aside_on_foot_m, FULL_ON_FOOT_M)
             }
-            AgentType::Cyclist => (if goal { t.goal_m } else { t.riding_m }, t.aside_m, 25.0),
-            _ => (if goal { t.goal_m } else { t.driving_m }, t.aside_m, 40.0),
+            AgentType::Cyclist => (if goal { t.goal_m } else { t.riding_m }, t.aside_m, FULL_RIDING_M),
+            _ => (if goal { t.goal_m } else { t.driving_m }, t.aside_m, FULL_DRIVING_M),
         };
         // A goal that is due early leaves less room.
         let room = if goal {
@@ -93,7 +94,7 @@ impl DrawSpread {
             along_m: along * along_m * room,
             across_m: along * across_m,
             way_m,
-            hurry: HURRY + 0.15 * share,
+            hurry: HURRY + MORE_HURRY * share,
         }
     }
 
@@ -130,7 +131,7 @@ impl DrawSpread {
                 (scale * f64::from(shape[k])) as f32
             })
         };
-        for share in [1.0, 0.7, 0.45, 0.2] {
+        for share in SHARES {
             let offset = scaled(share);
             let made = from.with(&offset);
             if made.is_usual(from, self.hurry) {

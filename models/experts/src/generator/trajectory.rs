@@ -9,7 +9,8 @@ use crate::planning::lights::Waiting;
 use crate::planning::profile::{Caps, Progress};
 use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, PER_INSTANT, Residual, STAYS_WITHIN_M};
 use crate::tuning::fixed::trajectory::{
-    ALONG_LANE_M, AT_LINE_M, BACKING_BRAKE_MPS2, OFFSET_SHARES, SHORT_OF_LINE_M,
+    ALONG_LANE_M, AT_LINE_M, BACKING_BRAKE_MPS2, BACKING_WAY_M, OFFSET_SHARES, RADIAN_M, RESTING_MPS,
+    SHORT_OF_LINE_M,
 };
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
@@ -362,7 +363,7 @@ fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let may = plan.model.kind == MotionKind::Drive
         && plan.model.start.velocity().dot(&direction(plan.model.start.heading_rad)) < 0.5
         && local.x < 1.0
-        && local.norm() < 30.0;
+        && local.norm() < BACKING_WAY_M;
     if !may {
         return None;
     }
@@ -370,7 +371,7 @@ fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let backwards = project(&model, &model.coasting(), &plan.target, None);
     let better = |p: &Projection| {
         let r = TargetError::of(&p.trajectory[plan.target.step], &plan.target);
-        r.position_m + 5.0 * r.heading_rad + r.speed_mps
+        r.position_m + RADIAN_M * r.heading_rad + r.speed_mps
     };
     (better(&backwards) < better(forwards)).then(|| backwards.into())
 }
@@ -410,7 +411,7 @@ pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Rollout) ->
 /// The agent stands at the start, and rest meets its goal. A recording that shows it standing may creep by its jitter; an
 /// earlier window must have brought it to rest by its own motion.
 pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
-    let standing_mps = if window == 0 { 0.3 } else { 0.05 };
+    let standing_mps = if window == 0 { RESTING_MPS.0 } else { RESTING_MPS.1 };
     plan.vias.is_empty()
         && plan.present.start.speed_mps() < standing_mps
         && TargetError::of(&still(plan), &plan.target).is_met()

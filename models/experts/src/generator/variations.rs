@@ -11,7 +11,11 @@ use crate::planning::{
     ACROSS_SCALE, ALONG_SCALE, INSTANT_S, INSTANTS, RESIDUAL, Residual, integrated_hat, twice_integrated_hat,
 };
 pub(super) use crate::tuning::fixed::variations::HURRY;
-use crate::tuning::fixed::variations::{CLEAR_M, GAPS_S, OVER_KERB_M};
+use crate::tuning::fixed::variations::{
+    AFTER_GOAL_M, BRISK, CLEAR_M, DRIVING_M, DRIVING_MPS2, DRIVING_TO_GOAL_M, GAPS_S, LEFT_S, NEAR_GOAL_S,
+    ON_FOOT_M, ON_FOOT_MPS2, ON_FOOT_TO_GOAL_M, OVER_KERB_M, RIDING_M, RIDING_MPS2, RIDING_TO_GOAL_M,
+    SOONEST_S, SPARE_MPS, SPARE_MPS2, WALKING_MPS,
+};
 use nalgebra::{DMatrix, DVector};
 use scene::judge::{Trace, crossing};
 use scene::motion::MotionKind;
@@ -96,7 +100,7 @@ impl<'a> DraftView<'a> {
         let anchor = &plan.anchors[self.slot.index()];
         let caps = match plan.model.kind {
             MotionKind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
-            MotionKind::Walk => Caps::new(&[0.0], &[2.2]),
+            MotionKind::Walk => Caps::new(&[0.0], &[WALKING_MPS]),
         };
         let v0 = plan.model.start_speed_mps();
         let (mine, theirs) = (self.speeds(), from.speeds());
@@ -113,7 +117,7 @@ impl<'a> DraftView<'a> {
         let each = rates(&mine).into_iter().zip(mine).zip(&self.route);
         each.into_iter().all(|((rate, speed), (along, _))| {
             let cap = (hurry * caps.at(*along)).max(fastest);
-            rate >= least - 0.1 && rate <= most + 0.1 && speed <= cap + 0.3
+            rate >= least - SPARE_MPS2 && rate <= most + SPARE_MPS2 && speed <= cap + SPARE_MPS
         })
     }
 
@@ -139,14 +143,14 @@ impl<'a> DraftView<'a> {
         let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
         // An agent that goes first or lets another pass accelerates and brakes harder than without traffic.
         let (brakes, speeds_up) = usual_rates(self.actor.plan.present.agent_type);
-        let brisk = (1.15 * brakes, 1.4 * speeds_up);
+        let brisk = (BRISK.0 * brakes, BRISK.1 * speeds_up);
         let made = GAPS_S.iter().find_map(|gap_s| {
             let (when_s, wanted_m) = if before {
                 (seconds(ground.theirs.0) - gap_s, self.along_at(seconds(ground.mine.1)) + CLEAR_M)
             } else {
                 (seconds(ground.theirs.1) + gap_s, self.along_at(seconds(ground.mine.0)) - CLEAR_M)
             };
-            if !(0.8..END_S).contains(&when_s) {
+            if !(SOONEST_S..END_S).contains(&when_s) {
                 return None;
             }
             let shift_m = wanted_m - self.along_at(when_s);
@@ -161,9 +165,9 @@ impl<'a> DraftView<'a> {
 /// Usual braking and acceleration, m/s2.
 fn usual_rates(agent_type: AgentType) -> (f64, f64) {
     match agent_type {
-        AgentType::Pedestrian => (1.3, 1.3),
-        AgentType::Cyclist => (2.5, 1.5),
-        _ => (3.4, 2.4),
+        AgentType::Pedestrian => ON_FOOT_MPS2,
+        AgentType::Cyclist => RIDING_MPS2,
+        _ => DRIVING_MPS2,
     }
 }
 
@@ -175,7 +179,7 @@ pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> 
     let mut rows: Vec<([f64; KNOTS], f64)> = Vec::with_capacity(shifts.len() + 2);
     if plan.target.position.is_some() {
         rows.push((row(twice_integrated_hat, goal_s), 0.0));
-        if shifts.iter().any(|(t, _)| (t - goal_s).abs() < 0.4) {
+        if shifts.iter().any(|(t, _)| (t - goal_s).abs() < NEAR_GOAL_S) {
             return None;
         }
     }
@@ -242,12 +246,12 @@ pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let agent_type = plan.present.agent_type;
     let (paces, aside_m): (&[f64], f64) = match (agent_type, plan.target.position.is_some()) {
-        (AgentType::Pedestrian, true) => (&[1.3, 2.2, 0.8], 1.1),
-        (AgentType::Pedestrian, false) => (&[3.0, 5.0, 2.0], 3.0),
-        (AgentType::Cyclist, true) => (&[1.3, 2.6, 4.5], 0.8),
-        (AgentType::Cyclist, false) => (&[6.0, 12.0, 3.5], 0.8),
-        (_, true) => (&[1.3, 2.6, 4.0, 6.0], 0.7),
-        (_, false) => (&[8.0, 14.0, 5.0, 22.0], 0.7),
+        (AgentType::Pedestrian, true) => ON_FOOT_TO_GOAL_M,
+        (AgentType::Pedestrian, false) => ON_FOOT_M,
+        (AgentType::Cyclist, true) => RIDING_TO_GOAL_M,
+        (AgentType::Cyclist, false) => RIDING_M,
+        (_, true) => DRIVING_TO_GOAL_M,
+        (_, false) => DRIVING_M,
     };
     let sign = if late_first { -1.0 } else { 1.0 };
     let middle_s = if plan.target.position.is_some() { 0.5 * goal_s } else { END_S };
@@ -270,8 +274,8 @@ pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
             .filter_map(|(a, b)| both(a * sign * small, b * aside_m)),
     );
     // On from a goal that is met early: slower or faster.
-    if plan.target.position.is_some() && goal_s < END_S - 1.5 {
-        let later = [-5.0, 5.0, -10.0].map(|metres| pace(plan, &[(END_S, sign * metres)]));
+    if plan.target.position.is_some() && goal_s < END_S - LEFT_S {
+        let later = AFTER_GOAL_M.map(|metres| pace(plan, &[(END_S, sign * metres)]));
         out.extend(later.into_iter().flatten());
     }
     out

@@ -4,7 +4,7 @@
 use super::slot::Slot;
 use crate::features::agent::AgentPlan;
 use crate::planning::{INSTANTS, PER_INSTANT};
-use crate::tuning::fixed::via_steering::{KEEPS, NARROWS, PAST_M, SURE};
+use crate::tuning::fixed::via_steering::{GOAL_MISSED_M, KEEPS, NARROWS, PAST_M, SURE};
 use scene::motion::{Knots, MotionModel, Pass, Projection, Target, TargetError, project, project_through};
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
@@ -126,7 +126,7 @@ impl Tried {
         let last = if target.position.is_some() { target.step.saturating_sub(1) } else { HORIZON_STEPS };
         let (mut sure, mut passes) = (true, Vec::with_capacity(vias.len()));
         let off = TargetError::of(&motion.trajectory[target.step], target);
-        let mut cost = if off.is_met() { 0.0 } else { 10.0 + off.position_m };
+        let mut cost = if off.is_met() { 0.0 } else { GOAL_MISSED_M + off.position_m };
         for (waypoint, passing) in plan.vias.iter().zip(passings(&vias, 0.0, &states)) {
             let via = &waypoint.via;
             let passed = via.is_passed(&passing);

@@ -5,7 +5,7 @@ use super::driving::{SpeedRange, allowed_mps};
 use super::region::Region;
 use super::stop_lines::{ShownLights, straightest};
 use crate::tuning::placing::arms::{
-    BEHIND_M, FREE_SHARE, LONGEST_M, RAGGED_M, SAME_ROAD_M, SAME_ROAD_RAD, SHORTEST_M,
+    BEHIND_M, BESIDE_REACH_M, FREE_SHARE, LONGEST_M, RAGGED_M, SAME_ROAD_M, SAME_ROAD_RAD, SHORTEST_M,
 };
 use scene::map::LaneType;
 use scene::routes::graph::{GraphLane, LaneGraph};
@@ -132,7 +132,7 @@ fn opens_beside(graph: &LaneGraph, index: usize) -> bool {
     let lane = &graph.lanes()[index];
     let start = lane.path.sample(0.0);
     let behind = start.position - start.direction() * BEHIND_M;
-    let hits = graph.nearest_lanes(behind, 8.0, |i, l| i != index && drives(l));
+    let hits = graph.nearest_lanes(behind, BESIDE_REACH_M, |i, l| i != index && drives(l));
     hits.iter().any(|hit| {
         let other = &graph.lanes()[hit.lane];
         let near = hit.distance_m < 0.5 * (other.width_m + lane.width_m) + 0.5;

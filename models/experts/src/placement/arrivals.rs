@@ -17,7 +17,11 @@ use super::random;
 use super::request::{ArmTraffic, Arrivals};
 use crate::cancel::Cancel;
 use crate::request::GenerateError;
-use crate::tuning::placing::arrivals::{BACK_M, CAR_M, ENTRY_GAP_M, LEAST_HEADWAY_S, SHARES, WAIT_S};
+use crate::tuning::placing::arms::FREE_SHARE;
+use crate::tuning::placing::arrivals::{
+    BACK_M, CAR_M, ENTRY_GAP_M, ENTRY_M, ENTRY_SIDE_M, LEAST_HEADWAY_S, REACH_M, REACH_MPS, REACH_S, SHARES,
+    WAIT_S,
+};
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::{direction, wrap_angle};
 use scene::limits::Limits;
@@ -195,7 +199,7 @@ impl Sampler<'_> {
                 let half_m = 0.5 * arrival.size.length_m;
                 if arrival.enters_s <= 0.0 {
                     // No vehicle overhangs the edge of the map.
-                    let least_m = if stretch.entry.at_map_edge { half_m } else { 0.05 };
+                    let least_m = if stretch.entry.at_map_edge { half_m } else { ENTRY_M };
                     if leaves && way.after_s(-arrival.enters_s) > way.length_m() - half_m - END_M {
                         // It has left the map, or is about to.
                         continue;
@@ -330,11 +334,11 @@ impl Sampler<'_> {
         stream: &mut Stream,
     ) -> Option<FollowingDriver> {
         let (scene, way, range) = (&self.request.scene, &stretch.way, self.request.speeds);
-        let reach_m = way.length_m() + 40.0 * self.duration_s().min(60.0) + 50.0;
+        let reach_m = way.length_m() + REACH_MPS * self.duration_s().min(REACH_S) + REACH_M;
         let course = Course::of(scene, self.cells.graph, way, reach_m, range, stream);
         let length_m = arrival.size.length_m;
         // Free traffic drives a little below the speed limit, and no vehicle exceeds it.
-        let share = (0.95 * arrival.share).min(1.0);
+        let share = (FREE_SHARE * arrival.share).min(1.0);
         let mut own =
             FollowingDriver { course, length_m, share, first_step: self.request.step, steps: Vec::new() };
         if let Some(at) = arrival.placed {
@@ -373,7 +377,7 @@ impl Sampler<'_> {
     fn is_clear(&self, path: &Polyline, arrival: &Arrival, kept: &[&Agent], step: usize) -> bool {
         let place = path.sample(0.5 * arrival.size.length_m);
         let size = Size { length_m: arrival.size.length_m + 2.0 * ENTRY_GAP_M, ..arrival.size };
-        let room = outline(place.position, place.heading_rad, size).grown(0.1);
+        let room = outline(place.position, place.heading_rad, size).grown(ENTRY_SIDE_M);
         let touches = |other: &OrientedBox| scene::geometry::obb::overlaps(&room, other, 0.0);
         let logged = kept.iter().filter_map(|agent| {
             let state = agent.state_at(step)?;

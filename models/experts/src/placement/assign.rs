@@ -1,7 +1,10 @@
 //! The cell and the lane that a road user of a scene is in.
 
 use super::cells::{CellKind, Cells, MapCell};
-use crate::tuning::placing::assign::{CROSSWALK_M, PARKED_EXTENT_M, PARKED_M, PAVEMENT_M};
+use crate::tuning::placing::assign::{
+    BESIDE_DRIVING_M, BESIDE_RIDING_M, CROSSWALK_M, LANE_REACH_M, PARKED_EXTENT_M, PARKED_M, PAVEMENT_M,
+    RADIAN_M,
+};
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{Agent, AgentType, State, Vec2, wrap_angle};
 
@@ -9,13 +12,13 @@ use scene::{Agent, AgentType, State, Vec2, wrap_angle};
 pub(super) fn driven_lane(graph: &LaneGraph, agent_type: AgentType, state: &State) -> Option<LaneHit> {
     let turn = |hit: &LaneHit| wrap_angle(state.heading_rad - hit.heading_rad).abs();
     let on = |hit: &LaneHit| {
-        let half_m =
-            0.5 * graph.lanes()[hit.lane].width_m + if agent_type == AgentType::Cyclist { 0.8 } else { 0.2 };
+        let half_m = 0.5 * graph.lanes()[hit.lane].width_m
+            + if agent_type == AgentType::Cyclist { BESIDE_RIDING_M } else { BESIDE_DRIVING_M };
         hit.distance_m < half_m && turn(hit) < 1.0
     };
-    let hits = graph.nearest_for(state.position(), 4.0, agent_type).into_iter().filter(on);
+    let hits = graph.nearest_for(state.position(), LANE_REACH_M, agent_type).into_iter().filter(on);
     hits.min_by(|a, b| {
-        let cost = |h: &LaneHit| h.distance_m + 3.0 * turn(h);
+        let cost = |h: &LaneHit| h.distance_m + RADIAN_M * turn(h);
         cost(a).total_cmp(&cost(b)).then(a.lane.cmp(&b.lane))
     })
 }

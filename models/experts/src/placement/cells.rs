@@ -6,6 +6,7 @@ mod build;
 use super::context::SpeedContext;
 use super::region::{Region, in_ring};
 use super::stop_lines::{LineAhead, ShownLights};
+use crate::tuning::placing::cells::{DRIVEWAY_REACH_M, LEADER_M, LEADER_REACH_M};
 use scene::routes::Polyline;
 use scene::routes::graph::{GraphLane, LaneGraph};
 use scene::{AgentType, Scene, Vec2};
@@ -20,10 +21,6 @@ const MAX_CELLS: f64 = 40_000.0;
 pub(super) const FEATURES: usize = 6;
 /// Index of the gap to the leader among a lane cell's features.
 pub(super) const LEADER_GAP: usize = 5;
-/// Upper bounds of the classes of distance to the leader, centre to centre, metres.
-const LEADER_M: [f64; 7] = [7.0, 10.0, 14.0, 20.0, 30.0, 40.0, f64::INFINITY];
-/// Farthest leader that counts, metres.
-const LEADER_REACH_M: f64 = 40.0;
 
 /// Sort of cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -214,7 +211,7 @@ impl<'a> Cells<'a> {
         let of_driveways =
             self.all.iter().enumerate().rev().take_while(|(_, s)| s.kind == CellKind::Driveway);
         let mut holding = of_driveways
-            .filter(|(_, s)| (s.center - point).norm() < 40.0)
+            .filter(|(_, s)| (s.center - point).norm() < DRIVEWAY_REACH_M)
             .filter(|(_, s)| in_ring(&self.scene.map.driveways[s.line].polygon.xy, point));
         holding.next().map(|(at, _)| at)
     }

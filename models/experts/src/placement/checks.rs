@@ -5,7 +5,7 @@ use super::placed::PlacedAgent;
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 pub(super) use crate::tuning::placing::checks::END_M;
 use crate::tuning::placing::checks::{
-    BAND, BEFORE_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M, WALK_SIDE_M,
+    BAND, BEFORE_M, LANE_REACH_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M, WALK_SIDE_M,
 };
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
@@ -129,7 +129,7 @@ fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
 
 /// The point lies on the band of a lane that leads about this way.
 fn is_along(point: Vec2, heading_rad: f64, graph: &LaneGraph) -> bool {
-    let hits = graph.nearest_lanes(point, 4.0, |_, lane| lane.carries(AgentType::Vehicle));
+    let hits = graph.nearest_lanes(point, LANE_REACH_M, |_, lane| lane.carries(AgentType::Vehicle));
     hits.iter().any(|hit| {
         let half_m = 0.5 * graph.lanes()[hit.lane].width_m;
         hit.distance_m < BAND * half_m && wrap_angle(hit.heading_rad - heading_rad).abs() < LONG_TURN_RAD
@@ -145,7 +145,7 @@ pub(super) fn around(outline: &OrientedBox) -> impl Iterator<Item = Vec2> {
 /// The point lies on the band that traffic of some lane uses.
 pub(super) fn on_lane(point: Vec2, graph: &LaneGraph) -> bool {
     let drives = |_: usize, l: &GraphLane| l.carries(AgentType::Vehicle) || l.carries(AgentType::Cyclist);
-    let hits = graph.nearest_lanes(point, 4.0, drives);
+    let hits = graph.nearest_lanes(point, LANE_REACH_M, drives);
     hits.iter().any(|h| h.distance_m < BAND * 0.5 * graph.lanes()[h.lane].width_m)
 }
 

@@ -1,6 +1,7 @@
 //! The situations that learned distributions are kept by: of speeds, and of poses. Their names are the
 //! keys of the weights file.
 
+use crate::tuning::placing::context::{LEADER_WITHIN_M, PACES_MPS};
 use serde::{Deserialize, Serialize};
 
 /// What a driver has to stop for, in the classes that speeds are learned by.
@@ -100,11 +101,11 @@ const ROADS: [(RoadAhead, &str); 9] = [
     (RoadAhead::RedWithin50M, "red_within_50m"),
 ];
 const GAPS: [(LeaderGap, &str, f64); 5] = [
-    (LeaderGap::Within4M, "leader_within_4m", 4.0),
-    (LeaderGap::Within8M, "leader_within_8m", 8.0),
-    (LeaderGap::Within15M, "leader_within_15m", 15.0),
-    (LeaderGap::Within25M, "leader_within_25m", 25.0),
-    (LeaderGap::Within40M, "leader_within_40m", 40.0),
+    (LeaderGap::Within4M, "leader_within_4m", LEADER_WITHIN_M[0]),
+    (LeaderGap::Within8M, "leader_within_8m", LEADER_WITHIN_M[1]),
+    (LeaderGap::Within15M, "leader_within_15m", LEADER_WITHIN_M[2]),
+    (LeaderGap::Within25M, "leader_within_25m", LEADER_WITHIN_M[3]),
+    (LeaderGap::Within40M, "leader_within_40m", LEADER_WITHIN_M[4]),
 ];
 const PACES: [(LeaderPace, &str); 3] =
     [(LeaderPace::Standing, "standing"), (LeaderPace::Slow, "slow"), (LeaderPace::Fast, "fast")];
@@ -119,8 +120,8 @@ impl SpeedContext {
         let near = leader.and_then(|(gap_m, speed_mps)| {
             let (gap, ..) = GAPS.iter().find(|(_, _, below_m)| gap_m < *below_m)?;
             let pace = match speed_mps {
-                v if v < 0.5 => LeaderPace::Standing,
-                v if v > 5.0 => LeaderPace::Fast,
+                v if v < PACES_MPS.0 => LeaderPace::Standing,
+                v if v > PACES_MPS.1 => LeaderPace::Fast,
                 _ => LeaderPace::Slow,
             };
             Some((*gap, pace))

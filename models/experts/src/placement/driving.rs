@@ -2,7 +2,10 @@
 
 use super::model::{SPEED_CLASSES, SPEED_STEP};
 use super::stop_lines::straightest;
-use crate::tuning::placing::driving::{BEND_LOOK_M, BEND_MPS2, CYCLIST_MPS, LEADER_LOOK_M};
+use crate::tuning::placing::driving::{
+    BEND_LOOK_M, BEND_MPS2, BEND_OVER_M, BEYOND_LOOK_M, BOX_REACH_M, CYCLIST_MPS, LEADER_LOOK_M, RIDING_MPS,
+    WALKING_MPS,
+};
 use scene::STANDING_MPS;
 use scene::geometry::obb::OrientedBox;
 use scene::routes::speed::{Leader, Obstacle, leader};
@@ -24,16 +27,19 @@ pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: 
     limit_mps.min(bend_mps(graph, lane, s_m)).min(most).max(1.0)
 }
 
+/// Places ahead at which the bend is looked up.
+const BEND_LOOKS: i32 = 5;
+
 /// Speed that the bends of a lane allow at a place of it, m/s.
 pub(super) fn bend_mps(graph: &LaneGraph, lane: usize, s_m: f64) -> f64 {
     let here = &graph.lanes()[lane];
     let mut allowed = f64::INFINITY;
-    for i in 0..=5 {
-        let ahead_m = BEND_LOOK_M * f64::from(i) / 5.0;
+    for i in 0..=BEND_LOOKS {
+        let ahead_m = BEND_LOOK_M * f64::from(i) / f64::from(BEND_LOOKS);
         if s_m + ahead_m > here.path.length_m() {
             break;
         }
-        let bend = here.path.curvature_at(s_m + ahead_m, 6.0).abs().max(1e-6);
+        let bend = here.path.curvature_at(s_m + ahead_m, BEND_OVER_M).abs().max(1e-6);
         allowed = allowed.min((BEND_MPS2 / bend + 2.0 * BEND_MPS2 * ahead_m).sqrt());
     }
     allowed
@@ -41,7 +47,7 @@ pub(super) fn bend_mps(graph: &LaneGraph, lane: usize, s_m: f64) -> f64 {
 
 /// Speed that is usual off the lanes, m/s.
 pub(super) fn usual_mps(agent_type: AgentType) -> f64 {
-    if agent_type == AgentType::Cyclist { 4.0 } else { 2.0 }
+    if agent_type == AgentType::Cyclist { RIDING_MPS } else { WALKING_MPS }
 }
 
 /// The nearest road user in front of a place on a lane, straight on where ways part.
@@ -52,14 +58,14 @@ pub(super) fn leader_ahead(
     outline: &OrientedBox,
     others: &[Obstacle],
 ) -> Option<Leader> {
-    let near = |o: &Obstacle| (o.outline.center() - outline.center()).norm() < LEADER_LOOK_M + 15.0;
+    let near = |o: &Obstacle| (o.outline.center() - outline.center()).norm() < LEADER_LOOK_M + BOX_REACH_M;
     let (index, close): (Vec<usize>, Vec<Obstacle>) =
         others.iter().enumerate().filter(|(_, o)| near(o)).map(|(i, o)| (i, *o)).unzip();
     if close.is_empty() {
         return None;
     }
     let mut points: Vec<Vec2> = vec![graph.lanes()[lane].path.position_at(s_m)];
-    let (mut at, mut from_m, mut left_m) = (lane, s_m, LEADER_LOOK_M + 10.0);
+    let (mut at, mut from_m, mut left_m) = (lane, s_m, LEADER_LOOK_M + BEYOND_LOOK_M);
     for _ in 0..12 {
         let path = &graph.lanes()[at].path;
         let until_m = (from_m + left_m).min(path.length_m());

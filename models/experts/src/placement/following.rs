@@ -7,7 +7,8 @@
 use super::arms::ArmPath;
 use super::driving::{SpeedRange, allowed_mps};
 use crate::tuning::placing::following::{
-    BESIDE_M, BRAKING_MPS2, HARDEST_MPS2, HEADWAY_S, LOOK_M, SPEEDING_UP_MPS2, STANDING_GAP_M,
+    BEHIND_M, BESIDE_M, BRAKING_MPS2, HARDEST_MPS2, HEADWAY_S, LOOK_M, RED_GAP_M, SPEEDING_UP_MPS2,
+    STANDING_GAP_M,
 };
 use scene::random::Stream;
 use scene::routes::{LaneGraph, Polyline};
@@ -154,7 +155,7 @@ pub(super) fn drive(
         let red = own.course.stops.iter().filter_map(|(line_m, signal)| {
             let room_m = line_m - nose_m;
             let can_stop = v_mps * v_mps < 2.0 * HARDEST_MPS2 * room_m.max(0.0);
-            (scene.signals[*signal].at(step).is_stop() && can_stop).then_some((room_m + 1.5, 0.0))
+            (scene.signals[*signal].at(step).is_stop() && can_stop).then_some((room_m + RED_GAP_M, 0.0))
         });
         let all = followed.chain(present).chain(red);
         let nearest = all.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -185,7 +186,7 @@ fn others_ahead(
     kept.iter().filter_map(move |agent| {
         let state = agent.state_at(step)?;
         let apart = state.position() - place.position;
-        if apart.norm() > LOOK_M || apart.dot(&place.direction()) < -10.0 {
+        if apart.norm() > LOOK_M || apart.dot(&place.direction()) < -BEHIND_M {
             return None;
         }
         let foot = own.course.path.project_within(state.position(), BESIDE_M)?;

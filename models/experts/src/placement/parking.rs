@@ -12,8 +12,8 @@ use super::request::{Parked, counted};
 use crate::cancel::Cancel;
 use crate::request::GenerateError;
 use crate::tuning::placing::parking::{
-    ASKEW_RAD, BAY_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, FAST_MPS, KERB_M, LONGEST_M, NEAR_M, NOSE_IN,
-    PLACE_M, ROOM_M, WIDEST_M,
+    ASKEW_RAD, BAY_M, CAR_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, END_ROOM_M, FAST_MPS, KERB_M,
+    LANE_REACH_M, LONGEST_M, MIDDLE_M, NEAR_M, NOSE_IN, PLACE_M, ROOM_M, SIDE_ROOM_M, WIDEST_M,
 };
 use scene::map::LaneType;
 use scene::random::Stream;
@@ -96,8 +96,8 @@ impl Sampler<'_> {
                 }
                 _ => (
                     Size {
-                        length_m: 4.4,
-                        width_m: 1.8,
+                        length_m: CAR_M.0,
+                        width_m: CAR_M.1,
                         ..Size::default_for(AgentType::Vehicle, Subtype::Car)
                     },
                     Subtype::Car,
@@ -105,10 +105,10 @@ impl Sampler<'_> {
             };
             let from_kerb_m = stream.between(KERB_M.0, KERB_M.0 + KERB_M.1);
             let askew_rad = stream.between(-ASKEW_RAD, ASKEW_RAD);
-            let along_m = 0.5 * (place.length_m - 0.6 - size.length_m) * stream.between(-1.0, 1.0);
+            let along_m = 0.5 * (place.length_m - END_ROOM_M - size.length_m) * stream.between(-1.0, 1.0);
             let turned = place.kerb.is_none() && !stream.chance(NOSE_IN);
             let fits = size.length_m <= LONGEST_M.min(place.length_m - 0.5)
-                && size.width_m <= WIDEST_M.min(place.width_m - 0.2)
+                && size.width_m <= WIDEST_M.min(place.width_m - SIDE_ROOM_M)
                 && subtype == Subtype::Car;
             if !fits {
                 continue;
@@ -229,11 +229,11 @@ impl Sampler<'_> {
                 width_m: free_m,
                 kerb: Some(first.side),
             };
-            let centre = kerb - left * (first.side * 1.1);
+            let centre = kerb - left * (first.side * MIDDLE_M);
             let ends = [-0.5, 0.0, 0.5].map(|part| centre + middle.direction() * (part * PLACE_M));
             // A lane for parking has its own places.
             let parks = |_: usize, lane: &GraphLane| lane.lane_type == LaneType::Parking;
-            let told = self.cells.graph.nearest_lanes(centre, 4.0, parks);
+            let told = self.cells.graph.nearest_lanes(centre, LANE_REACH_M, parks);
             if told.iter().any(|hit| hit.distance_m < 0.5 * self.cells.graph.lanes()[hit.lane].width_m) {
                 continue;
             }

@@ -14,6 +14,7 @@ use crate::cancel::Cancel;
 use crate::planning::world::AgentAtStart;
 use crate::request::GenerateError;
 use crate::tuning::placing::parking::FAST_MPS;
+use crate::tuning::placing::pose::PAVEMENT_M;
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::wrap_angle;
 use scene::random::Stream;
@@ -314,7 +315,7 @@ impl<'a> Sampler<'a> {
 fn even_pose(cells: &Cells<'_>, cell: &MapCell, agent_type: AgentType, stream: &mut Stream) -> Option<Pose> {
     let s_m = stream.between(cell.from_m, cell.to_m);
     let base = cells.path(cell)?.sample(s_m);
-    let aside_m = if cell.kind == CellKind::Pavement && !cell.on_lane { 1.5 * cell.side } else { 0.0 };
+    let aside_m = if cell.kind == CellKind::Pavement && !cell.on_lane { PAVEMENT_M * cell.side } else { 0.0 };
     let back = agent_type == AgentType::Pedestrian && stream.unit() < 0.5;
     let left = Vec2::new(-base.direction().y, base.direction().x);
     let heading_rad = wrap_angle(base.heading_rad + if back { PI } else { 0.0 });

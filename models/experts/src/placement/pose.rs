@@ -4,12 +4,16 @@
 use super::cells::{CellKind, Cells, MapCell};
 use super::context::PoseContext;
 use super::model::{Histogram, TypeModel};
-use crate::tuning::placing::pose::{DRIVEWAY_END_M, LANE_SIDE_M, NARROW_KERB_M, STRAIGHT_M};
+use crate::tuning::placing::pose::{
+    BUS_M, CROSSWALK_OFFSETS, DRIVEWAY_END_M, DRIVEWAY_REACH_M, HALF_LANE_M, KERB_OFFSETS, LANE_OFFSETS,
+    LANE_SIDE_M, LANE_TURNS, MOTORCYCLE_M, NARROW_KERB_M, OTHER_TURNS, PAVEMENT_OFFSETS, SIDEWALK_SHARE,
+    STRAIGHT_M, TRUCK_M, USUAL_M,
+};
 use scene::geometry::direction;
 use scene::map::LaneType;
 use scene::random::Stream;
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// Which offsets and headings hold in a cell.
 pub(super) fn pose_context(cells: &Cells<'_>, cell: &MapCell) -> PoseContext {
@@ -61,7 +65,7 @@ pub(super) fn draw_size(
     let boxes = model.sizes.get(&kind).or_else(|| model.sizes.values().next());
     let drawn = boxes.and_then(|b| b.get(stream.among(b.iter().map(|b| b[2]))?));
     let Some([length_m, width_m, _]) = drawn else {
-        let subtype = subtype(agent_type, 4.7);
+        let subtype = subtype(agent_type, USUAL_M);
         return (Size::default_for(agent_type, subtype), subtype);
     };
     let subtype = subtype(agent_type, *length_m);
@@ -72,9 +76,9 @@ pub(super) fn draw_size(
 /// Finer type that a box of this length suggests.
 fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
     match agent_type {
-        AgentType::Vehicle if length_m < 3.0 => Subtype::Motorcycle,
-        AgentType::Vehicle if length_m > 10.0 => Subtype::Bus,
-        AgentType::Vehicle if length_m > 6.5 => Subtype::Truck,
+        AgentType::Vehicle if length_m < MOTORCYCLE_M => Subtype::Motorcycle,
+        AgentType::Vehicle if length_m > BUS_M => Subtype::Bus,
+        AgentType::Vehicle if length_m > TRUCK_M => Subtype::Truck,
         AgentType::Vehicle => Subtype::Car,
         AgentType::Pedestrian => Subtype::Adult,
         AgentType::Cyclist => Subtype::Bicycle,
@@ -84,7 +88,8 @@ fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
 
 /// Outward axis of a driveway: from the nearest lane to its middle.
 fn driveway_axis(cells: &Cells<'_>, cell: &MapCell) -> Option<Vec2> {
-    let hit = cells.graph.nearest_for(cell.center, 40.0, AgentType::Vehicle).into_iter().next()?;
+    let hit =
+        cells.graph.nearest_for(cell.center, DRIVEWAY_REACH_M, AgentType::Vehicle).into_iter().next()?;
     let foot = cells.graph.lanes()[hit.lane].path.position_at(hit.s_m);
     (cell.center - foot).try_normalize(1e-3)
 }
@@ -107,7 +112,7 @@ pub(super) fn draw_pose(
     }
     let base = cells.path(cell)?.sample(s_m);
     let lane = cells.graph.lanes().get(cell.line);
-    let half_lane_m = lane.map_or(1.75, |l| 0.5 * l.width_m);
+    let half_lane_m = lane.map_or(HALF_LANE_M, |l| 0.5 * l.width_m);
     let lateral_m = match cell.kind {
         CellKind::Lane if agent_type == AgentType::Cyclist && context != PoseContext::BikeLane => {
             offset - half_lane_m
@@ -136,8 +141,8 @@ pub(super) fn draw_pose(
             cell.side * near
         }
         CellKind::Crosswalk => offset.clamp(-1.0, 1.0) * half_lane_m,
-        // The middle 70 % of a sidewalk; learned are pavements along edges.
-        CellKind::Pavement if cell.on_lane => stream.between(-0.7, 0.7) * half_lane_m,
+        // The middle of a sidewalk; learned are pavements along edges.
+        CellKind::Pavement if cell.on_lane => stream.between(-SIDEWALK_SHARE, SIDEWALK_SHARE) * half_lane_m,
         CellKind::Pavement => cell.side * offset,
         CellKind::Driveway => 0.0,
     };
@@ -192,7 +197,7 @@ pub(super) fn measure(
     let context = pose_context(cells, cell);
     let foot = cells.path(cell)?.project(position);
     let turn_rad = wrap_angle(heading_rad - foot.heading_rad);
-    let half_lane_m = cells.graph.lanes().get(cell.line).map_or(1.75, |l| 0.5 * l.width_m);
+    let half_lane_m = cells.graph.lanes().get(cell.line).map_or(HALF_LANE_M, |l| 0.5 * l.width_m);
     let offset = match cell.kind {
         CellKind::Lane if agent_type == AgentType::Cyclist && context != PoseContext::BikeLane => {
             foot.lateral_m + half_lane_m
@@ -219,19 +224,17 @@ pub(super) fn measure(
 /// crosswalks).
 pub fn lateral_classes(context: PoseContext) -> (f64, f64, usize) {
     match context {
-        PoseContext::Lane | PoseContext::JunctionLane | PoseContext::BikeLane => (-2.0, 0.1, 60),
-        PoseContext::NarrowKerb | PoseContext::WideKerb | PoseContext::NoKerb => (-1.0, 0.2, 40),
-        PoseContext::Crosswalk => (-1.0, 0.1, 20),
-        PoseContext::Pavement | PoseContext::Driveway => (-2.0, 0.25, 40),
+        PoseContext::Lane | PoseContext::JunctionLane | PoseContext::BikeLane => LANE_OFFSETS,
+        PoseContext::NarrowKerb | PoseContext::WideKerb | PoseContext::NoKerb => KERB_OFFSETS,
+        PoseContext::Crosswalk => CROSSWALK_OFFSETS,
+        PoseContext::Pavement | PoseContext::Driveway => PAVEMENT_OFFSETS,
     }
 }
 
 /// The same of headings, radians.
 pub fn heading_classes(context: PoseContext) -> (f64, f64, usize) {
     match context {
-        PoseContext::Lane | PoseContext::JunctionLane | PoseContext::BikeLane => {
-            (-20f64.to_radians(), 1f64.to_radians(), 40)
-        }
-        _ => (-PI, PI / 36.0, 72),
+        PoseContext::Lane | PoseContext::JunctionLane | PoseContext::BikeLane => LANE_TURNS,
+        _ => OTHER_TURNS,
     }
 }

@@ -3,6 +3,7 @@
 use super::arms::Arm;
 use super::driving::SpeedRange;
 use super::region::Region;
+use crate::tuning::placing::request::{PER_LANE_KM, TYPES};
 use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
@@ -105,13 +106,12 @@ pub struct PlaceRequest {
 impl PlaceRequest {
     /// The defaults of `POST /v1/place` for a scene.
     pub fn new(scene: Arc<Scene>) -> Self {
-        let types = [(AgentType::Vehicle, 0.8), (AgentType::Pedestrian, 0.15), (AgentType::Cyclist, 0.05)];
         Self {
             scene,
             step: 0,
             region: Region::Everywhere,
-            amount: Amount::PerLaneKm(12.0),
-            types: BTreeMap::from(types),
+            amount: Amount::PerLaneKm(PER_LANE_KM),
+            types: BTreeMap::from(TYPES),
             keep: None,
             seed: 0,
             min_gap_m: 2.0,

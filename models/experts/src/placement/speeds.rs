@@ -10,7 +10,7 @@ use super::placed::{PlacedAgent, rounded};
 use super::random::{self, stream_name};
 use super::room::{DrivenBox, bend_mps, brakes_from, make_room};
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
-use crate::tuning::placing::speeds::{QUEUE_M, UNKNOWN_LEADER_MPS};
+use crate::tuning::placing::speeds::{CYCLIST_MPS, OFF_LANES, QUEUE_M, UNKNOWN_LEADER_MPS};
 use scene::limits::Limits;
 use scene::random::Stream;
 use scene::routes::speed::Obstacle;
@@ -124,7 +124,7 @@ impl StartSpeeds<'_> {
         let model = self.model.and_then(|m| m.types.get(&placed.agent_type));
         if model.is_none() && placed.free_mps.is_none() {
             let limit_mps = self.cells.graph.lanes()[lane].speed_limit_mps;
-            let most = if placed.agent_type == AgentType::Cyclist { 5.0 } else { limits.speed_mps };
+            let most = if placed.agent_type == AgentType::Cyclist { CYCLIST_MPS } else { limits.speed_mps };
             let speed_mps = limit_mps.min(most);
             return range.map_or(speed_mps, |r| speed_mps.clamp(r.min_mps, r.max_mps).min(most));
         }
@@ -166,7 +166,7 @@ impl StartSpeeds<'_> {
                 .kind
                 .speed_context()
                 .map_or(0.0, |context| drawn_speed(model, context, 0, unit_mps, most, stream)),
-            None => 0.7 * unit_mps,
+            None => OFF_LANES * unit_mps,
         }
     }
 }

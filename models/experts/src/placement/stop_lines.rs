@@ -1,8 +1,10 @@
 //! Causes for a driver on a lane to stop: lights, stop signs, junctions.
 
 use super::context::RoadAhead;
+use crate::tuning::placing::stop_lines::{
+    GO_WITHIN_M, NEAR_M, PASSED_M, QUEUES_M, RED_WITHIN_M, YIELD_WITHIN_M,
+};
 pub(super) use crate::tuning::placing::stop_lines::{LOOK_M, STOP_LINE_M};
-use crate::tuning::placing::stop_lines::{NEAR_M, PASSED_M};
 use scene::routes::LaneGraph;
 use scene::{Scene, SignalState};
 use std::collections::HashMap;
@@ -58,12 +60,12 @@ impl LineAhead {
             Self::Nothing => RoadAhead::Clear,
             Self::Inside(Some(true)) => RoadAhead::JunctionOnRed,
             Self::Inside(_) => RoadAhead::Junction,
-            Self::StopLine(Unsignalled | StopSign, m) if m < 12.0 => RoadAhead::YieldWithin12M,
-            Self::StopLine(Unsignalled | StopSign, m) if m < 30.0 => RoadAhead::YieldWithin30M,
-            Self::StopLine(NotRed, m) if m < 30.0 => RoadAhead::GoWithin30M,
-            Self::StopLine(Red, m) if m < 10.0 => RoadAhead::RedWithin10M,
-            Self::StopLine(Red, m) if m < 25.0 => RoadAhead::RedWithin25M,
-            Self::StopLine(Red, m) if m < 50.0 => RoadAhead::RedWithin50M,
+            Self::StopLine(Unsignalled | StopSign, m) if m < YIELD_WITHIN_M[0] => RoadAhead::YieldWithin12M,
+            Self::StopLine(Unsignalled | StopSign, m) if m < YIELD_WITHIN_M[1] => RoadAhead::YieldWithin30M,
+            Self::StopLine(NotRed, m) if m < GO_WITHIN_M => RoadAhead::GoWithin30M,
+            Self::StopLine(Red, m) if m < RED_WITHIN_M[0] => RoadAhead::RedWithin10M,
+            Self::StopLine(Red, m) if m < RED_WITHIN_M[1] => RoadAhead::RedWithin25M,
+            Self::StopLine(Red, m) if m < RED_WITHIN_M[2] => RoadAhead::RedWithin50M,
             Self::StopLine(..) => RoadAhead::Clear,
         }
     }
@@ -78,8 +80,8 @@ impl LineAhead {
 
     /// Traffic queues here: a red light or a stop sign is near.
     pub(super) fn queues(self) -> bool {
-        matches!(self, Self::StopLine(StopControl::Red, m) if m < 50.0)
-            || matches!(self, Self::StopLine(StopControl::StopSign | StopControl::Unsignalled, m) if m < 18.0)
+        matches!(self, Self::StopLine(StopControl::Red, m) if m < QUEUES_M.0)
+            || matches!(self, Self::StopLine(StopControl::StopSign | StopControl::Unsignalled, m) if m < QUEUES_M.1)
     }
 }
 

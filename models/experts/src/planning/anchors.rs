@@ -9,6 +9,7 @@ use super::through::anchors_through;
 use super::to_goal::anchors_to_goal;
 use super::way::{SLOTS, paths_ahead};
 use super::world::{AgentAtStart, World};
+use crate::tuning::fixed::on_foot::{EVEN_MPS, FASTER, SLOWER, STROLLING_MPS};
 use scene::STEP_S;
 use scene::motion::{MotionKind, MotionModel, Target};
 
@@ -57,5 +58,5 @@ fn walking_speed(v0: f64, timing: usize, count: usize) -> f64 {
     if count == 1 {
         return v0;
     }
-    [v0, 0.0, 0.6 * v0 + 0.2, 1.3 * v0, 1.35, 0.3][timing % 6]
+    [v0, 0.0, SLOWER.0 * v0 + SLOWER.1, FASTER * v0, EVEN_MPS, STROLLING_MPS][timing % 6]
 }

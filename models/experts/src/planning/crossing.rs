@@ -6,8 +6,8 @@ use super::stop_line::{Steps, StopLine};
 use super::way::{PathKind, UntimedPath};
 use super::world::{AgentAtStart, World};
 use crate::tuning::fixed::crossing::{
-    AHEAD_M, BEHIND_LINE_M, BESIDE_M, DETOUR, DETOUR_M, DRAWN_SHORT_M, INSIDE_M, KERB_M, PACE_MPS, ROUNDED_M,
-    SETTING_OFF_MPS2, STOPPING_MPS2,
+    AHEAD_M, BEHIND_LINE_M, BESIDE_M, CROSSED_REACH_M, DETOUR, DETOUR_M, DRAWN_SHORT_M, EASY_STOP, INSIDE_M,
+    KERB_M, LANE_REACH_M, PACE_MPS, ROUNDED_M, SETTING_OFF_MPS2, STANDING_MPS, STEPPED_OUT_M, STOPPING_MPS2,
 };
 use scene::geometry::cross;
 use scene::geometry::segments::Segment;
@@ -88,7 +88,7 @@ fn carriageway(world: &World<'_>, path: &Polyline, to_m: f64) -> Option<(f64, f6
 
 fn is_on_lane(world: &World<'_>, place: Vec2) -> bool {
     let lanes = world.graph.lanes();
-    let near = world.graph.nearest_for(place, 3.0, AgentType::Vehicle);
+    let near = world.graph.nearest_for(place, LANE_REACH_M, AgentType::Vehicle);
     near.iter().any(|hit| hit.distance_m <= 0.5 * lanes[hit.lane].width_m)
 }
 
@@ -116,7 +116,7 @@ impl CrosswalkStrip {
             return None;
         }
         let centre = ring.iter().sum::<Vec2>() / ring.len() as f64;
-        let lane = world.graph.nearest_for(centre, 8.0, AgentType::Vehicle).into_iter().next()?;
+        let lane = world.graph.nearest_for(centre, CROSSED_REACH_M, AgentType::Vehicle).into_iter().next()?;
         let driven = scene::geometry::direction(lane.heading_rad);
         let sides = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| b - a);
         let longest = sides.max_by(|a, b| a.norm().total_cmp(&b.norm()))?.try_normalize(1e-6)?;
@@ -236,7 +236,7 @@ impl Kerb {
     /// Progress that waits at the kerb until the lanes are known to be stopped, and is at its goal when it is due;
     /// `None` where `wanted` steps onto no lane that has green, or the time is too short.
     pub fn waiting(&self, wanted: &Progress, v0: f64, due: usize) -> Option<Progress> {
-        let steps_out = (1..=due).find(|i| wanted[*i] > self.line_m + 0.05)?;
+        let steps_out = (1..=due).find(|i| wanted[*i] > self.line_m + STEPPED_OUT_M)?;
         if self.go >> steps_out & 1 == 0 {
             return None;
         }
@@ -259,10 +259,10 @@ impl Kerb {
     /// cannot stop before the kerb any more.
     pub fn held(&self, wanted: &Progress, v0: f64, until: usize) -> Option<Progress> {
         let needs = v0 * v0 / (2.0 * self.line_m.max(0.05));
-        if needs > STOPPING_MPS2 && v0 > 0.3 {
+        if needs > STOPPING_MPS2 && v0 > STANDING_MPS {
             return None;
         }
-        let brake = needs.max(0.6 * STOPPING_MPS2);
+        let brake = needs.max(EASY_STOP * STOPPING_MPS2);
         let fastest = (1..=HORIZON_STEPS).map(|i| speed_at(wanted, i)).fold(0.0, f64::max);
         let mut out = [0.0; HORIZON_STEPS + 1];
         let mut speed = v0;

@@ -4,8 +4,9 @@ use super::profile::{Caps, Progress, TimedLeg, speed_at};
 use super::stop_line::{Steps, StopLine};
 use super::world::{AgentAtStart, World};
 use crate::tuning::fixed::lights::{
-    BEFORE_LINE_M, BEYOND_M, BRAKE_MPS2, HARDEST_MPS2, IN_QUEUE_M, NEAR_LINE_M, ON_LANE_M, ONE_JUNCTION_M,
-    PASSED_M, PRESSED_SHARE, ROLLING_MPS, SAME_LANE_M, SET_OFF_MPS2, SET_OFF_TO_MPS, STOPPED_MPS, TURN_M,
+    AT_GOAL_M, AT_LINE_M, BEFORE_LINE_M, BEYOND_M, BRAKE_MPS2, HALTED_MPS, HARDEST_MPS2, IN_QUEUE_M,
+    JUMP_MPS2, LATER_M, LEAST_STOP_M, LEAST_WAY_M, NEAR_LINE_M, ON_LANE_M, ONE_JUNCTION_M, PASSED_M,
+    PRESSED_SHARE, ROLLING_MPS, SAME_LANE_M, SET_OFF_MPS2, SET_OFF_TO_MPS, STOPPED_MPS, TURN_M, TURNED_M,
 };
 use scene::limits::Limits;
 use scene::motion::Target;
@@ -19,6 +20,8 @@ const TURN_STEPS: usize = 45;
 /// Steps after green at which the first in a queue leaves, and each further one after the one before it.
 const FIRST_LEAVES_STEPS: usize = 10;
 const NEXT_LEAVES_STEPS: usize = 12;
+/// Steps over which speeding up is measured.
+const SMOOTHED_STEPS: usize = 3;
 /// An agent that would leave later than this step stays in the window.
 const LATEST_LEAVING: usize = 75;
 
@@ -97,7 +100,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
         let red = taken().fold(Steps::MAX, |red, l| red & l.2.red());
         let line_m = taken().map(|l| l.0).fold(f64::INFINITY, f64::min);
         let heading = |m: f64| longer.sample(line_m + half_length_m + m).heading_rad;
-        let right = wrap_angle(heading(25.0) - heading(0.0)) < -FRAC_PI_4;
+        let right = wrap_angle(heading(TURNED_M) - heading(0.0)) < -FRAC_PI_4;
         let waits_ahead = |other: &&AgentAtStart| {
             let foot = longer.project(other.start.position());
             let standing = other.index != who.index && other.start.speed_mps() < STOPPED_MPS;
@@ -152,7 +155,7 @@ impl Waiting<'_> {
             let next = (speed + SET_OFF_MPS2 * STEP_S).min(self.caps.at(at_m)).max(0.0);
             at_m += 0.5 * (speed + next) * STEP_S;
             speed = next;
-            later |= at_m > out[step + 1] + 0.05;
+            later |= at_m > out[step + 1] + LATER_M;
             out[step + 1] = out[step + 1].max(at_m);
         }
         later.then_some(out)
@@ -161,7 +164,7 @@ impl Waiting<'_> {
     /// Progress that waits at one gate.
     fn held(&self, gate: &Gate, wanted: &Progress) -> Option<Progress> {
         let passes =
-            |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > (gate.line_m - NEAR_LINE_M).max(0.05));
+            |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > (gate.line_m - NEAR_LINE_M).max(LEAST_WAY_M));
         let is_red = |step: usize| gate.is_red(step);
         let turns = |p: &Progress, step: usize| {
             gate.right
@@ -173,7 +176,7 @@ impl Waiting<'_> {
             return None;
         }
         let stop_m = (gate.line_m - BEFORE_LINE_M).max(0.0);
-        let brake = self.v0 * self.v0 / (2.0 * stop_m.max(0.3));
+        let brake = self.v0 * self.v0 / (2.0 * stop_m.max(LEAST_STOP_M));
         if brake > HARDEST_MPS2 && self.v0 > 0.5 {
             return None;
         }
@@ -203,7 +206,7 @@ impl Waiting<'_> {
     /// Brakes for the line, stands there until green (where there is one), then sets off. A goal that is due
     /// earlier keeps its progress until then. An agent that may turn at red sets off after a stop.
     fn free(&self, turns: bool, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
-        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
+        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(LEAST_STOP_M))).max(BRAKE_MPS2);
         let due = self.target.position.map_or(0, |_| self.target.step);
         let fastest = (1..=HORIZON_STEPS).map(|i| speed_at(wanted, i)).fold(SET_OFF_TO_MPS, f64::max);
         let mut out = [0.0; HORIZON_STEPS + 1];
@@ -214,7 +217,7 @@ impl Waiting<'_> {
                 speed = speed_at(wanted, i + 1);
                 continue;
             }
-            stood += usize::from(speed < 0.3);
+            stood += usize::from(speed < HALTED_MPS);
             gone |= (turns && stood > 10 && i < TURN_STEPS) || green.is_some_and(|green| i >= green);
             let open = if gone {
                 let cap = self.caps.at(out[i]).min(fastest);
@@ -243,7 +246,7 @@ impl Waiting<'_> {
                 self.arriving(self.v0, 0.0, stop_m + NEAR_LINE_M, seconds(green), Some(*rolling))
             };
             let (from_m, from_mps) = (before[green], if stands { 0.0 } else { *rolling });
-            if from_m > stop_m + BEFORE_LINE_M - 0.1 {
+            if from_m > stop_m + BEFORE_LINE_M - AT_LINE_M {
                 return None;
             }
             let left_m = wanted[due] - from_m;
@@ -252,7 +255,7 @@ impl Waiting<'_> {
             for i in green + 1..=HORIZON_STEPS {
                 out[i] = from_m + after[i - green];
             }
-            ((out[due] - wanted[due]).abs() < 0.3 && self.is_possible(&out, due)).then_some(out)
+            ((out[due] - wanted[due]).abs() < AT_GOAL_M && self.is_possible(&out, due)).then_some(out)
         })
     }
 
@@ -264,7 +267,7 @@ impl Waiting<'_> {
 
     /// Along with what is wanted until the line must be braked for, standing by `green`.
     fn braking(&self, stop_m: f64, green: usize, wanted: &Progress) -> Progress {
-        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
+        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(LEAST_STOP_M))).max(BRAKE_MPS2);
         let mut out = [0.0; HORIZON_STEPS + 1];
         let mut speed = self.v0;
         for i in 0..HORIZON_STEPS {
@@ -289,8 +292,11 @@ impl Waiting<'_> {
             let (before, after) = (speed_at(progress, i - 1), speed_at(progress, i));
             let change = (after - before) / STEP_S;
             // A jump of one step is smoothed away later.
-            let smooth = i < 4 || (speed_at(progress, i) - speed_at(progress, i - 3)) / (3.0 * STEP_S) <= up;
-            smooth && change > -down - 4.0 && after <= limits.speed_mps
+            let smooth = i <= SMOOTHED_STEPS
+                || (speed_at(progress, i) - speed_at(progress, i - SMOOTHED_STEPS))
+                    / (SMOOTHED_STEPS as f64 * STEP_S)
+                    <= up;
+            smooth && change > -down - JUMP_MPS2 && after <= limits.speed_mps
         })
     }
 }

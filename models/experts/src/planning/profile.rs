@@ -1,6 +1,6 @@
 //! Progress along a path over time: the base of an anchor.
 
-use crate::tuning::fixed::profile::{EASING_MPS2, OVER_CAP};
+use crate::tuning::fixed::profile::{BRAKING_MPS2, CRUISING_MPS2, EASING_MPS2, HARDEST_MPS2, OVER_CAP};
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S};
 
 /// Metres along a path at every step, the first zero.
@@ -51,9 +51,9 @@ fn driven(v0: f64, cap: impl Fn(f64) -> f64, (up, down): (f64, f64), wish: impl 
     out
 }
 
-/// Approaches `speed_mps` by at most 1.5 m/s2 up and 2.5 down and keeps it, under the caps.
+/// Approaches `speed_mps` at usual rates and keeps it, under the caps.
 pub fn cruising(v0: f64, speed_mps: f64, caps: &Caps<'_>) -> Progress {
-    approaching(v0, speed_mps, if speed_mps > v0 { 1.5 } else { 2.5 }, caps)
+    approaching(v0, speed_mps, if speed_mps > v0 { CRUISING_MPS2.0 } else { CRUISING_MPS2.1 }, caps)
 }
 
 /// Approaches `speed_mps` by `rate_mps2`, up or down, and keeps it, under the caps.
@@ -61,7 +61,7 @@ pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> 
     let wish = |t: f64| {
         if speed_mps > v0 { (v0 + rate_mps2 * t).min(speed_mps) } else { (v0 - rate_mps2 * t).max(speed_mps) }
     };
-    integrate(v0, caps, 4.0, wish)
+    integrate(v0, caps, BRAKING_MPS2, wish)
 }
 
 /// A progress that goes on from a step, where it is `from_mps` fast, as [`cruising`] does.
@@ -76,11 +76,11 @@ pub fn cruising_from(
     let mut speed = from_mps;
     for i in step.min(HORIZON_STEPS)..HORIZON_STEPS {
         let wish = if speed_mps > speed {
-            (speed + 1.5 * STEP_S).min(speed_mps)
+            (speed + CRUISING_MPS2.0 * STEP_S).min(speed_mps)
         } else {
-            (speed - 2.5 * STEP_S).max(speed_mps)
+            (speed - CRUISING_MPS2.1 * STEP_S).max(speed_mps)
         };
-        let next = wish.min(caps.at(out[i])).max(speed - 4.0 * STEP_S).max(0.0);
+        let next = wish.min(caps.at(out[i])).max(speed - BRAKING_MPS2 * STEP_S).max(0.0);
         out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
         speed = next;
     }
@@ -89,7 +89,7 @@ pub fn cruising_from(
 
 /// As far as speeding up by `rate_mps2` to `top_mps` leads, under the caps.
 pub fn fastest(v0: f64, rate_mps2: f64, top_mps: f64, caps: &Caps<'_>) -> Progress {
-    integrate(v0, caps, 8.0, |t| (v0 + rate_mps2 * t).min(top_mps.max(v0)))
+    integrate(v0, caps, HARDEST_MPS2, |t| (v0 + rate_mps2 * t).min(top_mps.max(v0)))
 }
 
 /// As far as braking by `rate_mps2` at once leads.
@@ -103,7 +103,7 @@ pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Ca
         let f = (t / seconds).min(1.0);
         v0 + (speed_mps - v0) * f + 4.0 * sag * f * (1.0 - f)
     };
-    integrate(v0, caps, 8.0, wish)
+    integrate(v0, caps, HARDEST_MPS2, wish)
 }
 
 /// Stands as long as there is time to, then speeds up evenly, by `easy_mps2` where that is enough; beyond the end
@@ -162,8 +162,9 @@ impl TimedLeg {
         if self.sets_off() {
             return setting_off(self.length_m, self.seconds, self.easy_mps2);
         }
-        let go =
-            |shape: f64| driven(self.v0, |_| f64::INFINITY, (f64::INFINITY, 8.0), |t| self.wish(shape, t));
+        let go = |shape: f64| {
+            driven(self.v0, |_| f64::INFINITY, (f64::INFINITY, HARDEST_MPS2), |t| self.wish(shape, t))
+        };
         self.reached((-30.0, 30.0), go)
     }
 

@@ -1,9 +1,12 @@
 //! Stop lines of signals, with what they show in a window.
 
-use crate::tuning::fixed::lights::TELLING_M;
+use crate::tuning::fixed::lights::{BAND_SPARE_M, GOES_ON_M, TELLING_M};
 use scene::geometry::cross;
 use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::{HORIZON_STEPS, Signal, SignalState, Vec2};
+
+/// Pieces of the telling length at whose ends a path is compared with a lane.
+const TELLING_PLACES: i32 = 8;
 
 /// Steps of a window as bits, the start first.
 pub(crate) type Steps = u128;
@@ -41,8 +44,8 @@ impl StopLine {
         Some(Self {
             at,
             lane,
-            half_width_m: 0.5 * lit.width_m + 0.25,
-            goes_on: lit.path.length_m() - s_m > 5.0,
+            half_width_m: 0.5 * lit.width_m + BAND_SPARE_M,
+            goes_on: lit.path.length_m() - s_m > GOES_ON_M,
             red: steps(&must_stop),
             open: steps(&|state| state != SignalState::Unknown && !must_stop(state)),
             go: steps(&|state| matches!(state, SignalState::Go | SignalState::ArrowGo) || state.is_caution()),
@@ -89,7 +92,8 @@ impl StopLine {
     pub(super) fn off_lane_m(&self, path: &Polyline, s_m: f64, graph: &LaneGraph) -> f64 {
         let lane = &graph.lanes()[self.lane].path;
         let side = if self.goes_on { 1.0 } else { -1.0 };
-        let places = (0..=8).map(|i| s_m + side * TELLING_M * f64::from(i) / 8.0);
+        let places =
+            (0..=TELLING_PLACES).map(|i| s_m + side * TELLING_M * f64::from(i) / f64::from(TELLING_PLACES));
         let places: Vec<f64> = places.filter(|s| (0.0..=path.length_m()).contains(s)).collect();
         let off = |s: &f64| lane.project(path.position_at(*s)).lateral_m.abs();
         places.iter().map(off).sum::<f64>() / places.len().max(1) as f64

@@ -6,7 +6,7 @@ use super::profile::{Caps, Progress, TimedLeg, cruising_from, going_on, speed_at
 use super::to_goal::{GOAL_SLOTS, MOST_WAYS, goal_progress, paths_to_goal};
 use super::way::{Anchor, SLOTS, UntimedPath, assumed_speed, paths_ahead};
 use super::world::{AgentAtStart, Waypoint, World};
-use crate::tuning::fixed::through::PRESSED;
+use crate::tuning::fixed::through::{FASTER, LEAST_LEG_M, PRESSED, UNHURRIED};
 use scene::motion::{MotionKind, MotionModel, Target};
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
@@ -140,10 +140,10 @@ fn leg_steps(who: &AgentAtStart, model: &MotionModel, target: &Target, vias: &[W
     let mut from = who.start.position();
     let mut lengths_m = Vec::with_capacity(places.len());
     for (place, _) in &places {
-        lengths_m.push((place - from).norm().max(0.1));
+        lengths_m.push((place - from).norm().max(LEAST_LEG_M));
         from = *place;
     }
-    let pace_mps = model.start_speed_mps().max(0.7 * assumed_speed(who.agent_type));
+    let pace_mps = model.start_speed_mps().max(UNHURRIED * assumed_speed(who.agent_type));
     let mut out = vec![1; places.len()];
     let (mut first, mut passed) = (0, 0);
     while first < places.len() {
@@ -209,7 +209,7 @@ fn ahead(
     };
     let mut base = goes(speed_mps);
     while base[HORIZON_STEPS - LEFT_STEPS] < last_m && speed_mps < PRESSED * limit_mps.max(1.0) {
-        speed_mps = 1.15 * speed_mps + 0.3;
+        speed_mps = FASTER.0 * speed_mps + FASTER.1;
         base = goes(speed_mps);
     }
     base

@@ -8,7 +8,9 @@ use super::profile::{Caps, TimedLeg, fastest, going_on, slowest};
 use super::way::{Anchor, PathKind, UntimedPath, identity_of};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
-use crate::tuning::fixed::to_goal::{AFTER_GOAL_M, ARRIVING_M, PRESSED, PRESSED_SHARE};
+use crate::tuning::fixed::to_goal::{
+    AFTER_GOAL_M, ARRIVING_M, DIRECT, LATE_M, LATERAL_MPS2, LEAST_CHORD_M, PRESSED, PRESSED_SHARE,
+};
 use scene::geometry::direction;
 use scene::motion::{MotionKind, MotionModel, Projection, Target, Tension, project};
 use scene::routes::{
@@ -185,13 +187,13 @@ impl GoalTrip<'_, '_> {
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
         let tuning = &self.world.tuning.anchors;
-        UntimedPath::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity, tuning)
+        UntimedPath::new(path, LATERAL_MPS2, f64::INFINITY, kind, Some(found.route), identity, tuning)
     }
 
     fn least_effort(&self) -> UntimedPath {
         let path = with_tail(self.least_path.clone(), self.who);
         let tuning = &self.world.tuning.anchors;
-        UntimedPath::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
+        UntimedPath::new(path, LATERAL_MPS2, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
     }
 
     /// The paths that keep to the rules and arrive in time, in their order. Without any, further paths are
@@ -228,7 +230,7 @@ impl GoalTrip<'_, '_> {
     /// Metres on which a way breaks the rules, and much more where it does not arrive in time.
     fn cost(&self, way: &UntimedPath) -> f64 {
         let length_m = goal_progress(&way.path, self.goal);
-        let late = if self.arrives(way, length_m) { 0.0 } else { 1e3 };
+        let late = if self.arrives(way, length_m) { 0.0 } else { LATE_M };
         late + broken_m(&self.ground, self.who, &way.path, length_m)
     }
 
@@ -286,7 +288,7 @@ fn walk_to(
     }
     let start = who.start.position();
     let chord = goal - start;
-    let path = if chord.norm() > 0.3 {
+    let path = if chord.norm() > LEAST_CHORD_M {
         let n = chord.norm().ceil().max(1.0) as usize;
         Polyline::new((0..=n).map(|i| start + chord * (i as f64 / n as f64)))
     } else {
@@ -325,7 +327,7 @@ fn smooth_to(
 
 /// Whether a way of this length to the goal does not wind.
 fn is_direct(length_m: f64, who: &AgentAtStart, goal: Vec2) -> bool {
-    length_m < 1.25 * (goal - who.start.position()).norm() + 0.3
+    length_m < DIRECT.0 * (goal - who.start.position()).norm() + DIRECT.1
 }
 
 /// A path long enough to have a direction: very short ones go on along the start heading.

@@ -4,12 +4,17 @@ use super::coordinates::MODES;
 use super::profile::{Caps, Progress, TimedLeg};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
+use crate::tuning::fixed::on_foot::{LEAST_MPS, LONGER, SWAYING_MPS};
 use crate::tuning::fixed::profile::HURRY;
+use crate::tuning::fixed::way::{
+    ASSUMED_LIMIT_MPS, BEND_RAD, OFF_LANES_DRIVING_MPS, OFF_LANES_ON_FOOT_MPS, OFF_LANES_RIDING_MPS,
+    SEARCHED_M, WITHOUT_LIMIT_MPS,
+};
 use scene::geometry::direction;
 use scene::limits::Limits;
 use scene::motion::{MotionKind, MotionModel};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
-use scene::{AgentType, HORIZON_STEPS, Vec2};
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
 /// The kind of path that an anchor follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +83,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
     let v0 = model.start_speed_mps();
     let graph = &world.graph;
     let walking = model.kind == MotionKind::Walk;
-    let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
+    let length = if walking { walked_m(v0) } else { route_length_m(v0) };
     let routes = if world.planning.routes {
         routes_ahead(graph, who.pose(), who.agent_type, length)
     } else {
@@ -108,7 +113,7 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
         ));
     }
     if out.len() == 1 && !walking && out[0].kind == PathKind::Straight {
-        out.extend([0.6, -0.6].map(|bend| bent(who, model, length, bend, &world.tuning.anchors)));
+        out.extend([BEND_RAD, -BEND_RAD].map(|bend| bent(who, model, length, bend, &world.tuning.anchors)));
     }
     out
 }
@@ -118,7 +123,7 @@ fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &An
     let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
     // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
     let aside = model.kind == MotionKind::Walk
-        && velocity.norm() > 0.3
+        && velocity.norm() > SWAYING_MPS
         && velocity.dot(&faces) < 0.5 * velocity.norm();
     let ahead = if aside { velocity.normalize() } else { faces };
     let n = length.ceil().max(2.0) as usize;
@@ -156,12 +161,17 @@ fn bent(
     )
 }
 
+/// Length of the path of a walker, metres: farther than it gets in a window.
+fn walked_m(v0: f64) -> f64 {
+    HORIZON_STEPS as f64 * STEP_S * v0.max(LEAST_MPS) * LONGER.0 + LONGER.1
+}
+
 /// Speed off every lane, m/s.
 pub(super) fn assumed_speed(agent_type: AgentType) -> f64 {
     match agent_type {
-        AgentType::Pedestrian => 1.6,
-        AgentType::Cyclist => 5.0,
-        _ => 8.0,
+        AgentType::Pedestrian => OFF_LANES_ON_FOOT_MPS,
+        AgentType::Cyclist => OFF_LANES_RIDING_MPS,
+        _ => OFF_LANES_DRIVING_MPS,
     }
 }
 
@@ -186,12 +196,15 @@ impl UntimedPath {
                     route.limits_mps.get(i).map_or(limit_mps, |l| over_limit * l)
                 })
                 .collect(),
-            _ => vec![if limit_mps.is_finite() { over_limit * limit_mps } else { 60.0 }; path.points().len()],
+            _ => vec![
+                if limit_mps.is_finite() { over_limit * limit_mps } else { WITHOUT_LIMIT_MPS };
+                path.points().len()
+            ],
         };
         let rules = SpeedRules { lateral_mps2, ..SpeedRules::default() };
         let curvatures_per_m = speed::curvatures_per_m(&path);
         let caps_mps = speed::caps_of_bends(path.arc_m(), &curvatures_per_m, &limits_mps, rules);
-        let limit_mps = if limit_mps.is_finite() { limit_mps } else { 15.0 };
+        let limit_mps = if limit_mps.is_finite() { limit_mps } else { ASSUMED_LIMIT_MPS };
         Self { path, caps_mps, curvatures_per_m, limits_mps, limit_mps, kind, route, identity, pace: None }
     }
 
@@ -275,8 +288,8 @@ impl Anchor {
         let length = self.path.length_m();
         let foot = self.path.project_between(
             point,
-            (near - 6.0).clamp(0.0, length),
-            (near + 12.0).clamp(0.0, length),
+            (near - SEARCHED_M.0).clamp(0.0, length),
+            (near + SEARCHED_M.1).clamp(0.0, length),
         );
         if foot.s_m >= length - 1e-6 {
             let end = self.path.last();

@@ -21,6 +21,8 @@ numbers! {
     choice {
         /// A near miss that lasts for so many compared moments costs all of its price.
         MOST_MOMENTS: f64 = 2.0;
+        /// Modes that are nearer to an option on average count as so far from it, metres.
+        LEAST_SPREAD_M: f64 = 0.3;
     }
     /// Of swerving and stopping for what is in the way.
     replan {
@@ -38,6 +40,8 @@ numbers! {
         BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
         /// Harder braking must lead so much farther, metres.
         HARDER_M: f64 = 2.0;
+        /// A motion ends at most so far short of its goal when it gets there, metres.
+        THERE_M: f64 = 0.1;
     }
     /// Of agents at rest that move off.
     moving_off {
@@ -52,6 +56,10 @@ numbers! {
     report {
         /// A start or goal farther from any lane is off the road, metres.
         OFF_ROAD_M: f64 = 6.0;
+        /// A goal farther than top speed leads, by this factor, is out of reach.
+        BEYOND_REACH: f64 = 1.1;
+        /// Two boxes at the start overlap above this intersection over union.
+        OVERLAP_IOU: f64 = 0.02;
     }
     /// Of rounds with feedback.
     rounds {
@@ -68,6 +76,40 @@ numbers! {
         OVER_KERB_M: f64 = 0.4;
         /// Way kept from shared ground, metres.
         CLEAR_M: f64 = 0.4;
+        /// Speed cap of walkers, m/s.
+        WALKING_MPS: f64 = 2.2;
+        /// A motion may exceed usual rates by this, m/s2.
+        SPARE_MPS2: f64 = 0.1;
+        /// And the cap by this, m/s.
+        SPARE_MPS: f64 = 0.3;
+        /// An agent that goes first or lets another pass brakes and speeds up so many times as hard.
+        BRISK: (f64, f64) = (1.15, 1.4);
+        /// Progress is not changed earlier than this, seconds.
+        SOONEST_S: f64 = 0.8;
+        /// Usual braking and speeding up on foot, m/s2.
+        ON_FOOT_MPS2: (f64, f64) = (1.3, 1.3);
+        /// The same on a bicycle, m/s2.
+        RIDING_MPS2: (f64, f64) = (2.5, 1.5);
+        /// The same of a vehicle, m/s2.
+        DRIVING_MPS2: (f64, f64) = (3.4, 2.4);
+        /// Progress is not changed so near to the time of the goal, seconds.
+        NEAR_GOAL_S: f64 = 0.4;
+        /// Other progress on foot to a goal in the order of trying, and another line, metres.
+        ON_FOOT_TO_GOAL_M: (&[f64], f64) = (&[1.3, 2.2, 0.8], 1.1);
+        /// The same without a goal, metres.
+        ON_FOOT_M: (&[f64], f64) = (&[3.0, 5.0, 2.0], 3.0);
+        /// Other progress on a bicycle to a goal in the order of trying, and another line, metres.
+        RIDING_TO_GOAL_M: (&[f64], f64) = (&[1.3, 2.6, 4.5], 0.8);
+        /// The same without a goal, metres.
+        RIDING_M: (&[f64], f64) = (&[6.0, 12.0, 3.5], 0.8);
+        /// Other progress of a vehicle to a goal in the order of trying, and another line, metres.
+        DRIVING_TO_GOAL_M: (&[f64], f64) = (&[1.3, 2.6, 4.0, 6.0], 0.7);
+        /// The same without a goal, metres.
+        DRIVING_M: (&[f64], f64) = (&[8.0, 14.0, 5.0, 22.0], 0.7);
+        /// Time after a goal that leaves room for another pace from there on, seconds.
+        LEFT_S: f64 = 1.5;
+        /// Other progress from a goal to the end of the window, metres.
+        AFTER_GOAL_M: [f64; 3] = [-5.0, 5.0, -10.0];
     }
     /// Of motions through via points.
     via_steering {
@@ -79,6 +121,8 @@ numbers! {
         NARROWS: f64 = 0.15;
         /// Distance past the last via point at which an agent without a goal ends, metres.
         PAST_M: f64 = 1.0;
+        /// Metres that a missed goal counts as.
+        GOAL_MISSED_M: f64 = 10.0;
     }
     /// Of walkers that step out before a vehicle.
     stepping_out {
@@ -101,6 +145,12 @@ numbers! {
         ALONG_LANE_M: f64 = 1.5;
         /// Braking of a vehicle that rolls backwards without a reason, m/s2.
         BACKING_BRAKE_MPS2: f64 = 1.5;
+        /// A goal behind is backed to within this distance, metres.
+        BACKING_WAY_M: f64 = 30.0;
+        /// Metres that a radian of missed heading counts as.
+        RADIAN_M: f64 = 5.0;
+        /// A slower agent stands in the first window and in a later one, m/s.
+        RESTING_MPS: (f64, f64) = (0.3, 0.05);
     }
     /// Of the place on the road that is offered instead of a goal off it.
     remedies {
@@ -178,6 +228,12 @@ numbers! {
         MITIGATED: f64 = 0.4;
         /// Share of the price of a meeting with an agent that may react too.
         PASSED_ON: f64 = 0.4;
+        /// Rate at which a walker takes up its speed again, m/s2.
+        WALKER_SPEEDS_UP_MPS2: f64 = 0.8;
+        /// The same on a bicycle, m/s2.
+        CYCLIST_SPEEDS_UP_MPS2: f64 = 1.0;
+        /// The same of a vehicle, m/s2.
+        VEHICLE_SPEEDS_UP_MPS2: f64 = 1.5;
     }
     /// Of naming a reaction.
     reaction {
@@ -200,6 +256,10 @@ numbers! {
         HALTS_MPS: f64 = 0.1;
         /// Harder braking is hard, m/s2.
         HARD_MPS2: f64 = 3.5;
+        /// An agent that stood gets no farther than this from there, metres.
+        CREEPS_M: f64 = 0.1;
+        /// A slower agent that does not speed up is at rest, m/s.
+        AT_REST_MPS: f64 = 0.02;
     }
     /// Of walkers and carriageways.
     crossing {
@@ -227,6 +287,16 @@ numbers! {
         BEHIND_LINE_M: f64 = 12.0;
         /// A corner of a path is rounded off over this, metres.
         ROUNDED_M: f64 = 1.0;
+        /// Lanes are looked up so far from a place, metres.
+        LANE_REACH_M: f64 = 3.0;
+        /// The lane that a crosswalk crosses is at most so far from its middle, metres.
+        CROSSED_REACH_M: f64 = 8.0;
+        /// A walker has stepped out this far past the kerb, metres.
+        STEPPED_OUT_M: f64 = 0.05;
+        /// A slower walker stops at the kerb at once, m/s.
+        STANDING_MPS: f64 = 0.3;
+        /// Least braking before a kerb: share of the hardest.
+        EASY_STOP: f64 = 0.6;
     }
     /// Of ways on foot round what stands.
     around {
@@ -290,6 +360,26 @@ numbers! {
         PRESSED_SHARE: f64 = 0.85;
         /// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
         ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
+        /// Lanes reach beyond their border by this at a stop line, metres.
+        BAND_SPARE_M: f64 = 0.25;
+        /// A lane goes on beyond a line that is farther than this from its end, metres.
+        GOES_ON_M: f64 = 5.0;
+        /// Distance past a line at which the heading tells a turn to the right, metres.
+        TURNED_M: f64 = 25.0;
+        /// Progress less than this behind the next in a queue is not later, metres.
+        LATER_M: f64 = 0.05;
+        /// A front counts as over a line at this progress at least, metres.
+        LEAST_WAY_M: f64 = 0.05;
+        /// Braking is worked out for at least this distance, metres.
+        LEAST_STOP_M: f64 = 0.3;
+        /// A slower agent has stopped before it turns at red, m/s.
+        HALTED_MPS: f64 = 0.3;
+        /// At green a waiting agent is at least this far before the line, metres.
+        AT_LINE_M: f64 = 0.1;
+        /// Progress within this of a goal reaches it, metres.
+        AT_GOAL_M: f64 = 0.3;
+        /// A jump of one step by so much more than the hardest braking is smoothed away later, m/s2.
+        JUMP_MPS2: f64 = 4.0;
     }
     /// Of speed profiles.
     profile {
@@ -300,11 +390,23 @@ numbers! {
         /// Manners of driving to a goal in the order of trying, from comfortable (0) to hurried (1). Recorded drivers are
         /// less patient than comfort alone.
         HURRY: [f64; 3] = [0.4, 0.7, 1.0];
+        /// Usual speeding up and braking, m/s2.
+        CRUISING_MPS2: (f64, f64) = (1.5, 2.5);
+        /// Hardest braking for the caps of a path without hurry, m/s2.
+        BRAKING_MPS2: f64 = 4.0;
+        /// The same with a goal in time or in speed, m/s2.
+        HARDEST_MPS2: f64 = 8.0;
     }
     /// Of ways through via points.
     through {
         /// A via point is passed at most so many times as fast as its lane suggests.
         PRESSED: f64 = 1.6;
+        /// A leg to a via point counts as at least so long, metres.
+        LEAST_LEG_M: f64 = 0.1;
+        /// Least pace between via points: share of the speed off every lane.
+        UNHURRIED: f64 = 0.7;
+        /// The next speed that is tried: factor, and what is added, m/s.
+        FASTER: (f64, f64) = (1.15, 0.3);
     }
     /// Of ways to a goal.
     to_goal {
@@ -316,5 +418,72 @@ numbers! {
         AFTER_GOAL_M: f64 = 10.0;
         /// Share of the limits of speeding up and braking that a way may need.
         PRESSED_SHARE: f64 = 0.8;
+        /// Sideways acceleration in the bends of a way to a goal, m/s2.
+        LATERAL_MPS2: f64 = 3.5;
+        /// Metres against the rules that a late arrival counts as.
+        LATE_M: f64 = 1e3;
+        /// A goal that is nearer has no direction, metres.
+        LEAST_CHORD_M: f64 = 0.3;
+        /// A way does not wind up to this share of the straight one, and so many metres more.
+        DIRECT: (f64, f64) = (1.25, 0.3);
+    }
+    /// Of paths and paces on foot without a goal.
+    on_foot {
+        /// A slower pace that is tried: share of the speed now, and what is added, m/s.
+        SLOWER: (f64, f64) = (0.6, 0.2);
+        /// A faster pace that is tried: share of the speed now.
+        FASTER: f64 = 1.3;
+        /// An even pace that is tried, m/s.
+        EVEN_MPS: f64 = 1.35;
+        /// A pace close to standing that is tried, m/s.
+        STROLLING_MPS: f64 = 0.3;
+        /// The velocity of a slower walker is sway and gives no direction, m/s.
+        SWAYING_MPS: f64 = 0.3;
+        /// The length of a path ahead is for this speed at least, m/s.
+        LEAST_MPS: f64 = 1.4;
+        /// A path ahead is longer than the way in a window: by this factor, and by so many metres.
+        LONGER: (f64, f64) = (1.3, 4.0);
+    }
+    /// Of paths ahead.
+    way {
+        /// Turn of the two bent paths where no lane leads on, radians over their length.
+        BEND_RAD: f64 = 0.6;
+        /// Speed on foot off every lane, m/s.
+        OFF_LANES_ON_FOOT_MPS: f64 = 1.6;
+        /// Speed on a bicycle off every lane, m/s.
+        OFF_LANES_RIDING_MPS: f64 = 5.0;
+        /// Speed of a vehicle off every lane, m/s.
+        OFF_LANES_DRIVING_MPS: f64 = 8.0;
+        /// Cap of a path without a speed limit, m/s: above every limit of a map.
+        WITHOUT_LIMIT_MPS: f64 = 60.0;
+        /// Pace on a path without a speed limit, m/s.
+        ASSUMED_LIMIT_MPS: f64 = 15.0;
+        /// A place is searched on a path so far before and after its expected progress, metres.
+        SEARCHED_M: (f64, f64) = (6.0, 12.0);
+    }
+    /// Of modes that coincide.
+    duplicate_modes {
+        /// A mode in place of a copy is farther from all others than copies are, by this factor.
+        NO_COPY: f64 = 1.05;
+        /// Ridge of the fit of knots to a change of pace, in squared metres a knot.
+        RIDGE: f64 = 0.05;
+    }
+    /// Of plain steps downhill from drafts that conflict.
+    overlaps {
+        /// Shares of a step downhill that are tried, until one lowers the energy.
+        STEP_SHARES: [f32; 3] = [1.0, 0.5, 0.25];
+    }
+    /// Of draws of further samples.
+    sampling {
+        /// A motion on foot of this length is drawn with the full spread, metres.
+        FULL_ON_FOOT_M: f64 = 8.0;
+        /// The same on a bicycle, metres.
+        FULL_RIDING_M: f64 = 25.0;
+        /// The same of a vehicle, metres.
+        FULL_DRIVING_M: f64 = 40.0;
+        /// Draws at the greatest diversity may exceed the usual share of the caps by this much more.
+        MORE_HURRY: f64 = 0.15;
+        /// Shares of a drawn offset along the way, in the order of trying.
+        SHARES: [f64; 4] = [1.0, 0.7, 0.45, 0.2];
     }
 }

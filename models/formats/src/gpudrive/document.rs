@@ -4,7 +4,7 @@ use crate::limits::{MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::lists::bounded;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::parser_words;
-use crate::source::Source;
+use crate::source::{Source, unmarked};
 use crate::unpack::{self, Bounds};
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
@@ -159,7 +159,8 @@ impl Serialize for Lights {
 /// `malformed-json` with line and column, `invalid-field` with the place, the bounds of a file.
 pub(super) fn read(file: &dyn Source) -> Result<Document, ReadError> {
     let open = || {
-        let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
+        let input =
+            file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES))).and_then(unmarked);
         input.map(serde_json::Deserializer::from_reader).map_err(|error| unpack::fault(&error, 0))
     };
     let mut parser = open()?;

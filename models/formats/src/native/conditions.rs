@@ -98,7 +98,7 @@ pub struct StartDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped.
+    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -124,7 +124,7 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped.
+    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -136,7 +136,7 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1500.0, max = 1500.0))]
     pub left_m: Option<f64>,
-    /// Frame `agent`: radians from the start's heading, then wrapped.
+    /// Frame `agent`: radians from the start's heading, then wrapped; a request takes at most a turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub turn_rad: Option<f64>,

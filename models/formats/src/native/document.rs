@@ -107,8 +107,8 @@ impl JsonSchema for RunDoc {
                 {"type": "string", "enum": ["unknown", "arrow_stop", "arrow_caution", "arrow_go", "stop",
                     "caution", "go", "flashing_stop", "flashing_caution"]}
             ],
-            "items": false,
-            "minItems": 2
+            "minItems": 2,
+            "maxItems": 2
         })
     }
 }

@@ -3,7 +3,7 @@
 use crate::limits::{MAX_DOCUMENT_VALUES, memory_for};
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use crate::refusals::{more_than, parser_words, what};
-use crate::source::Source;
+use crate::source::{Source, unmarked};
 use crate::unpack;
 use scene::objects::Objects;
 use serde::Deserialize;
@@ -51,7 +51,10 @@ impl<'a> Text<'a> {
     /// `malformed-file` when it cannot be read.
     pub fn of(file: &'a dyn Source) -> Result<Self, ReadError> {
         let mut bytes = Vec::new();
-        let read = file.open().and_then(|input| input.take(WHOLE_BYTES + 1).read_to_end(&mut bytes));
+        let read = file
+            .open()
+            .and_then(unmarked)
+            .and_then(|input| input.take(WHOLE_BYTES + 1).read_to_end(&mut bytes));
         read.map_err(|error| unpack::fault(&error, bytes.len() as u64))?;
         Ok(if bytes.len() as u64 > WHOLE_BYTES { Self::Long(Long(file)) } else { Self::Whole(bytes) })
     }
@@ -62,10 +65,11 @@ impl<'a> Long<'a> {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn open(&self) -> io::Result<BufReader<ValueLimiter<Box<dyn Read + Send + 'a>>>> {
+    pub fn open(&self) -> io::Result<BufReader<ValueLimiter<impl Read + use<'a>>>> {
         let room = memory_for(self.0.encoded_len()).saturating_sub(WHOLE_MEMORY) / VALUE_MEMORY;
         let most = room.min(MAX_DOCUMENT_VALUES);
-        Ok(BufReader::with_capacity(64 << 10, ValueLimiter { inner: self.0.open()?, commas: 0, most }))
+        let inner = unmarked(self.0.open()?)?;
+        Ok(BufReader::with_capacity(64 << 10, ValueLimiter { inner, commas: 0, most }))
     }
 
     /// As [`from_json`].

@@ -9,7 +9,7 @@ use anyhow::Result;
 use experts::{Generator, Request};
 use rayon::prelude::*;
 use scene::AgentType;
-use scene::preference::{Candidate, Features, Feedback, Trait, Verdict, Way, Wish, choose};
+use scene::preference::{Candidate, Features, Feedback, Trait, Verdict, Wish, WishDirection, choose};
 use scene::random::{Key, Stream};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -274,7 +274,10 @@ impl Hidden {
 
     fn said(&self, features: &Features) -> Wish {
         let rising = self.about.map_or(self.weight, |about| about - self.measured(features));
-        Wish { of: self.of.clone(), wants: if rising > 0.0 { Way::More } else { Way::Less } }
+        Wish {
+            of: self.of.clone(),
+            wants: if rising > 0.0 { WishDirection::More } else { WishDirection::Less },
+        }
     }
 }
 

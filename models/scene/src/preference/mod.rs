@@ -36,14 +36,14 @@ pub enum Verdict {
 /// Which way of a trait is wished.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Way {
+pub enum WishDirection {
     /// More of it; of an order or a manoeuvre: yes.
     More,
     /// Less of it; of an order or a manoeuvre: no.
     Less,
 }
 
-impl Way {
+impl WishDirection {
     fn sign(self) -> f64 {
         match self {
             Self::More => 1.0,
@@ -59,7 +59,7 @@ pub struct Wish {
     #[serde(flatten)]
     pub of: Trait,
     /// Which way.
-    pub wants: Way,
+    pub wants: WishDirection,
 }
 
 /// A card that was judged.

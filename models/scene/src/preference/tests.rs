@@ -115,7 +115,7 @@ fn a_wish_is_told_when_three_answers_agree_twice_over() {
     let pace = told.iter().find(|learned| learned.wish.of == Trait::Pace).unwrap();
     assert_eq!(
         (pace.wish.wants, pace.said, pace.kept, pace.rejected),
-        (Way::More, false, Some((12.0, 14.0)), Some((2.0, 2.0)))
+        (WishDirection::More, false, Some((12.0, 14.0)), Some((2.0, 2.0)))
     );
     assert!(pace.strength > 0.2 && pace.strength <= 1.0 && pace.against.is_empty());
     // One that pulls the other way is named; a second one takes the wish back.
@@ -134,7 +134,7 @@ fn what_is_said_counts_and_what_is_forgotten_does_not() {
     };
     let wants = |wants| Wish { of: Trait::Pace, wants };
     let said = |way| choose(&pool, &Feedback { wishes: vec![wants(way)], ..Feedback::default() }, 6, 2);
-    let (fast, slow) = (said(Way::More), said(Way::Less));
+    let (fast, slow) = (said(WishDirection::More), said(WishDirection::Less));
     assert!(pace(&fast) > pace(&slow) + 3.0);
     assert!(
         fast.wishes[0].said && fast.cards[0].fulfils == Some(1.0) && slow.cards[0].features.pace_mps < 5.0
@@ -150,9 +150,9 @@ fn what_is_said_counts_and_what_is_forgotten_does_not() {
     let draw: Vec<&Features> = pool.iter().map(|c| &c.features).collect();
     let leaning = |feedback: &Feedback| Taste::learn(feedback, &draw).leaning(&Trait::Pace);
     let before = leaning(&why);
-    why.answers[0].why = Some(wants(Way::More));
+    why.answers[0].why = Some(wants(WishDirection::More));
     let once = leaning(&why);
-    why.answers[1].why = Some(wants(Way::More));
+    why.answers[1].why = Some(wants(WishDirection::More));
     assert!(before < once && once < leaning(&why));
 }
 

@@ -1,7 +1,7 @@
 //! Learned wishes, as statements that a person can check and take back.
 
 use super::taste::Taste;
-use super::{Feedback, JudgedCard, Trait, Verdict, Way, Wish};
+use super::{Feedback, JudgedCard, Trait, Verdict, Wish, WishDirection};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -48,7 +48,9 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
     let spoken = feedback.wishes.iter().rfind(|wish| wish.of == of);
     // Correlated traits cannot be separated: the wish follows the answers, the strength the posterior.
     let shown = mean(feedback, Verdict::Keep, &of).zip(mean(feedback, Verdict::Reject, &of));
-    let way = shown.map_or(Way::More, |(kept, rejected)| if kept < rejected { Way::Less } else { Way::More });
+    let way = shown.map_or(WishDirection::More, |(kept, rejected)| {
+        if kept < rejected { WishDirection::Less } else { WishDirection::More }
+    });
     let wish = Wish { wants: spoken.map_or(way, |wish| wish.wants), of };
     let (kept, rejected) =
         (range(feedback, Verdict::Keep, &wish.of), range(feedback, Verdict::Reject, &wish.of));
@@ -75,7 +77,7 @@ fn agrees(answer: &JudgedCard, wish: &Wish, middle: f64) -> Option<bool> {
 }
 
 /// A value lies on the wished side of the middle.
-fn is_wished(value: f64, middle: f64, wants: Way) -> Option<bool> {
+fn is_wished(value: f64, middle: f64, wants: WishDirection) -> Option<bool> {
     let beyond = wants.sign() * (value - middle);
     (beyond.abs() > 1e-9).then_some(beyond > 0.0)
 }

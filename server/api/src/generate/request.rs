@@ -13,7 +13,8 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Greatest angle of a condition, either way: a turn, radians.
+/// Greatest angle of a condition in a request, either way: a turn, radians. A document may hold up to 1000 rad either
+/// way, which is wrapped.
 pub const MOST_ANGLE_RAD: f64 = std::f64::consts::TAU;
 
 /// `"all"` or a list of ids.

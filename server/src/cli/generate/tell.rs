@@ -156,8 +156,8 @@ fn fault(fault: &Fault) -> String {
     format!("{what}{with} at {:.1} s", fault.time_s)
 }
 
-/// Names the road users that enter later and replay the recording, in a scene that is generated whole: the recording
-/// does not react to the generated motion.
+/// Counts the road users that enter later and replay the recording, in a scene that is generated whole: the
+/// recording does not react to the generated motion.
 fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
     let whole = args.agents.is_empty() && args.react.is_empty() && made.casting.is_none();
     let samples = made.scene.generated.iter().flat_map(|generated| &generated.samples);
@@ -168,9 +168,15 @@ fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
             && !samples.clone().any(|sample| sample.agents.contains_key(&agent.id))
     };
     let count = made.scene.agents.iter().filter(late).count();
-    (whole && count > 0).then(|| {
-        format!("{count} road users come in later and keep their log; --react lets them answer the others")
-    })
+    (whole && count > 0).then(|| entering(count))
+}
+
+/// Road users that enter later, by their number.
+fn entering(count: usize) -> String {
+    match count {
+        1 => "1 road user enters later and replays the recording; --react lets it react".into(),
+        _ => format!("{count} road users enter later and replay the recording; --react lets them react"),
+    }
 }
 
 #[cfg(test)]
@@ -202,5 +208,7 @@ mod tests {
             edge: None,
         };
         assert_eq!(fault(&near), "nearly collides with 7 at 1.2 s");
+        assert_eq!(entering(1), "1 road user enters later and replays the recording; --react lets it react");
+        assert!(entering(2).starts_with("2 road users enter later and replay the recording"));
     }
 }

@@ -29,11 +29,11 @@ pub struct EvalArgs {
     /// one file per type.
     #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
     baseline: Vec<(String, PathBuf)>,
-    /// Tables to compute: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations, 8
-    /// refinement (about 10 min on one core for 40 scenes), 9 trust.
-    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
-          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=TABLES.len() as u64))]
-    tables: Vec<usize>,
+    /// Tables to compute, by number or name: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost,
+    /// 7 ablations, 8 refinement (about 10 min on one core for 40 scenes), 9 trust, 10 feedback.
+    #[arg(long, value_name = "TABLE", value_delimiter = ',', default_values = ["1", "2", "3", "4", "5", "6", "7"],
+          value_parser = table)]
+    tables: Vec<&'static TableSpec>,
     /// Folder for the tables as Markdown and JSON, and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -68,6 +68,17 @@ pub struct BenchArgs {
     /// Duration of each crowd, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0, requires = "crowd")]
     seconds: f64,
+}
+
+/// A table by its number or its name.
+fn table(text: &str) -> Result<&'static TableSpec, String> {
+    let number = text.parse().ok().and_then(TableSpec::numbered);
+    let named = || const { &TABLES }.iter().find(|table| table.name == text);
+    number.or_else(named).ok_or_else(|| {
+        let each: Vec<String> =
+            TABLES.iter().map(|table| format!("{} {}", table.number, table.name)).collect();
+        format!("a number or a name expected: {}", each.join(", "))
+    })
 }
 
 /// Seconds as steps of the scene.
@@ -127,7 +138,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         .collect();
     let baselines = baselines?;
     let options = lab_eval::EvalOptions {
-        tables: args.tables.into_iter().filter_map(TableSpec::numbered).collect(),
+        tables: args.tables,
         seed: args.seed,
         pictures: args.output.is_some(),
         replan_steps: args.replan,

@@ -35,8 +35,9 @@ pub enum LabCommand {
     #[command(after_help = examples!("dragtraffic lab train-placement windows/ -o placement.json", "dragtraffic lab train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
     TrainPlacement(placement::TrainPlacementArgs),
     /// Evaluate the placement on recorded scenes.
-    #[command(after_help = examples!("dragtraffic lab eval-place recordings/", "dragtraffic lab eval-place recordings/ --radius 80 --seeds 8 --json"))]
-    EvalPlace(placement::EvalPlaceArgs),
+    #[command(after_help = examples!("dragtraffic lab eval-placement recordings/", "dragtraffic lab eval-placement recordings/ --radius 80 --seeds 8 --json"))]
+    #[command(alias = "eval-place")]
+    EvalPlacement(placement::EvalPlacementArgs),
     /// Evaluate filled scenes: road users placed on templates and on the maps of scenes, generated together.
     #[command(after_help = examples!("dragtraffic lab eval-filled assets/scenes/", "dragtraffic lab eval-filled assets/scenes/ --draws 52 --list"))]
     EvalFilled(placement::EvalFilledArgs),
@@ -66,7 +67,7 @@ impl LabCommand {
             Self::Prepare(args) => prepare::prepare(args, common),
             Self::Train(args) => train::train(args, common),
             Self::TrainPlacement(args) => placement::train_placement(args, common),
-            Self::EvalPlace(args) => placement::eval_place(args, common),
+            Self::EvalPlacement(args) => placement::eval_placement(args, common),
             Self::EvalFilled(args) => placement::eval_filled(args, common),
             Self::Eval(args) => eval::eval(args, common),
             Self::Reproduce(args) => reproduce::reproduce(args, common),

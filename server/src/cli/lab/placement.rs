@@ -1,4 +1,4 @@
-//! `dragtraffic lab train-placement`, `eval-place` and `eval-filled`.
+//! `dragtraffic lab train-placement`, `eval-placement` and `eval-filled`.
 
 use super::{SceneArgs, failed, print_json, scenes};
 use crate::cli::inputs::patterns;
@@ -14,7 +14,7 @@ pub struct TrainPlacementArgs {
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// Weights file to write.
-    #[arg(short, long)]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Overwrite the output.
     #[arg(long)]
@@ -24,16 +24,16 @@ pub struct TrainPlacementArgs {
     trained_on: Option<String>,
 }
 
-/// Flags of `eval-place`.
+/// Flags of `eval-placement`.
 #[derive(Args, Clone, Debug)]
-pub struct EvalPlaceArgs {
+pub struct EvalPlacementArgs {
     #[command(flatten)]
     scenes: SceneArgs,
     /// Radius of the region around the ego, m.
-    #[arg(long, default_value_t = 60.0)]
+    #[arg(long, value_name = "METRES", default_value_t = 60.0)]
     radius: f64,
     /// Placements per scene.
-    #[arg(long, default_value_t = 4)]
+    #[arg(long, value_name = "N", default_value_t = 4)]
     seeds: u64,
     /// Print JSON instead of Markdown.
     #[arg(long)]
@@ -46,7 +46,7 @@ pub struct EvalFilledArgs {
     #[command(flatten)]
     scenes: SceneArgs,
     /// Number of filled scenes; templates and maps take turns.
-    #[arg(long, default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = 200)]
     draws: u64,
     /// List each fault with its road users.
     #[arg(long)]
@@ -78,7 +78,7 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
 ///
 /// # Errors
 /// Exit 3 when nothing can be read, 7 without weights.
-pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
+pub fn eval_placement(args: EvalPlacementArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
     let placer = common.engine()?.placer;
     let options = lab_eval::placement::EvalPlaceOptions { radius_m: args.radius, seeds: args.seeds };

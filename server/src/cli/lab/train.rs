@@ -20,54 +20,54 @@ const PUSH: &str = "push";
 #[derive(Args, Clone, Debug)]
 pub struct TrainArgs {
     /// Files written by `lab prepare`.
-    #[arg(required = true)]
+    #[arg(required = true, value_name = "FILE")]
     records: Vec<PathBuf>,
     /// Stage of the training, in this order.
-    #[arg(long, value_enum, required_unless_present = "baseline")]
+    #[arg(long, value_enum, value_name = "STAGE", required_unless_present = "baseline")]
     stage: Option<Stage>,
     /// Expert to train.
-    #[arg(long, value_enum, required_unless_present = "baseline")]
+    #[arg(long, value_enum, value_name = "TYPE", required_unless_present = "baseline")]
     expert: Option<AgentType>,
     /// Train a baseline for `lab eval --baseline` instead of an expert. trafficgen takes the records of
     /// vehicles, trafficgen-conditional one file per type, paper an --expert and the three stages.
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, value_name = "METHOD")]
     baseline: Option<BaselineKind>,
     /// Weights file to write; its checkpoint lies beside it.
-    #[arg(short, long)]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Weights of the previous stage.
-    #[arg(long)]
+    #[arg(long, value_name = "FILE")]
     init: Option<PathBuf>,
     /// Optimiser steps.
-    #[arg(long, default_value_t = 3000)]
+    #[arg(long, value_name = "N", default_value_t = 3000)]
     steps: u64,
     /// Passes through the records, instead of --steps.
-    #[arg(long, conflicts_with = "steps")]
+    #[arg(long, value_name = "N", conflicts_with = "steps")]
     epochs: Option<f64>,
     /// Records per step.
-    #[arg(long, default_value_t = 64)]
+    #[arg(long, value_name = "N", default_value_t = 64)]
     batch: usize,
     /// Maximum learning rate.
-    #[arg(long, default_value_t = 1e-3)]
+    #[arg(long, value_name = "RATE", default_value_t = 1e-3)]
     rate: f64,
     /// Final learning rate. Default: a hundredth of the maximum.
-    #[arg(long)]
+    #[arg(long, value_name = "RATE")]
     rate_end: Option<f64>,
     /// Hidden units of a baseline's condition MLP. The paper uses 1024.
     #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=4096))]
     condition_width: usize,
     /// Device that computes the networks. cuda needs a program built with the feature cuda; only the CPU
     /// repeats a run bit for bit.
-    #[arg(long, value_enum, default_value = "cpu")]
+    #[arg(long, value_enum, value_name = "DEVICE", default_value = "cpu")]
     device: Processor,
     /// CPU threads per step; the result does not depend on it.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1)]
     workers: usize,
     /// Seed that draws records and initial weights.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
     seed: u64,
     /// Parts of the refinement to leave out, for ablation.
-    #[arg(long, value_delimiter = ',', value_parser = [PUSH])]
+    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = [PUSH])]
     without: Vec<String>,
     /// Stop after this time, min, with the learning rate scaled to it; the result then depends on the speed
     /// of the machine.

@@ -82,7 +82,8 @@ struct Scored {
 /// Scores scenes.
 ///
 /// # Errors
-/// Exit 3 when none can be read, 4 when some cannot, 8 when the table or a copy exists.
+/// Exit 2 when a scene lacks the requested sample, 3 when none can be read, 4 when some cannot, 8 when the table or a
+/// copy exists.
 pub fn score(args: ScoreArgs, common: &Common) -> Result<(), Failure> {
     let sources = args.inputs.sources()?;
     if let Some(path) = args.csv.as_deref().filter(|path| *path != std::path::Path::new("-")) {
@@ -121,7 +122,9 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
     let mut scored = Scored { text: String::new(), rows: Vec::new(), held: 0, looked_at: 0 };
     source.each(&Reading::default(), &mut |item| {
         let drivable = Drivable::new(&item.scene.map);
-        for (number, sample) in picked(&item.scene, &args.sample) {
+        let samples = picked(&item.scene, &args.sample)
+            .map_err(|reason| Failure::usage(format!("--sample: {}: {reason}", source.shown())))?;
+        for (number, sample) in samples {
             scored.looked_at += 1;
             let input = ScoreInput::of_sample(&item.scene, sample, &drivable);
             let score = scene::score::score(&args.counting.applied(input));
@@ -152,16 +155,33 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
     Ok(scored)
 }
 
+/// A sample with its number; the recording has neither.
+type Numbered<'a> = (Option<usize>, Option<&'a Sample>);
+
 /// The requested samples with their numbers; without futures, only the recording.
-fn picked<'a>(scene: &'a Scene, which: &Which) -> Vec<(Option<usize>, Option<&'a Sample>)> {
-    let Some(generated) = &scene.generated else { return vec![(None, None)] };
+///
+/// # Errors
+/// A sentence when the scene does not have the first of the samples that are requested by number.
+fn picked<'a>(scene: &'a Scene, which: &Which) -> Result<Vec<Numbered<'a>>, String> {
+    let count = scene.generated.as_ref().map_or(0, |generated| generated.samples.len());
+    if let Which::These(Range { start, .. }) = which
+        && *start >= count
+    {
+        let has = match count {
+            0 => "no samples".to_owned(),
+            1 => "1 sample, number 0".to_owned(),
+            _ => format!("{count} samples, numbers 0 to {}", count - 1),
+        };
+        return Err(format!("no sample {start}; the scene has {has}"));
+    }
+    let Some(generated) = &scene.generated else { return Ok(vec![(None, None)]) };
     let wanted = |i: &usize| match which {
         Which::Chosen => *i == generated.chosen_sample,
         Which::All => true,
         Which::These(range) => range.contains(i),
     };
     let samples = generated.samples.iter().enumerate();
-    samples.filter(|(i, _)| wanted(i)).map(|(i, sample)| (Some(i), Some(sample))).collect()
+    Ok(samples.filter(|(i, _)| wanted(i)).map(|(i, sample)| (Some(i), Some(sample))).collect())
 }
 
 fn object(source: &Source, item: &Item, number: Option<usize>, score: &Score) -> Value {

@@ -64,7 +64,8 @@ refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files",
     params(ImportParams, ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
-    responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody")),
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportedBody"),
+            headers(("Location" = String, description = "address of the first stored scene"))),
         (status = 200, description = "dry run", body = ref("#/components/schemas/ImportedBody")), Refused))]
 pub async fn import(
     State(app): State<App>,

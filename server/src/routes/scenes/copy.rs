@@ -30,7 +30,9 @@ refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull, IdempotencyKey
     params(("id" = String, Path), ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json",
         example = json!({"name": "left turn, later"})),
-    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncopied))]
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved"),
+            headers(("ETag" = String, description = "version of the scene"),
+                ("Location" = String, description = "address of the scene"))), Uncopied))]
 pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
     let typed = request.headers().contains_key(header::CONTENT_TYPE);
     if typed {

@@ -41,8 +41,10 @@ refusals!(Unread: QUERY STORE WORK, NotFound);
 #[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
     params(("id" = String, Path), ReadParams),
     responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene"),
-            content_type = "application/vnd.dragtraffic.scene+json"),
-        (status = 304, description = "not changed"), Unread))]
+            content_type = "application/vnd.dragtraffic.scene+json",
+            headers(("ETag" = String, description = "version of the scene"))),
+        (status = 304, description = "not changed",
+            headers(("ETag" = String, description = "version of the scene"))), Unread))]
 pub async fn read(
     State(app): State<App>,
     Id(id): Id,
@@ -97,8 +99,10 @@ refusals!(Unpreviewed: STORE WORK, NotFound);
 #[utoipa::path(get, path = "/v1/scenes/{id}/preview", operation_id = "previewScene", tag = "scenes",
     params(("id" = String, Path)),
     responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene"),
-            content_type = "application/vnd.dragtraffic.scene+json"),
-        (status = 304, description = "not changed"), Unpreviewed))]
+            content_type = "application/vnd.dragtraffic.scene+json",
+            headers(("ETag" = String, description = "version of the scene"))),
+        (status = 304, description = "not changed",
+            headers(("ETag" = String, description = "version of the scene"))), Unpreviewed))]
 pub async fn preview_of(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<Response, Refusal> {
     let opened = app.catalog.open(&id).await?;
     let kept = [(header::CACHE_CONTROL, "private, no-cache")];

@@ -22,7 +22,9 @@ refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull, Idempoten
 #[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
     params(("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 128, pattern = "^[!-~]+$")),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
-    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved"),
+            headers(("ETag" = String, description = "version of the scene"),
+                ("Location" = String, description = "address of the scene"))), Uncreated))]
 pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {
     let id = id::fresh();
     let scene = app.catalog.read(doc).await?;
@@ -37,8 +39,12 @@ refusals!(Unreplaced: CHANGES BODY SCENE STORE WORK,
 #[utoipa::path(put, path = "/v1/scenes/{id}", operation_id = "replaceScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = Option<String>, Header), ("If-None-Match" = Option<String>, Header)),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
-    responses((status = 200, description = "replaced", body = ref("#/components/schemas/Saved")),
-        (status = 201, description = "made", body = ref("#/components/schemas/Saved")), Unreplaced))]
+    responses((status = 200, description = "replaced", body = ref("#/components/schemas/Saved"),
+            headers(("ETag" = String, description = "version of the scene"),
+                ("Location" = String, description = "address of the scene"))),
+        (status = 201, description = "made", body = ref("#/components/schemas/Saved"),
+            headers(("ETag" = String, description = "version of the scene"),
+                ("Location" = String, description = "address of the scene"))), Unreplaced))]
 pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
     let expect = match (if_match(request.headers()), if_none_match(request.headers())) {
         (Some(tags), _) => Expect::Etags(tags),
@@ -100,7 +106,9 @@ refusals!(Unrenamed: CHANGES BODY SCENE STORE WORK,
     params(("id" = String, Path), ("If-Match" = String, Header)),
     request_body(content = ref("#/components/schemas/ScenePatch"),
         content_type = "application/merge-patch+json", example = json!({"name": "left turn, late"})),
-    responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved")), Unrenamed))]
+    responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved"),
+            headers(("ETag" = String, description = "version of the scene"),
+                ("Location" = String, description = "address of the scene"))), Unrenamed))]
 pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
     let tags = if_match(request.headers()).ok_or_else(precondition_required)?;
     body::media_type(request.headers(), &["application/merge-patch+json", "application/json"])?;

@@ -1053,11 +1053,6 @@ export interface components {
             reaction?: components["schemas"]["Reaction"] | null;
         };
         /**
-         * Condition
-         * @description Condition of the server, for its operators.
-         */
-        Condition: "ok" | "ready";
-        /**
          * ConditionRange
          * @description Allowed sizes and speeds of one agent type; both ends are allowed.
          */
@@ -2023,7 +2018,7 @@ export interface components {
             ahead_m?: number | null;
             /**
              * Format: double
-             * @description Radians, then wrapped.
+             * @description Radians, then wrapped; a request takes at most a turn either way, 6.2832.
              */
             heading_rad?: number | null;
             /**
@@ -2048,7 +2043,7 @@ export interface components {
             time_s?: number | null;
             /**
              * Format: double
-             * @description Frame `agent`: radians from the start's heading, then wrapped.
+             * @description Frame `agent`: radians from the start's heading, then wrapped; a request takes at most a turn either way, 6.2832.
              */
             turn_rad?: number | null;
             /** @description In place of `speed_mps`; fixes a free heading too. */
@@ -2090,8 +2085,13 @@ export interface components {
          * @description Health of the server.
          */
         Health: {
-            status: components["schemas"]["Condition"];
+            status: components["schemas"]["HealthStatus"];
         };
+        /**
+         * HealthStatus
+         * @description Health of the server in a word, for its operators.
+         */
+        HealthStatus: "ok" | "ready";
         /**
          * HeartbeatEvent
          * @description A sign of life between events, only in NDJSON: SSE has comments for it.
@@ -2338,6 +2338,22 @@ export interface components {
             traffic: components["schemas"]["Traffic"];
         };
         /**
+         * JunctionPath
+         * @description A way through a junction that is drawn.
+         */
+        JunctionPath: {
+            /** @description It is there because it was added. */
+            added: boolean;
+            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            from: string;
+            /** @description Id of its lane in the map. */
+            lane: string;
+            /** @description A lane away from it, such as `arm3.out1`. */
+            to: string;
+            /** @description The direction, as seen from the entry. */
+            turn: components["schemas"]["Turn"];
+        };
+        /**
          * KeptFutures
          * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
          */
@@ -2527,7 +2543,7 @@ export interface components {
              */
             strength: number;
             /** @description Which way. */
-            wants: components["schemas"]["Way"];
+            wants: components["schemas"]["WishDirection"];
         } & ({
             /** @constant */
             trait: "pace";
@@ -2701,7 +2717,7 @@ export interface components {
             /** @description A scene with the map and no road users. Its `x_layout` has the template and its parameters. */
             scene: components["schemas"]["SceneDoc"];
             /** @description Ways from lane to lane where roads meet at grade. */
-            ways: components["schemas"]["Way2"][];
+            ways: components["schemas"]["JunctionPath"][];
         };
         /**
          * Measures
@@ -4249,7 +4265,7 @@ export interface components {
         StartDoc: {
             /**
              * Format: double
-             * @description Radians, then wrapped.
+             * @description Radians, then wrapped; a request takes at most a turn either way, 6.2832.
              */
             heading_rad?: number | null;
             /**
@@ -4768,27 +4784,6 @@ export interface components {
          */
         WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "nothing-generated";
         /**
-         * Way
-         * @description Which way of a trait is wished.
-         */
-        Way: "more" | "less";
-        /**
-         * Way2
-         * @description A way through a junction that is drawn.
-         */
-        Way2: {
-            /** @description It is there because it was added. */
-            added: boolean;
-            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
-            from: string;
-            /** @description Id of its lane in the map. */
-            lane: string;
-            /** @description A lane away from it, such as `arm3.out1`. */
-            to: string;
-            /** @description The direction, as seen from the entry. */
-            turn: components["schemas"]["Turn"];
-        };
-        /**
          * WeightsInfo
          * @description Facts about one expert's weights.
          */
@@ -4817,7 +4812,7 @@ export interface components {
          */
         Wish: {
             /** @description Which way. */
-            wants: components["schemas"]["Way"];
+            wants: components["schemas"]["WishDirection"];
         } & ({
             /** @constant */
             trait: "pace";
@@ -4848,6 +4843,11 @@ export interface components {
             /** @description The road user. */
             who: string;
         });
+        /**
+         * WishDirection
+         * @description Which way of a trait is wished.
+         */
+        WishDirection: "more" | "less";
     };
     responses: never;
     parameters: never;
@@ -4974,6 +4974,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5102,6 +5104,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5230,6 +5234,8 @@ export interface operations {
             /** @description busy, not-ready */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5426,6 +5432,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5576,6 +5584,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5812,6 +5822,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -5855,7 +5867,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/octet-stream": number[];
+                "application/octet-stream": string;
                 "multipart/form-data": {
                     /** Format: binary */
                     columns?: string;
@@ -5878,6 +5890,8 @@ export interface operations {
             /** @description stored */
             201: {
                 headers: {
+                    /** @description address of the first stored scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6031,6 +6045,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6183,6 +6199,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6323,6 +6341,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6512,6 +6532,8 @@ export interface operations {
             /** @description busy, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6652,6 +6674,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6780,6 +6804,8 @@ export interface operations {
             /** @description busy, store-unavailable */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6805,6 +6831,8 @@ export interface operations {
             /** @description the map */
             200: {
                 headers: {
+                    /** @description hash of the map */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6814,6 +6842,8 @@ export interface operations {
             /** @description not changed */
             304: {
                 headers: {
+                    /** @description hash of the map */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content?: never;
@@ -6941,6 +6971,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7179,6 +7211,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7344,6 +7378,8 @@ export interface operations {
             /** @description busy, store-unavailable */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7374,6 +7410,10 @@ export interface operations {
             /** @description stored */
             201: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
+                    /** @description address of the scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7527,6 +7567,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7579,6 +7621,8 @@ export interface operations {
             /** @description the scene */
             200: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7588,6 +7632,8 @@ export interface operations {
             /** @description not changed */
             304: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content?: never;
@@ -7727,6 +7773,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7772,6 +7820,10 @@ export interface operations {
             /** @description replaced */
             200: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
+                    /** @description address of the scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7781,6 +7833,10 @@ export interface operations {
             /** @description made */
             201: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
+                    /** @description address of the scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7970,6 +8026,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8160,6 +8218,8 @@ export interface operations {
             /** @description busy, store-unavailable */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8208,6 +8268,10 @@ export interface operations {
             /** @description changed */
             200: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
+                    /** @description address of the scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8397,6 +8461,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8457,6 +8523,10 @@ export interface operations {
             /** @description stored */
             201: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
+                    /** @description address of the scene */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8622,6 +8692,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8827,6 +8899,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8864,6 +8938,8 @@ export interface operations {
             /** @description the scene, reduced */
             200: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8873,6 +8949,8 @@ export interface operations {
             /** @description not changed */
             304: {
                 headers: {
+                    /** @description version of the scene */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content?: never;
@@ -9000,6 +9078,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -9221,6 +9301,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {

@@ -51,6 +51,7 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} element has no place in a scene and is left out`,
         other: `${v.count} elements have no place in a scene and are left out`,
       }),
+    'empty-file': 'The file is empty',
     'features-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} map feature of unknown kind or with too few points is left out`,
@@ -114,6 +115,7 @@ export const SENTENCES = table('file-messages', {
         one: `A road user was moved elsewhere ${v.count} time; this gap remains`,
         other: `Road users were moved elsewhere ${v.count} times; these gaps remain`,
       }),
+    'json-array': 'The file is a JSON array; a scene is a JSON object with the format dragtraffic.scene',
     'lanelets-unusable': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} lanelet without two sides, or not for traffic, is left out`,

@@ -7,8 +7,9 @@ use super::yielding::{Paced, YieldManner};
 use crate::generator::choice::price;
 use crate::generator::motion::Sweep;
 use crate::tuning::fixed::giving_way::{
-    FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M, PASSED_ON, VEHICLE_BRAKES,
-    VEHICLE_GAPS_M, VEHICLE_HEADWAYS_S,
+    CYCLIST_SPEEDS_UP_MPS2, FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M,
+    PASSED_ON, VEHICLE_BRAKES, VEHICLE_GAPS_M, VEHICLE_HEADWAYS_S, VEHICLE_SPEEDS_UP_MPS2,
+    WALKER_SPEEDS_UP_MPS2,
 };
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
@@ -204,8 +205,8 @@ fn manners(own: &Reactor) -> Vec<YieldManner> {
         each.map(|((s, g), h)| manner(s, g, h, accelerate_mps2)).collect()
     };
     match own.agent_type {
-        AgentType::Pedestrian => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], 0.8),
-        AgentType::Cyclist => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], 1.0),
-        _ => of(&VEHICLE_BRAKES, &VEHICLE_GAPS_M, &VEHICLE_HEADWAYS_S, 1.5),
+        AgentType::Pedestrian => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], WALKER_SPEEDS_UP_MPS2),
+        AgentType::Cyclist => of(&OTHER_BRAKES, &OTHER_GAPS_M, &[0.0; 3], CYCLIST_SPEEDS_UP_MPS2),
+        _ => of(&VEHICLE_BRAKES, &VEHICLE_GAPS_M, &VEHICLE_HEADWAYS_S, VEHICLE_SPEEDS_UP_MPS2),
     }
 }

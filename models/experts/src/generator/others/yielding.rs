@@ -4,7 +4,7 @@
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
 use crate::tuning::fixed::yielding::{
-    HALTS_MPS, HARD_JERK_MPS3, HARD_MPS2, JERK_MPS3, TRACKS_S, WORTH_GOING_M,
+    AT_REST_MPS, CREEPS_M, HALTS_MPS, HARD_JERK_MPS3, HARD_MPS2, JERK_MPS3, TRACKS_S, WORTH_GOING_M,
 };
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
@@ -129,12 +129,12 @@ impl Paced {
         for (i, state) in path.states.iter().enumerate() {
             if state.speed_mps() < STANDING_MPS {
                 let bound = &mut waiting[path.enters + i];
-                *bound = bound.min(path.along_m[i] + 0.1);
+                *bound = bound.min(path.along_m[i] + CREEPS_M);
             }
         }
         let stands = |s: &&State| s.speed_mps() < STANDING_MPS;
         if !path.leaves() && path.states.last().filter(stands).is_some() {
-            after_end.push((path.length_m() + 0.1, 0.0));
+            after_end.push((path.length_m() + CREEPS_M, 0.0));
         }
         let waiting = ProgressBounds::new(waiting, after_end);
         let brake = manner.brake_mps2;
@@ -170,7 +170,7 @@ impl Paced {
                 rate = 0.0;
             }
             (along, speed) = if speed < 1e-3 && rate <= 0.0 { (along, 0.0) } else { after(rate) };
-            if speed < 0.02 && rate <= 0.0 {
+            if speed < AT_REST_MPS && rate <= 0.0 {
                 speed = 0.0;
             }
             if path.leaves() && along > path.length_m() {

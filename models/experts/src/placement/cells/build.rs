@@ -3,7 +3,10 @@
 use super::{CellKind, Cells, FEATURES, LaneCells, MapCell, class};
 use crate::placement::region::Region;
 use crate::placement::stop_lines::LineAhead;
-use crate::tuning::placing::cells::{EDGE_REACH_M, KERB_LOOK_M, NEXT_LANE_M};
+use crate::tuning::placing::cells::{
+    BEND_OVER_M, BENDS_PER_M, CROSSWALK_REACH_M, CROSSWALKS_M, EDGE_REACH_M, KERB_LOOK_M, KERB_ROOM_M,
+    LANE_REACH_M, LANES_M, LIMITS_MPS, NEAR_END, NEXT_LANE_M, STOPS_M, UNKNOWN_LIMIT_MPS,
+};
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::geometry::{cross, direction};
 use scene::map::LaneType;
@@ -23,7 +26,7 @@ struct WalkStretch {
 }
 
 fn limit_class(limit_mps: f64) -> u8 {
-    class(limit_mps, &[6.5, 10.0, 12.5, 15.0, 19.0, 26.0])
+    class(limit_mps, &LIMITS_MPS)
 }
 
 fn lane_class(lane: &GraphLane) -> u8 {
@@ -76,12 +79,12 @@ impl Cells<'_> {
                 let s = (i as f64 + 0.5) * size;
                 let ahead = self.lights.ahead(graph, index, s);
                 let sides = [true, false].map(|left| beside(graph, index, s, left));
-                let bend = lane.path.curvature_at(s, 6.0).abs();
+                let bend = lane.path.curvature_at(s, BEND_OVER_M).abs();
                 let features = [
                     lane_class(lane),
                     limit_class(lane.speed_limit_mps),
                     ahead.class() as u8,
-                    class(bend, &[0.005, 0.02, 0.06, 0.12]),
+                    class(bend, &BENDS_PER_M),
                     3 * sides[0] + sides[1],
                     0,
                 ];
@@ -129,10 +132,10 @@ impl Cells<'_> {
                 let edge_m = index.ray_m(cell.center, across, KERB_LOOK_M);
                 let free_m = edge_m.map_or(f64::INFINITY, |m| m - half_m);
                 let features = [
-                    class(free_m, &[0.5, 1.5, 2.5, 3.5, 5.0, 8.0]),
+                    class(free_m, &KERB_ROOM_M),
                     u8::from(side > 0.0),
                     limit_class(lane.speed_limit_mps),
-                    class(cell.ahead.stop_m(), &[10.0, 20.0, 40.0]),
+                    class(cell.ahead.stop_m(), &STOPS_M),
                     lane_class(lane),
                     0,
                 ];
@@ -151,7 +154,7 @@ impl Cells<'_> {
 
     /// The point lies on the band of a lane other than `but` that traffic uses.
     fn on_other_lane(&self, point: Vec2, but: usize) -> bool {
-        let hits = self.graph.nearest_lanes(point, 4.0, |i, lane| i != but && drives(lane));
+        let hits = self.graph.nearest_lanes(point, LANE_REACH_M, |i, lane| i != but && drives(lane));
         // The lane's own continuation lies along it, not beside it: its foot is its end.
         hits.iter().any(|h| {
             let lane = &self.graph.lanes()[h.lane];
@@ -171,7 +174,7 @@ impl Cells<'_> {
             let length_m = lane.path.length_m();
             for (from_m, to_m) in cuts(length_m, cell_m) {
                 let s = 0.5 * (from_m + to_m);
-                let near_end = s < 0.25 * length_m || s > 0.75 * length_m;
+                let near_end = s < NEAR_END * length_m || s > (1.0 - NEAR_END) * length_m;
                 let walk =
                     WalkStretch { kind: CellKind::Crosswalk, line: index, on_lane: true, from_m, to_m };
                 self.push_walk(walk, region, |_, _| Some((1.0, [u8::from(near_end), 0, 0, 0, 0, 0])));
@@ -287,18 +290,13 @@ fn pavement_features(
     median: bool,
 ) -> [u8; FEATURES] {
     let crosswalk = |_: usize, l: &GraphLane| matches!(l.source, LaneSource::Crosswalk(_));
-    let crossing_m =
-        graph.nearest_lanes(center, 30.0, crosswalk).first().map_or(f64::INFINITY, |h| h.distance_m);
+    let crossing_m = graph
+        .nearest_lanes(center, CROSSWALK_REACH_M, crosswalk)
+        .first()
+        .map_or(f64::INFINITY, |h| h.distance_m);
     let lane_m = lane.map_or(f64::INFINITY, |h| h.distance_m - kerb_m);
-    let limit = lane.map_or(13.4, |h| graph.lanes()[h.lane].speed_limit_mps);
-    [
-        class(crossing_m, &[4.0, 12.0, 30.0]),
-        class(lane_m, &[2.5, 4.0, 6.0, 9.0]),
-        limit_class(limit),
-        u8::from(median),
-        0,
-        0,
-    ]
+    let limit = lane.map_or(UNKNOWN_LIMIT_MPS, |h| graph.lanes()[h.lane].speed_limit_mps);
+    [class(crossing_m, &CROSSWALKS_M), class(lane_m, &LANES_M), limit_class(limit), u8::from(median), 0, 0]
 }
 
 /// Even pieces of a line of at most `cell_m`; none of a line without length.

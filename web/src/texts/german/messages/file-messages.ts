@@ -53,6 +53,7 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} Element hat in einer Szene keinen Platz und entfällt`,
         other: `${v.count} Elemente haben in einer Szene keinen Platz und entfallen`,
       }),
+    'empty-file': 'Die Datei ist leer',
     'features-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Kartenelement unbekannter Art oder mit zu wenigen Punkten entfällt`,
@@ -116,6 +117,7 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücke bleibt`,
         other: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücken bleiben`,
       }),
+    'json-array': 'Die Datei ist eine JSON-Liste; eine Szene ist ein JSON-Objekt mit dem Format dragtraffic.scene',
     'lanelets-unusable': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Lanelet ohne zwei Seiten oder nicht für Verkehr entfällt`,

@@ -1,0 +1,64 @@
+//! The words of commits: a title of at most 72 characters, and a body that says why.
+
+use crate::{Outcome, root};
+use anyhow::{Context, ensure};
+use std::process::{Command, Stdio};
+
+/// Commits after this one are looked at; those before it keep their words.
+const BASE: &str = "d4dc151ee69ea78895ba5e74511b5c5d3144bf32";
+/// Most characters of a title.
+const MOST_CHARS: usize = 72;
+
+/// Reads the commits since the base; of a shallow clone without the base, those that are there.
+pub fn check() -> anyhow::Result<Outcome> {
+    let Ok(shallow) = git(&["rev-parse", "--is-shallow-repository"]) else {
+        return Ok(Outcome::Skipped("no git repository".into()));
+    };
+    let base = git(&["cat-file", "-e", &format!("{BASE}^{{commit}}")]).is_ok();
+    let range = match (base, shallow.trim()) {
+        (true, _) => format!("{BASE}..HEAD"),
+        (false, "true") => "HEAD".to_owned(),
+        (false, _) => return Ok(Outcome::Skipped(format!("the history lacks {BASE}"))),
+    };
+    let faults = faults(&git(&["log", "--no-merges", "--format=%h%x00%s%x00%b%x1e", &range])?);
+    Ok(if faults.is_empty() { Outcome::Passed } else { Outcome::Failed(faults.join(", ")) })
+}
+
+/// What is wrong with each commit: its hash, title and body end with zero bytes, and it with a record separator.
+fn faults(log: &str) -> Vec<String> {
+    let commits = log.split('\u{1e}').filter_map(|commit| {
+        let (hash, words) = commit.trim_start().split_once('\0')?;
+        let (title, body) = words.split_once('\0')?;
+        Some((hash, title.chars().count(), body.trim().is_empty()))
+    });
+    let fault = |(hash, chars, is_bare): (&str, usize, bool)| match (chars > MOST_CHARS, is_bare) {
+        (true, _) => Some(format!("{hash} has a title of {chars} characters; at most {MOST_CHARS}")),
+        (false, true) => Some(format!("{hash} has no body that says why")),
+        (false, false) => None,
+    };
+    commits.filter_map(fault).collect()
+}
+
+/// What git prints.
+fn git(arguments: &[&str]) -> anyhow::Result<String> {
+    let mut git = Command::new("git");
+    let output = git.args(arguments).current_dir(root()).stdin(Stdio::null()).output().context("git")?;
+    ensure!(output.status.success(), "git {}: {}", arguments.join(" "), output.status);
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::faults;
+
+    #[test]
+    fn long_titles_and_bare_commits_are_named() {
+        let long = "x".repeat(73);
+        let log = format!(
+            "a1\0Add a check\0It finds them.\n\u{1e}\nb2\0{long}\0Why.\n\u{1e}\nc3\0Fix it\0\n\u{1e}\n"
+        );
+        let expected = ["b2 has a title of 73 characters; at most 72", "c3 has no body that says why"];
+        assert_eq!(faults(&log), expected);
+        assert!(faults("").is_empty());
+    }
+}
