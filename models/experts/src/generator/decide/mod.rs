@@ -28,8 +28,9 @@ use std::sync::Arc;
 
 /// Motions of one actor that are replanned in a round.
 const MOST_TRIED: usize = 2;
-/// Futures that are looked at in place of one with a fault.
+/// Futures that are looked at in place of one with a fault, and of those that stop short of the goal.
 const MOST_JUDGED: usize = 10;
+const MOST_STOPS: usize = 4;
 /// Rounds of replanning: an agent that swerves for one may meet another.
 const MOST_ROUNDS: usize = 2;
 
@@ -137,21 +138,22 @@ impl OptionTable<'_> {
         let chosen = settled.chosen[i];
         let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
         let costs = &self.choice.agents[i];
-        let mut order: Vec<usize> = (0..costs.len()).filter(|o| *o != chosen).collect();
         let another = |o: usize| !self.candidates[i][o].origin.is_shown();
-        order.sort_by(|a, b| {
-            let rank = |o: usize| (misses(o), another(o));
-            rank(*a).cmp(&rank(*b)).then(costs[*a].cost.total_cmp(&costs[*b].cost))
-        });
+        let mut order: Vec<usize> = (0..costs.len()).filter(|o| *o != chosen).collect();
+        order.sort_by(|a, b| another(*a).cmp(&another(*b)).then(costs[*a].cost.total_cmp(&costs[*b].cost)));
+        let (missing, reaching): (Vec<usize>, Vec<usize>) = order.into_iter().partition(|o| misses(*o));
         let mut best = (worst, settled);
-        for o in order.into_iter().take(MOST_JUDGED) {
-            if misses(o) && best.0 != FaultKind::Collision {
-                break;
-            }
-            let next = self.with_option(i, o, &best.1);
-            let Some(worst) = self.worst_fault(i, &next) else { return next };
-            if worst > best.0 {
-                best = (worst, next);
+        for (options, most) in [(reaching, MOST_JUDGED), (missing, MOST_STOPS)] {
+            for o in options.into_iter().take(most) {
+                // Only a collision is worth a missed goal.
+                if misses(o) && best.0 != FaultKind::Collision {
+                    break;
+                }
+                let next = self.with_option(i, o, &best.1);
+                let Some(worst) = self.worst_fault(i, &next) else { return next };
+                if worst > best.0 {
+                    best = (worst, next);
+                }
             }
         }
         best.1
