@@ -184,10 +184,13 @@ describe('a broken scene', () => {
   });
 
   it('that is none at all is recognised by its first bytes', async () => {
-    expect(await foreignKind(new Blob(['%PDF-1.7']))).toEqual({ kind: 'a PDF', surely: true });
+    expect(await foreignKind(new Blob(['%PDF-1.7']))).toEqual({
+      kind: { name: 'PDF', inSentence: 'a PDF' },
+      surely: true,
+    });
     // Some hold a network and a recording.
     const zip = new Blob([new Uint8Array([0x50, 0x4b, 3, 4])]);
-    expect(await foreignKind(zip)).toEqual({ kind: 'a ZIP archive', surely: false });
+    expect(await foreignKind(zip)).toMatchObject({ kind: { name: 'ZIP archive' }, surely: false });
     expect(await foreignKind(new Blob(['{}']))).toBeNull();
     expect(await foreignKind(new Blob([]))).toBeNull();
   });

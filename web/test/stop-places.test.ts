@@ -1,7 +1,7 @@
 // Stop places on a path, and names of lanes at a junction.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { armWords } from '../src/model/words/arm-names';
+import { armLane } from '../src/model/words/arm-names';
 import { pointAt } from '../src/model/base/geometry';
 import { turnOf, type Lane } from '../src/model/document/lanemap';
 import type { Path } from '../src/model/document/profile';
@@ -57,7 +57,7 @@ describe('stop places', () => {
 describe('lanes at the only junction', () => {
   it('are named by their arm, and by their direction where there is only one', () => {
     for (const lane of lit) {
-      const words = armWords(scene.map, lane)!;
+      const words = armLane(scene.map, lane)!.name;
       const end = pointAt(lane.line, lane.line.length);
       // The lane leads to the centre: its arm is on the other side.
       const back = ['W', 'SW', 'S', 'SE', 'E', 'NE', 'N', 'NW'][
@@ -70,7 +70,7 @@ describe('lanes at the only junction', () => {
     const out = lanes.find(
       (l) => !l.inside && l.kind === 'road' && l.prev.some((id) => scene.map.lanes.get(id)?.inside),
     )!;
-    expect(armWords(scene.map, out)).toMatch(/^[NESW]+ arm, outbound lane$/);
+    expect(armLane(scene.map, out)?.name).toMatch(/^[NESW]+ arm, outbound lane$/);
   });
 
   it('are outbound where they lead away from a roundabout, also towards another junction', () => {
@@ -79,11 +79,11 @@ describe('lanes at the only junction', () => {
       const [start, end] = [pointAt(l.line, 0), pointAt(l.line, l.line.length)];
       return !l.inside && l.kind === 'road' && Math.hypot(end.x, end.y) > Math.hypot(start.x, start.y) + 10;
     });
-    const words = away.flatMap((l) => armWords(map, l) ?? []);
+    const words = away.flatMap((l) => armLane(map, l)?.name ?? []);
     expect(words.length).toBeGreaterThan(2);
     expect(words.filter((w) => !/outbound lane$|bus lane$/.test(w))).toEqual([]);
     // A vehicle that enters may leave by any arm, and a part of the ring is on none.
-    const all = [...map.lanes.values()].filter((l) => !l.inside).map((l) => armWords(map, l));
+    const all = [...map.lanes.values()].filter((l) => !l.inside).map((l) => armLane(map, l)?.name);
     expect(all.filter((w) => w && /turn lane$|^(NE|NW|SE|SW)/.test(w))).toEqual([]);
     expect(all.filter((w) => w?.endsWith('inbound lane')).length).toBeGreaterThan(3);
   });

@@ -89,6 +89,3 @@ export function speak(name: LanguageName): void {
   }
   location.reload();
 }
-
-/** Places with a preposition of their own: `off the lanes`, `in the junction`. */
-export const SAYS_WHERE = /^(on|off|inside|beside|in) /;

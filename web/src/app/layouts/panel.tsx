@@ -1,9 +1,8 @@
 // Parameters of a map being made: the selected arm, the whole map, and its checks.
-import { armTitle } from '../../model/words/arm-names';
 import { Fragment, type ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
 import { connectionOf, laneOf, rangeOf, sameWay, TEMPLATE_TITLES } from '../../model/document/layouts';
-import { messageText } from '../../model/words/message-text';
+import { messageText, withArms } from '../../model/words/message-text';
 import { SENTENCES } from '../../texts/messages/map-messages';
 import { fromUnit, lengthUnit, num, speedText, toLength, toUnit } from '../../model/base/units';
 import type { Arm, Parameters } from '../../net/types';
@@ -176,8 +175,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
   const arm = arms[index];
   const set = (change: Partial<Arm>) => layouts.setArm(index, change);
   const now = (): Arm => layouts.arms.value[Math.min(layouts.arm.value, layouts.arms.value.length - 1)];
-  const called = layouts.made.value?.arms[index]?.name;
-  const name = called ? armTitle(called) : TEXTS.arm;
+  const name = layouts.made.value?.arms[index]?.title ?? TEXTS.arm;
   const turned = layouts.turned.value;
   const number = (key: 'length_m' | 'speed_limit_kmh' | 'cycle_lane_m' | 'crosswalk_m' | 'median_m') => (
     <NumberRow
@@ -488,7 +486,7 @@ function Tightest({ asked_m }: { asked_m: number }) {
   const made = useApp().layouts.made.value;
   const [least] = [...(made?.corners ?? [])].sort((a, b) => a.radius_m - b.radius_m);
   if (!made || !least || least.radius_m > asked_m - 0.05) return null;
-  const [a, b] = least.arms.map((arm) => armTitle(made.arms[arm].name));
+  const [a, b] = least.arms.map((arm) => made.arms[arm].title);
   return <p class="mut short">{TEXTS.tighterCorner(`${num(toLength(least.radius_m), 1)} ${lengthUnit()}`, a, b)}</p>;
 }
 
@@ -497,6 +495,7 @@ function Checks() {
   const made = layouts.made.value;
   const fault = layouts.fault.value;
   const failed = made?.checks.filter((c) => !c.passed) ?? [];
+  const sentences = withArms(SENTENCES, made?.arms ?? []);
   return (
     <section class="sect last" aria-label={TEXTS.checks}>
       <h3>{TEXTS.checks}</h3>
@@ -512,10 +511,10 @@ function Checks() {
                   stage.glide.by((v) => v.centre(x, y));
                 }}
               >
-                <b>{failed.indexOf(c) + 1}</b> {messageText(c.message, c.text, SENTENCES)}
+                <b>{failed.indexOf(c) + 1}</b> {messageText(c.message, c.text, sentences)}
               </button>
             ) : (
-              messageText(c.message, c.text, SENTENCES)
+              messageText(c.message, c.text, sentences)
             )}
           </li>
         ))}

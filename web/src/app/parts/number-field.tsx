@@ -55,7 +55,7 @@ const clean = (v: number): number => Number(v.toFixed(6));
 
 /** A field for lengths or accelerations is used in metres and displayed in the unit of lengths. */
 function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
-  if (!/^(?:length|acceleration)$/.test(p.quantity()) || lengthUnit() === 'm') return p;
+  if (!['length', 'acceleration'].includes(p.quantity()) || lengthUnit() === 'm') return p;
   return {
     ...p,
     step: lengthStep(p.step),

@@ -1,6 +1,6 @@
 // Snapping to lanes and angles, with a visible sign; Alt disables it.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from '../../model/base/geometry';
-import { armWords } from '../../model/words/arm-names';
+import { armLane, namedLane, namedPlace, type LaneName } from '../../model/words/arm-names';
 import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
 import { TEXTS } from '../../texts/editing/picture';
@@ -151,41 +151,50 @@ export function snapHeading(
 }
 
 /** Cached words for places of a map: several parts of the page need the same few. */
-const said = new WeakMap<LaneMap, Map<string, string>>();
+const said = new WeakMap<LaneMap, Map<string, LaneName>>();
 const MOST_SAID = 64;
 
 /** Words for the lane under a point. */
-export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+export const laneWords = (...at: Parameters<typeof laneNameAt>): string => laneNameAt(...at).name;
+
+/** The same with and without a preposition. */
+export function laneNameAt(
+  map: LaneMap,
+  a: Pick<Agent, 'type'>,
+  x: number,
+  y: number,
+  heading: number | null,
+): LaneName {
   let known = said.get(map);
   if (!known || known.size >= MOST_SAID) said.set(map, (known = new Map()));
   const key = `${a.type} ${x} ${y} ${heading}`;
   let words = known.get(key);
-  if (words === undefined) known.set(key, (words = wordsAt(map, a, x, y, heading)));
+  if (words === undefined) known.set(key, (words = nameAt(map, a, x, y, heading)));
   return words;
 }
 
-function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
-  if (a.type === 'pedestrian') return onFoot(map, x, y);
+function nameAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): LaneName {
+  if (a.type === 'pedestrian') return namedPlace(onFoot(map, x, y));
   const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
-  if (!hit) return TEXTS.offTheLanes;
-  if (hit.lane.kind === 'walk') return TEXTS.besideTheRoad;
-  const arm = armWords(map, hit.lane);
+  if (!hit) return namedPlace(TEXTS.offTheLanes);
+  if (hit.lane.kind === 'walk') return namedPlace(TEXTS.besideTheRoad);
+  const arm = armLane(map, hit.lane);
   if (arm) return arm;
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
-  const what =
-    hit.lane.kind === 'bike'
-      ? TEXTS.bikeLane
-      : junction
-        ? TEXTS.insideTheJunction
-        : hit.lane.type === 'freeway'
-          ? TEXTS.motorwayLane
-          : hit.lane.type === 'bus_lane'
-            ? TEXTS.busLane
-            : TEXTS.lane;
-  return junction ? TEXTS.bound(what, way) : TEXTS.wayBound(way, what);
+  if (junction) {
+    // A bike lane through the junction keeps its name.
+    if (hit.lane.kind === 'bike') return namedLane(TEXTS.bound(TEXTS.bikeLane, way));
+    return namedPlace(TEXTS.bound(TEXTS.insideTheJunction, way));
+  }
+  return namedLane(TEXTS.wayBound(way, kindWords(hit.lane)));
+}
+
+function kindWords({ kind, type }: Lane): string {
+  if (kind === 'bike') return TEXTS.bikeLane;
+  return type === 'freeway' ? TEXTS.motorwayLane : type === 'bus_lane' ? TEXTS.busLane : TEXTS.lane;
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {

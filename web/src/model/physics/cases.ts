@@ -1,6 +1,7 @@
 // A searched case: the event and its road users, whether a motion contains it, and how near it comes.
 import { compareMarks } from '../document/future-facts';
 import { motionOf } from './playback';
+import { lightAt } from './signals';
 import { closestTo, timeGapOf, type Closest, type Moving } from './proximity';
 import { eventsIn, type SceneEvent } from './events';
 import type { MotionSet } from '../document/futures';
@@ -226,11 +227,12 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     return { value, time: run.time, at: run.at, other: null, side: null, found: true, miss: -value };
   }
   let best: { d: number; time: number } | null = null;
-  for (const { lane, stop, states } of scene.signals) {
+  for (const signal of scene.signals) {
+    const { lane, stop } = signal;
     const line = scene.map.lanes.get(lane)?.line;
     const into = line ? pointAt(line, 0).heading : null;
     for (let step = 0; stop && step * STEP_S <= scene.duration; step++) {
-      const p = isRed(states, step) ? poseAtStep(one[1], step) : null;
+      const p = lightAt(signal, step * STEP_S) === 'stop' ? poseAtStep(one[1], step) : null;
       // Signals for other approaches do not apply.
       const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < OWN_RAD);
       const d = own ? Math.hypot(stop[0] - p.x, stop[1] - p.y) : Infinity;
@@ -238,13 +240,6 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     }
   }
   return best && momentAt(one, null, [], { value: best.d, time: best.time, found: false, miss: best.d + BESIDE_M });
-}
-
-/** A state holds from its step until the next one. */
-function isRed(states: Scene['signals'][number]['states'], step: number): boolean {
-  let now = '';
-  for (const [from, state] of states) if (from <= step) now = state;
-  return /stop/.test(now);
 }
 
 /** Cases closer than this in time and value, on the same side, are the same. */

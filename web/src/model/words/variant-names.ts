@@ -44,8 +44,15 @@ interface Said {
   readonly weight: number;
 }
 
-/** A name for each, no two alike. `unitOf`: unit for speed conditions of a road user. */
-export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit = () => 'km/h'): string[] {
+/**
+ * A name for each, no two alike. `unitOf`: unit for speed conditions of a road user; `numbered`: the name of one that
+ * differs in nothing, by its id.
+ */
+export function nameVariants(
+  all: readonly Nameless[],
+  unitOf: (a: Agent) => SpeedUnit = () => 'km/h',
+  numbered: (id: number) => string = TEXTS.variant,
+): string[] {
   const said = all.map(() => [] as Said[]);
   all.forEach((v, i) => said[i].push(...ofNumbers(v, all, unitOf), ...ofSubject(v), ...ofEvents(v)));
   const known = all.flatMap((v, i) => (v.scene && v.set ? [{ i, scene: v.scene, set: v.set }] : []));
@@ -61,7 +68,7 @@ export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => Spe
   const taken = new Set<string>();
   return said.map((list, i) => {
     const first = list.sort((p, q) => q.weight - p.weight).find((s) => !taken.has(s.words));
-    const name = first?.words ?? TEXTS.variant(all[i].id);
+    const name = first?.words ?? numbered(all[i].id);
     taken.add(name);
     return name;
   });

@@ -1,4 +1,3 @@
-import { SAYS_WHERE } from '../language';
 import { table } from '../table';
 
 export const TEXTS = table('picture', {
@@ -19,8 +18,8 @@ export const TEXTS = table('picture', {
   beyondReach: (beyond: string) => `${beyond} beyond reach`,
   holdToCross: 'Hold: cross',
   altToCross: 'Alt: cross',
-  /** `on northbound lane`; some places include a preposition: `off the lanes`. */
-  on: (place: string) => (SAYS_WHERE.test(place) ? place : `on ${place}`),
+  /** Of a lane; places beside the lanes have their own preposition: `off the lanes`. */
+  on: (lane: string) => `on ${lane}`,
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
   occupied: 'Occupied',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,

@@ -18,13 +18,13 @@ export const TEXTS = table('places', {
   /** Arms by compass direction, without "arm". */
   arms: {
     east: 'East',
-    'north-east': 'North-east',
+    northEast: 'North-east',
     north: 'North',
-    'north-west': 'North-west',
+    northWest: 'North-west',
     west: 'West',
-    'south-west': 'South-west',
+    southWest: 'South-west',
     south: 'South',
-    'south-east': 'South-east',
+    southEast: 'South-east',
   },
   arm: (compass: string) => `${compass} arm`,
   bikeLane: (arm: string) => `${arm}, bike lane`,

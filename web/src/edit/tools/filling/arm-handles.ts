@@ -1,5 +1,4 @@
 // Screen positions of the arm handles while an area is filled: further outward means more arrivals.
-import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import type { View } from '../../../draw/view';
 import type { Arm } from './filling';
@@ -22,9 +21,6 @@ export interface ArmHandle {
   /** Outward, of length one, in pixels. */
   readonly out: Vec;
 }
-
-/** `North-west 2`. */
-export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(/-(\d+)$/, ' $1'));
 
 /** Handles of the arms inside the picture. */
 export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {

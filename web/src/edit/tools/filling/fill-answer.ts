@@ -1,10 +1,11 @@
 // Converts the server's answer to a placement: which road users would stand where, and which are shown.
-import { insidePolygon, type Vec } from '../../../model/base/geometry';
+import { deg, insidePolygon, wrapAngle, type Vec } from '../../../model/base/geometry';
 import type { AgentJson } from '../../../model/document/scene-json';
 import { PLACED_KINDS, kindOf } from '../../../model/base/kinds';
 import { isStill, motionFrom } from '../../../model/base/motion';
 import { comesLater, settle, type Newcomer } from '../../../model/document/newcomer';
 import { canMove, startPose, type Scene } from '../../../model/document/scene';
+import { armTitles } from '../../../model/words/arm-titles';
 import { castJson, wholeAgentJson } from '../../../model/document/scene-writer';
 import type { Client } from '../../../net/client';
 import type { PlaceReply } from '../../../net/types';
@@ -52,7 +53,7 @@ export class Answers {
       parked: { share: wish.parked },
     };
     const { agents, unplaced, reason, arms, parking_places } = await this.client.place(body, signal);
-    const known: readonly Arm[] = arms.map(armOf);
+    const known: readonly Arm[] = armsOf(arms);
     this.#known = { place: placeOf(scene, wish), arms: known.map((a) => a.id) };
     const more = { replaced, arms: known, parkingPlaces: parking_places };
     const stay = standing(scene).filter((f) => !gone.has(f.agent.id));
@@ -86,14 +87,19 @@ export class Answers {
 
 const placeOf = (scene: Scene, { region }: FillWish): string => JSON.stringify([scene.id, region]);
 
-const armOf = (a: PlaceReply['arms'][number]): Arm => ({
-  id: a.id,
-  at: [a.x_m, a.y_m],
-  heading: a.heading_rad,
-  most: a.most_per_hour,
-  placed: a.placed,
-  later: a.later,
-});
+function armsOf(arms: PlaceReply['arms']): Arm[] {
+  // An arm lies where its traffic comes from.
+  const titles = armTitles(arms.map((a) => deg(wrapAngle(a.heading_rad + Math.PI))));
+  return arms.map((a, i) => ({
+    id: a.id,
+    title: titles[i],
+    at: [a.x_m, a.y_m],
+    heading: a.heading_rad,
+    most: a.most_per_hour,
+    placed: a.placed,
+    later: a.later,
+  }));
+}
 
 /** Road users in the area that may be replaced: neither locked nor read-only. */
 function replaceable(scene: Scene, region: readonly Vec[] | null): string[] {

@@ -33,6 +33,8 @@ export type SpeedRange = readonly [min: number, max: number];
 export interface Arm {
   /** Its compass point, with a number where several share it. */
   readonly id: string;
+  /** `North-west 2`, in the language of the page. */
+  readonly title: string;
   readonly at: Vec;
   /** Direction in which it leads, radians. */
   readonly heading: number;

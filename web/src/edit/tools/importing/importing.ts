@@ -5,7 +5,7 @@ import { Refused, type Beside, type Client } from '../../../net/client';
 import type { ImportReply, ImportWarning, Problem } from '../../../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from '../../session/editor';
-import { foreignKind, kindByName } from './file-kinds';
+import { foreignKind, kindByName, type ForeignKind } from './file-kinds';
 import type { Library } from '../../document/library';
 import { countAll, type SceneList } from '../../document/scene-list';
 import { TEXTS } from '../../../texts/files/importing';
@@ -192,12 +192,12 @@ export function inPairs(files: readonly File[]): { readonly file: File; readonly
 
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
-function foreignVerdict(file: string, kind: string): FileVerdict {
+function foreignVerdict(file: string, { name, inSentence }: ForeignKind): FileVerdict {
   const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
-  const wrong = ending ? TEXTS.namedButItIs(ending, kind) : TEXTS.isNotASceneIt(file, kind);
+  const wrong = ending ? TEXTS.namedButItIs(ending, inSentence) : TEXTS.isNotASceneIt(file, inSentence);
   return {
     file,
-    kind: kind.replace(/^an? /, ''),
+    kind: name,
     ok: false,
     scenes: [],
     wrong,

@@ -1,6 +1,5 @@
 // Overlay of a map being made: knobs and names of the arms, the former place of an arm, the ways of its lanes, and
 // failed checks.
-import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import { metres, num } from '../../../model/base/units';
 import { pill, type Labels } from '../../../draw/labels';
@@ -170,7 +169,7 @@ export class ArmsOverlay {
         const turned = layouts.turned.value;
         const length = layouts.arms.value[k.arm]?.length_m;
         const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${metres(length, 0)}` : '';
-        const words = `${armTitle(made.arms[k.arm].name)} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
+        const words = `${made.arms[k.arm].title} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
         const mine = k.arm === layouts.arm.value;
         pill(g, this.labels, x, y, words, {
           ...(mine ? { bg: c.ok, fg: c.surface } : {}),

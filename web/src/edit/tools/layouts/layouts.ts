@@ -1,5 +1,5 @@
 // A map being made: the template with its parameters, the drawn result, and the selected arm.
-import { armTitle } from '../../../model/words/arm-names';
+import { armTitles } from '../../../model/words/arm-titles';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { DrivingSide } from '../../../model/physics/driving-side';
 import type { Vec } from '../../../model/base/geometry';
@@ -18,13 +18,16 @@ import type { Scene } from '../../../model/document/scene';
 import type { Arm, Layout, MapReply, Parameters, TemplateName } from '../../../net/types';
 import { TEXTS } from '../../../texts/editing/picture';
 
+/** An arm of the drawn map, with its title in the language of the page. */
+export type MadeArm = MapReply['arms'][number] & { readonly title: string };
+
 /** The drawn map of the server. */
 export interface Made {
   readonly layout: Layout;
   readonly json: SceneJson;
   readonly scene: Scene;
   readonly checks: MapReply['checks'];
-  readonly arms: MapReply['arms'];
+  readonly arms: readonly MadeArm[];
   readonly corners: MapReply['corners'];
   readonly ways: MapReply['ways'];
   /** Duration of the request, milliseconds. */
@@ -331,7 +334,7 @@ export class Layouts {
 
   /** An exit by its arm, and by its lane where there are several. */
   exitName([arm, lane]: LaneOfArm): string {
-    const name = armTitle(this.made.value?.arms[arm]?.name ?? '');
+    const name = this.made.value?.arms[arm]?.title ?? '';
     return (this.arms.value[arm]?.lanes_out ?? 0) > 1 ? TEXTS.exitLane(name, lane + 1) : name;
   }
 
@@ -398,7 +401,8 @@ export class Layouts {
     // Later requests may have added steps to these; the drawn map can still be restored.
     this.#drawnFrom = { wish, past: this.#steps.peek().past };
     const json = reply.scene as unknown as SceneJson;
-    const { layout, checks, arms, corners, ways } = reply;
+    const { layout, checks, corners, ways } = reply;
+    const arms = titled(reply);
     batch(() => {
       this.#asking.value = false;
       this.#fault.value = null;
@@ -428,4 +432,11 @@ export class Layouts {
     this.#wish.value = was.wish;
     this.#steps.value = { ...this.#steps.peek(), past: was.past };
   }
+}
+
+/** The arms of a reply by the angles of its parameters, which are in the same order. */
+function titled({ layout, arms }: MapReply): MadeArm[] {
+  const drawn = 'arms' in layout.parameters ? layout.parameters.arms : [];
+  const titles = armTitles(drawn.map((arm) => arm.angle_deg));
+  return arms.map((arm, i) => ({ ...arm, title: titles[i] ?? arm.name }));
 }

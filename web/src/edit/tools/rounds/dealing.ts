@@ -45,8 +45,8 @@ function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
     return motionAfter(now, scene, one, asked, () => 'rank');
   });
   const state = stateOfVariant(scene, null);
-  const named = nameVariants(sets.map((set, i) => ({ id: i + 1, state, scene, set, events: readEvents(scene, set) })));
-  return { id: null, sets, names: named.map((name) => name.replace(/^Variant (\d)$/, 'Way $1')) };
+  const nameless = sets.map((set, i) => ({ id: i + 1, state, scene, set, events: readEvents(scene, set) }));
+  return { id: null, sets, names: nameVariants(nameless, undefined, TEXTS.sceneNumber) };
 }
 
 /** The document of a whole-scene card: all road users are drawn again, once more for each card. */

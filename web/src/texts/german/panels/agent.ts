@@ -26,7 +26,6 @@ export const german: Said<typeof TEXTS> = {
   time: 'Zeit',
   timeAtTheGoal: 'Zeit am Ziel in Sekunden',
   undo: (words: string) => `${words}: zurücknehmen`,
-  on: (name) => name,
   position: 'Ort',
   positionWithin: 'Ort',
   fixed: (word: string, label: string) => `${word}, ${label} fest`,
