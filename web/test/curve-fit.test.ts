@@ -1,6 +1,6 @@
 // Infeasible parts of a speed curve, and the offered remedies.
 import { describe, expect, it } from 'vitest';
-import { misfitOf, type Asked } from '../src/model/physics/curve-fit';
+import { misfitOf, type CurveRequest } from '../src/model/physics/curve-fit';
 import { limitsOf } from '../src/model/base/domain';
 import { motionOf } from '../src/model/physics/speed-profile';
 import type { SpeedPoint } from '../src/model/document/profile';
@@ -12,7 +12,7 @@ const path = {
   heading: Array.from({ length: 201 }, () => 0),
 };
 const p = (t: number, v: number, hold = 0): SpeedPoint => ({ t, v, hold });
-const asked = (points: readonly SpeedPoint[], goal: Asked['goal'] = null): Asked => ({
+const asked = (points: readonly SpeedPoint[], goal: CurveRequest['goal'] = null): CurveRequest => ({
   profile: { path, points },
   limits: LIMITS,
   duration: 12,

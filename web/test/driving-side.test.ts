@@ -1,6 +1,6 @@
 // Driving side: inferred from the lanes, or stored in the map's layout.
 import { describe, expect, it } from 'vitest';
-import type { MapJson, Point, SceneJson } from '../src/model/document/scene-json';
+import type { MapJson, PointJson, SceneJson } from '../src/model/document/scene-json';
 import { drivingSide } from '../src/model/physics/driving-side';
 import { readScene } from '../src/model/document/scene-reader';
 import { View } from '../src/draw/view';
@@ -11,7 +11,7 @@ import { crossing, crossingJson } from './helpers';
 
 /** All lanes of a scene mirrored at the x axis: right-hand driving becomes left-hand. */
 function mirrored(json: SceneJson): SceneJson {
-  const over = ([x, y, ...z]: Point): Point => [x, -y, ...z] as unknown as Point;
+  const over = ([x, y, ...z]: PointJson): PointJson => [x, -y, ...z] as unknown as PointJson;
   const map = json.map as MapJson;
   return {
     ...json,
@@ -37,7 +37,7 @@ describe('the side of the road', () => {
     expect(drivingSide(readScene(one).map)).toBeNull();
     const both = crossingJson();
     const far = mirrored(crossingJson()).map as MapJson;
-    const away = (p: Point): Point => [p[0] + 1000, ...p.slice(1)] as unknown as Point;
+    const away = (p: PointJson): PointJson => [p[0] + 1000, ...p.slice(1)] as unknown as PointJson;
     (both.map as MapJson).lanes!.push(
       ...far.lanes!.map((l) => ({
         ...l,

@@ -6,7 +6,7 @@ import {
   hasNews,
   presentRound,
   readFeedback,
-  type Asked,
+  type RoundInputs,
   type Verdict,
 } from '../src/model/document/feedback';
 import { feedbackTable } from '../src/model/words/feedback-table';
@@ -44,10 +44,11 @@ const card = (id: string, n: number, features = like(n)): Judged => ({
   name: `Way ${n}`,
 });
 
-const asked = (s: Scene): Asked => presentRound(car(s).feedback, printOf(s));
+const asked = (s: Scene): RoundInputs => presentRound(car(s).feedback, printOf(s));
 const say = (s: Scene, n: number, verdict: Verdict | null): Scene =>
   judge(oneSubject(car(s)), asked(s), card(car(s).id, n), verdict).apply(s);
-const step = (s: Scene, make: (a: Subject, r: Asked) => Command): Scene => make(oneSubject(car(s)), asked(s)).apply(s);
+const step = (s: Scene, make: (a: Subject, r: RoundInputs) => Command): Scene =>
+  make(oneSubject(car(s)), asked(s)).apply(s);
 const verdicts = (s: Scene) => car(s).feedback?.answers.map((a) => `${a.round}${a.letter} ${a.verdict}`) ?? [];
 
 describe('feedback on futures', () => {
@@ -63,7 +64,7 @@ describe('feedback on futures', () => {
   it('has an inverse for every command', () => {
     let s = crossing();
     const wish = { trait: 'pace', wants: 'less' } as const;
-    const all: ((a: Subject, r: Asked) => Command)[] = [
+    const all: ((a: Subject, r: RoundInputs) => Command)[] = [
       (a, r) => judge(a, r, card(a.id!, 0), 'keep'),
       (a, r) => judge(a, r, card(a.id!, 1), 'reject', { trait: 'harshness', wants: 'less' }),
       (a, r) => addWish(a, r, wish, 'Slower'),
@@ -238,7 +239,7 @@ describe('words of rounds', () => {
 
 describe('feedback on the whole scene', () => {
   const whole = (s: Scene) => everybody(s);
-  const asking = (s: Scene): Asked => presentRound(s.feedback, printOf(s));
+  const asking = (s: Scene): RoundInputs => presentRound(s.feedback, printOf(s));
   const many = Array.from({ length: 50 }, (_, i) => `${i}`);
 
   /** All go straight on except one, which turns; one pair has either order. */

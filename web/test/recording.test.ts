@@ -1,7 +1,7 @@
 // Playback repeats exactly what the page recorded.
 import fc from 'fast-check';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Easel, type Canvases, type Picture } from '../src/draw/recording/easel';
+import { Easel, type Canvases, type PictureUpdate } from '../src/draw/recording/easel';
 import { Shape, type Pen, type Sprite } from '../src/draw/pen';
 import { Recording, Vocabulary } from '../src/draw/recording/recording';
 import { Player, type Canvas2D } from '../src/draw/recording/replay';
@@ -174,7 +174,7 @@ describe('recordings', () => {
 });
 
 describe('the easel', () => {
-  const IN_PLACE: Picture['shift'] = { dx: 0, dy: 0, scale: 1, angle: 0 };
+  const IN_PLACE: PictureUpdate['shift'] = { dx: 0, dy: 0, scale: 1, angle: 0 };
   const size = { w: 400, h: 300, dpr: 1 };
 
   function easel() {
@@ -188,7 +188,7 @@ describe('the easel', () => {
       return recording.take();
     };
     /** Layers with a text on each of them, as identification. */
-    const take = (texts: Partial<Record<keyof Picture['layers'], string>>, shift = IN_PLACE) => {
+    const take = (texts: Partial<Record<keyof PictureUpdate['layers'], string>>, shift = IN_PLACE) => {
       const layers = Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, write(text)]));
       const news = words.news();
       painter.take({ size, layers, news, shift, loupe: null });

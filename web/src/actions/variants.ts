@@ -1,5 +1,5 @@
 // Variants: alternatives of the scene, side by side.
-import type { Moment } from '../model/words/comparison';
+import type { DivergingMoment } from '../model/words/comparison';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -14,7 +14,7 @@ const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
 const EDGE_PX = 60;
 
 /** Goes to a moment when the two compared variants diverge. */
-export function goToMoment({ editor, stage }: Context, m: Moment): void {
+export function goToMoment({ editor, stage }: Context, m: DivergingMoment): void {
   editor.playhead.pause();
   editor.playhead.moveTo(m.time);
   const v = stage.view;

@@ -6,7 +6,7 @@ const FADE_MS = 90;
 /** Largest distance that a ghost slides between two frames, in metres. */
 const SLIDE_M = 2;
 
-export interface Placed {
+export interface PlacedGhost {
   readonly id: string;
   readonly place: Pose;
 }
@@ -25,7 +25,7 @@ interface Kept<T> {
   from: number;
 }
 
-export class Fades<T extends Placed> {
+export class Fades<T extends PlacedGhost> {
   #here = new Map<string, Kept<T>>();
   #going: Kept<T>[] = [];
   #fading = false;

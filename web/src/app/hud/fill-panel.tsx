@@ -3,7 +3,7 @@ import { useComputed } from '@preact/signals';
 import type { ComponentChildren, ComponentProps } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/tools/filling/fill-mix';
 import { RATE_STEP } from '../../edit/tools/filling/arm-handles';
-import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/tools/filling/filling';
+import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type EntryArm } from '../../edit/tools/filling/filling';
 import { comesLater, type Newcomer } from '../../model/document/newcomer';
 import { KIND_NAMES } from '../../model/base/kinds';
 import { STEP_S } from '../../model/base/motion';
@@ -154,7 +154,7 @@ function Arms() {
   );
 }
 
-function RateField({ arm }: { arm: Arm }) {
+function RateField({ arm }: { arm: EntryArm }) {
   const { filling } = useApp();
   const rate = (): number => filling.wish.value?.rates[arm.id] ?? 0;
   return (

@@ -144,7 +144,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   );
 }
 
-interface RowProps {
+interface PartRowProps {
   label: string;
   children: ComponentChildren;
   end?: ComponentChildren;
@@ -152,7 +152,7 @@ interface RowProps {
   scrub?: Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'>;
 }
 
-function Row({ label, children, end, scrub }: RowProps) {
+function Row({ label, children, end, scrub }: PartRowProps) {
   return (
     <div class="pr">
       {scrub ? <Scrub letter={label} class="lab scrub" {...scrub} /> : <span class="lab">{label}</span>}

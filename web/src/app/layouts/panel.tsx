@@ -18,12 +18,12 @@ import { TEXTS } from '../../texts/panels/layouts';
 import { inSentence } from '../../texts/language';
 
 /** The rows of the panel, in order; `whole` ones are counts. */
-interface Line {
+interface ParameterLine {
   readonly label: string;
   readonly unit: string;
   readonly step: number;
 }
-const LINES: Readonly<Record<string, Line>> = {
+const LINES: Readonly<Record<string, ParameterLine>> = {
   length_m: { label: TEXTS.length, unit: 'm', step: 10 },
   bend_deg: { label: TEXTS.bend, unit: '°', step: 5 },
   radius_m: { label: TEXTS.radius, unit: 'm', step: 5 },

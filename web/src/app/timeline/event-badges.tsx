@@ -3,7 +3,7 @@ import { goToEvent } from '../../actions/time';
 import { counted } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
 import { useApp } from '../parts/app-context';
-import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
+import { eventsShown, placeSigns, SIGN, X0, type Axes, type PlacedSign } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
 const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
@@ -47,7 +47,7 @@ interface BadgeProps {
   /** All that share the place, by time. */
   events: readonly TrafficEvent[];
   shown: TrafficEvent;
-  placed: Placed;
+  placed: PlacedSign;
 }
 
 function Badge({ events, shown: e, placed: p }: BadgeProps) {

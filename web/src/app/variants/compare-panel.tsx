@@ -1,7 +1,7 @@
 // Differences between the two compared variants: a table, and the moments when they diverge.
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/base/units';
-import type { Moment } from '../../model/words/comparison';
+import type { DivergingMoment } from '../../model/words/comparison';
 import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -89,7 +89,7 @@ export default function ComparePanel() {
 /** Its number, and its given name. */
 const calledOf = ({ id, variant }: WholeCard): string => [id, variant.called].filter(Boolean).join(' ');
 
-function MomentRow({ moment: m }: { moment: Moment }) {
+function MomentRow({ moment: m }: { moment: DivergingMoment }) {
   const c = useApp();
   const here = Math.abs(c.editor.playhead.time.value - m.time) < 0.05;
   return (

@@ -4,12 +4,12 @@ import type { Command } from '../../model/document/commands';
 import { findChanges } from '../../model/words/change-words';
 import type { MotionSet } from '../../model/document/futures';
 import type { Editor } from '../session/editor';
-import type { Beside } from '../session/view-settings';
+import type { SceneBeside } from '../session/view-settings';
 import { triedChange, type WhatIf, type TriedChange } from './what-if';
 
 export class RemedyPreview {
   /** The preview shown from here; another owner's preview is not removed. */
-  #shown: Beside | null = null;
+  #shown: SceneBeside | null = null;
 
   get asking(): ReadonlySignal<boolean> {
     return this.whatIf.asking;
@@ -51,7 +51,7 @@ export class RemedyPreview {
     this.#show({ scene, set, parted: [...changed, ...others], tried: true });
   }
 
-  #show(beside: Beside): void {
+  #show(beside: SceneBeside): void {
     this.#shown = beside;
     this.editor.view.showBeside(beside);
   }

@@ -2,7 +2,7 @@
 // computed from these and not part of the document.
 import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
 import {
-  type Asked,
+  type AgentConditions,
   type Variant,
   type VariantState,
   durationOf,
@@ -46,7 +46,8 @@ export const askedOf = ({
   kind,
   subtype,
   does,
-}: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
+}: Agent): AgentConditions =>
+  Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
 
 /** Has the scene the road users of the variant? */
 export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.castKey;

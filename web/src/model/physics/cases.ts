@@ -40,7 +40,7 @@ export const KINDS: Readonly<
 };
 
 /** Side of the other party, seen from the varied road user. */
-export type Side = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
+export type PartySide = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
 
 /** The moment of a case in a motion. */
 export interface Moment {
@@ -50,7 +50,7 @@ export interface Moment {
   readonly time: number;
   readonly at: Vec;
   readonly other: string | null;
-  readonly side: Side | null;
+  readonly side: PartySide | null;
   readonly found: boolean;
   /** Distance from the target, smaller is nearer; below that of others where it is met. */
   readonly miss: number;
@@ -117,7 +117,7 @@ function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): Sc
     .sort((p, q) => compareMarks(p.kind, q.kind) || p.time - q.time);
 }
 
-interface Found {
+interface MeasuredValue {
   readonly value: number;
   readonly time: number;
   readonly found: boolean;
@@ -125,7 +125,7 @@ interface Found {
 }
 
 /** With place and side at that time. */
-function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Found): Moment | null {
+function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: MeasuredValue): Moment | null {
   const p = poseAt(one[1], m.time);
   const other = others.find(([a]) => a === b);
   const q = other ? poseAt(other[1], m.time) : null;
@@ -138,7 +138,7 @@ function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Fo
   };
 }
 
-const sideOf = (bearing: number): Side =>
+const sideOf = (bearing: number): PartySide =>
   Math.abs(bearing) < Math.PI / 4
     ? 'in-front'
     : Math.abs(bearing) > (3 * Math.PI) / 4

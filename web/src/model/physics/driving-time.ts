@@ -9,10 +9,10 @@ const BRISK = 0.8;
 const LEAST_MPS = 0.5;
 
 /** A route along lanes, or a plain curve without any. */
-export type Way = Pick<Route, 'line' | 'lanes' | 'ends'>;
+export type DrivenRoute = Pick<Route, 'line' | 'lanes' | 'ends'>;
 
 /** Seconds from speed `v` (m/s), ending at most at speed `end`. */
-export function drivingTime(a: Typed, { line, lanes, ends }: Way, v: number, end = Infinity): number {
+export function drivingTime(a: Typed, { line, lanes, ends }: DrivenRoute, v: number, end = Infinity): number {
   const { speed_mps, hurried: manner } = limitsOf(a);
   const onFoot = a.type === 'pedestrian';
   const own = onFoot ? BRISK * THRESHOLDS.running_mps.usual : speed_mps;

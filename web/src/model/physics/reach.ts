@@ -10,7 +10,7 @@ import {
   type Pose,
   type Vec,
 } from '../base/geometry';
-import type { Way } from './driving-time';
+import type { DrivenRoute } from './driving-time';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
 import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
 import type { Agent, GoalSpec } from '../document/scene';
@@ -55,7 +55,7 @@ export function pathTo(
   a: Pick<Agent, 'type'>,
   start: Pose,
   goal: { x: number; y: number; heading: number },
-): Way {
+): DrivenRoute {
   if (a.type !== 'pedestrian') {
     const fit = fitsAgent(a);
     const from = nearestLanes(map, start.x, start.y, start.heading, 3, fit).slice(0, 4);
@@ -149,7 +149,7 @@ function speedFor(l: Limits, t: number, d: number): number | null {
 // -------------------------------------------------------------- reachable lanes
 
 /** A stretch of lane, with the lane's width in metres. */
-export interface Stretch {
+export interface LaneStretch {
   readonly pts: readonly Vec[];
   readonly width: number;
 }
@@ -167,7 +167,7 @@ export const reachBetween = (a: Agent, start: Pose, t: number): readonly [number
 ];
 
 /** Reachable stretches at a time, along the lanes under or beside it; none for pedestrians. */
-export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): Stretch[] {
+export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): LaneStretch[] {
   if (a.type === 'pedestrian') return [];
   const [least, most] = reachBetween(a, start, t);
   const turned = (heading: number): number => Math.abs(wrapAngle(heading - start.heading));
@@ -175,7 +175,7 @@ export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): S
     .filter((h) => turned(h.heading) < TAKES_RAD)
     .map((h) => ({ lane: h.lane, at: -h.s }));
   const seen = new Set<string>();
-  const out: Stretch[] = [];
+  const out: LaneStretch[] = [];
   // The shortest way to a lane comes first, so a lane met again adds nothing.
   for (let n = 0; open.length && n < MOST_LANES; n++) {
     open.sort((p, q) => q.at - p.at);

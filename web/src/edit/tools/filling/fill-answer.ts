@@ -11,7 +11,7 @@ import type { Client } from '../../../net/client';
 import type { PlaceReply } from '../../../net/types';
 import { typesOf } from './fill-mix';
 import { recast, thinned } from './fill-recast';
-import { ANY_SPEED, type Arm, type FillAnswer, type FillWish } from './filling';
+import { ANY_SPEED, type EntryArm, type FillAnswer, type FillWish } from './filling';
 import { inTheWay, standing } from '../../moves/room';
 import type { SceneFile } from '../../document/scene-file';
 import { MOST_AT_ONCE } from '../../moves/several';
@@ -22,7 +22,7 @@ const PER_KM = 10;
 /** A drawn outline may extend this far beyond the map, metres. */
 const MARGIN_M = 45;
 
-export class Answers {
+export class FillAnswers {
   /** The arms of the last requested place; their names are valid only there. */
   #known: { readonly place: string; readonly arms: readonly string[] } = { place: '', arms: [] };
 
@@ -53,7 +53,7 @@ export class Answers {
       parked: { share: wish.parked },
     };
     const { agents, unplaced, reason, arms, parking_places } = await this.client.place(body, signal);
-    const known: readonly Arm[] = armsOf(arms);
+    const known: readonly EntryArm[] = armsOf(arms);
     this.#known = { place: placeOf(scene, wish), arms: known.map((a) => a.id) };
     const more = { replaced, arms: known, parkingPlaces: parking_places };
     const stay = standing(scene).filter((f) => !gone.has(f.agent.id));
@@ -87,7 +87,7 @@ export class Answers {
 
 const placeOf = (scene: Scene, { region }: FillWish): string => JSON.stringify([scene.id, region]);
 
-function armsOf(arms: PlaceReply['arms']): Arm[] {
+function armsOf(arms: PlaceReply['arms']): EntryArm[] {
   // An arm lies where its traffic comes from.
   const titles = armTitles(arms.map((a) => deg(wrapAngle(a.heading_rad + Math.PI))));
   return arms.map((a, i) => ({

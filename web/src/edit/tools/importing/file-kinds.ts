@@ -8,7 +8,7 @@ export interface ForeignKind {
   readonly inSentence: string;
 }
 
-interface Mark {
+interface FileMark {
   readonly bytes: readonly number[];
   readonly kind: ForeignKind;
   /** Some of these hold a scene: the server examines them. */
@@ -17,7 +17,7 @@ interface Mark {
 
 const text = (s: string): number[] => [...s].map((c) => c.charCodeAt(0));
 
-const MARKS: readonly Mark[] = [
+const MARKS: readonly FileMark[] = [
   { bytes: text('%PDF'), kind: TEXTS.foreign.pdf },
   { bytes: [0x50, 0x4b, 3, 4], kind: TEXTS.foreign.zip, open: true },
   { bytes: text('AC10'), kind: TEXTS.foreign.drawing },

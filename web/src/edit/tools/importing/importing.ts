@@ -1,7 +1,7 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../../../model/document/scene-json';
-import { Refused, type Beside, type Client } from '../../../net/client';
+import { Refused, type FileCompanions, type Client } from '../../../net/client';
 import type { ImportReply, ImportWarning, Problem } from '../../../net/types';
 import type { Broken } from './broken-file';
 import type { Editor } from '../../session/editor';
@@ -137,7 +137,12 @@ export class Importing {
     return this.#send(file.name, file, [], { net });
   }
 
-  async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
+  async #send(
+    name: string,
+    file: Blob,
+    without: readonly string[] = [],
+    beside: FileCompanions = {},
+  ): Promise<FileVerdict> {
     try {
       const v = await verdictOf(name, await this.client.importFile(name, file, beside));
       return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;

@@ -15,7 +15,7 @@ import type { Take } from '../../asking/take-maker';
 import type { OneHand, SceneHand } from './deck';
 import { TEXTS } from '../../../texts/editing/rounds';
 
-type Made<T> = Omit<T, 'print' | 'asked' | 'round'>;
+type HandContent<T> = Omit<T, 'print' | 'asked' | 'round'>;
 
 /** The cards of an answer; null where it has none. */
 export function handOf(
@@ -23,11 +23,11 @@ export function handOf(
   now: MotionSet,
   of: Subject,
   e: FinalEvent,
-): Made<OneHand> | Made<SceneHand> | null {
+): HandContent<OneHand> | HandContent<SceneHand> | null {
   return of.id === null ? scenes(scene, now, e) : futures(scene, of.id, e);
 }
 
-function futures(scene: Scene, id: string, e: FinalEvent): Made<OneHand> | null {
+function futures(scene: Scene, id: string, e: FinalEvent): HandContent<OneHand> | null {
   const a = scene.agents.get(id);
   const json = e.samples[0]?.agents[id];
   const start = a && json && firstPose(a, json);
@@ -38,7 +38,7 @@ function futures(scene: Scene, id: string, e: FinalEvent): Made<OneHand> | null 
 }
 
 /** Each sample is a separate scene. */
-function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
+function scenes(scene: Scene, now: MotionSet, e: FinalEvent): HandContent<SceneHand> {
   const asked = { agents: 'all', react: false, step: null } as const;
   const sets = e.samples.map((sample, i) => {
     const one = { ...e, samples: [sample], scores: e.scores ? [e.scores[i]] : undefined } as FinalEvent;

@@ -14,7 +14,7 @@ import {
   timeOfStop,
 } from '../../../model/physics/speed-profile';
 import type { Path, Profile, SpeedPoint } from '../../../model/document/profile';
-import type { Way } from '../../../model/physics/curve-fit';
+import type { CurveRemedy } from '../../../model/physics/curve-fit';
 import { pointAt, project, type Pose, type Vec } from '../../../model/base/geometry';
 import { poseAt, type Motion } from '../../../model/base/motion';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../../../model/document/scene';
@@ -214,7 +214,7 @@ export class SpeedCurve {
   }
 
   /** Shows the curve after a remedy; null shows the curve again. */
-  try(way: Way | null): void {
+  try(way: CurveRemedy | null): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
     const f = a && this.editor.answers.motion.peek().futures.get(a.id);
@@ -231,7 +231,7 @@ export class SpeedCurve {
   }
 
   /** Takes a remedy. */
-  accept(way: Way): void {
+  accept(way: CurveRemedy): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
     this.#tried.value = null;

@@ -38,7 +38,7 @@ import {
   isWhole,
   type Card,
   type Compared,
-  type Filter,
+  type VariantFilter,
   type Pictured,
   type WholeCard,
 } from './cards';
@@ -46,7 +46,7 @@ import { Maker, Stopped, subjectOf, type Take } from '../../asking/take-maker';
 import { TEXTS } from '../../../texts/editing/variants';
 
 /** Scope of an export: the scene itself, or several variants. */
-export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
+export type VariantScope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
 /** Progress of the making, and the events so far. */
 export interface Making {
@@ -78,7 +78,7 @@ function withOne(m: Making, { scene, set }: Take, subject: string | null, tookS:
 }
 
 /** Result of making variants. */
-interface Made {
+interface MakingResult {
   readonly subject: string | null;
   readonly why: string | null;
   readonly wanted: number;
@@ -93,7 +93,7 @@ const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept, present: () => TEXT
 const NONE: readonly Card[] = Object.freeze([]);
 
 /** Cards of a round, each as the document after it is taken. */
-export interface Dealt {
+export interface DealtScenes {
   readonly id: string;
   readonly scenes: readonly Scene[];
   readonly futures: Futures;
@@ -102,12 +102,12 @@ export interface Dealt {
 export class Variants {
   readonly #open = signal(false);
   readonly #count = signal(USUAL_COUNT);
-  readonly #filter = signal<Filter>('all');
+  readonly #filter = signal<VariantFilter>('all');
   readonly #current = signal<number | null>(null);
   readonly #renaming = signal<number | null>(null);
   readonly #pair = signal<readonly [number, number] | null>(null);
   readonly #picked = signal<number | null>(null);
-  readonly #scope = signal<Scope>('present');
+  readonly #scope = signal<VariantScope>('present');
   readonly #making = signal<Making | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
   readonly #sweep = signal<Sweep | null>(null);
@@ -119,14 +119,14 @@ export class Variants {
   readonly open: ReadonlySignal<boolean> = this.#open;
   /** Number to make at once. */
   readonly count: ReadonlySignal<number> = this.#count;
-  readonly filter: ReadonlySignal<Filter> = this.#filter;
+  readonly filter: ReadonlySignal<VariantFilter> = this.#filter;
   /** Id of the card being renamed. */
   readonly renaming: ReadonlySignal<number | null> = this.#renaming;
   /** The two compared variants, the left one first. */
   readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
   /** The first of two variants to compare. */
   readonly picked: ReadonlySignal<number | null> = this.#picked;
-  readonly scope: ReadonlySignal<Scope> = this.#scope;
+  readonly scope: ReadonlySignal<VariantScope> = this.#scope;
   readonly making: ReadonlySignal<Making | null> = this.#making;
   /** The swept range of a number; null where new variants differ by seed. */
   readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
@@ -262,7 +262,7 @@ export class Variants {
     return n > room ? TEXTS.valuesThereIs(n, room) : null;
   }
 
-  setFilter(filter: Filter): void {
+  setFilter(filter: VariantFilter): void {
     this.#filter.value = filter;
   }
 
@@ -345,7 +345,7 @@ export class Variants {
     });
   }
 
-  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: Made): void {
+  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: MakingResult): void {
     const { editor } = this;
     const { notices } = editor;
     const now = editor.scene.peek()!;
@@ -466,7 +466,7 @@ export class Variants {
   }
 
   /** Variants within an export scope that have all their data. */
-  within(scope: Scope): readonly WholeCard[] {
+  within(scope: VariantScope): readonly WholeCard[] {
     const pair = this.#pair.value;
     return this.cards.value.filter(isWhole).filter((c) => {
       if (scope === 'kept') return c.variant.kept;
@@ -480,7 +480,7 @@ export class Variants {
     this.setScope(this.within('kept').length ? 'kept' : 'all');
   }
 
-  setScope(scope: Scope): void {
+  setScope(scope: VariantScope): void {
     this.#scope.value = scope;
   }
 
@@ -507,7 +507,7 @@ export class Variants {
   }
 
   /** Adds the futures of a round to the variants, kept, each with the others' reactions. */
-  async keepDealt({ id, scenes, futures }: Dealt): Promise<void> {
+  async keepDealt({ id, scenes, futures }: DealtScenes): Promise<void> {
     const { editor } = this;
     if (!scenes.length || this.#refusedLock()) return;
     this.stop();
