@@ -76,7 +76,7 @@ describe('a change', () => {
   it('is explained by its shape without a given reason', () => {
     const waits = along((t) => (t < 2 ? 10 - 5 * t : t < 5 ? 0 : 5));
     expect(changes(waits)[0]).toMatchObject({ reaction: { kind: 'waits', cause: { id: '1' } } });
-    expect(changes(waits)[0].at).toBeCloseTo(1.9, 1);
+    expect(changes(waits)[0].at).toBeCloseTo(2, 1);
     const slows = along((t) => (t > 2 && t < 4 ? 3 : 10));
     expect(changes(slows)[0].words).toMatch(/^slows to 11 km\/h (behind|for) Car 1$/);
     expect(changes(along(() => 14))[0].words).toBe('speeds up for Car 1');

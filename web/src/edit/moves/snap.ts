@@ -3,6 +3,8 @@ import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from 
 import { armLane, namedLane, namedPlace, type LaneName } from '../../model/words/arm-names';
 import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
+import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from '../../model/physics/stop-places';
+import { JUDGING } from '../../model/base/domain';
 import { TEXTS } from '../../texts/editing/picture';
 
 export interface Snapped {
@@ -92,20 +94,24 @@ export interface SoftStop {
 }
 
 const CAPTURE_PX = 8;
-const QUEUE_GAP_M = 2;
 
 export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom: number): SoftStop | null {
   const places: number[] = [];
   const stops =
     scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) ||
-    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
-  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
+    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < SIGN_M);
+  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - BEFORE_LINE_M);
   for (const b of scene.agents.values()) {
-    if (b.id === a.id || b.type !== 'vehicle' || Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > 0.5) continue;
+    if (
+      b.id === a.id ||
+      b.type !== 'vehicle' ||
+      Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > JUDGING.standing_mps
+    )
+      continue;
     const p = startPose(b);
     if (!p) continue;
     const on = project(lane.line, p.x, p.y);
-    if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
+    if (on.d < IN_WAY_M) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
   }
   const s = places
     .filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX)

@@ -3,7 +3,10 @@
 import { limitsOf, THRESHOLDS, type Typed } from '../base/domain';
 import { radii, type Route } from '../document/lanemap';
 
-/** Of what counts as running. */
+// View only: the time that a remedy offers, before the server has tried it. Limits, manners and the speed of running
+// are the server's.
+
+/** The share of what counts as running at which somebody walks fast. */
 const BRISK = 0.8;
 /** Moving off takes a moment even for a road user that has almost no way to go, m/s. */
 const LEAST_MPS = 0.5;

@@ -1,5 +1,6 @@
 // Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones, in seconds
 // or metres where it has one. Futures that look the same have the same name.
+import { JUDGING } from '../base/domain';
 import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
 import { wrapAngle } from '../base/geometry';
 import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
@@ -227,7 +228,7 @@ const CRAWLS_M_S = 1.4;
 
 /** Has it stood or crept by a scene time? */
 function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
-  const slow = onFoot ? STANDING_M_S : CRAWLS_M_S;
+  const slow = onFoot ? JUDGING.standing_mps : CRAWLS_M_S;
   return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
 }
 
@@ -239,9 +240,6 @@ const SHORT = [
   [KINDS.cyclist, TEXTS.cycl],
 ] as const;
 
-/** Slower than this is standing, m/s. */
-const STANDING_M_S = 0.25;
-const standing = (onFoot: boolean): number => (onFoot ? STANDING_M_S : 0.5);
 /** Shorter paths count as no movement, metres. */
 const STAYS_M = 1.5;
 /** Smaller movements are invisible, metres. */
@@ -250,9 +248,7 @@ const CREEPS_M = 0.4;
 function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
   const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
   if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
-  // One that rolls into the other lane has not stopped in this one.
-  const changesLane = manoeuvre === 'lane_left' || manoeuvre === 'lane_right';
-  return Math.abs(endPose(m).speed) < (changesLane ? STANDING_M_S : standing(onFoot));
+  return Math.abs(endPose(m).speed) < JUDGING.standing_mps;
 }
 
 function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
