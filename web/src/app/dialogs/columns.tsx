@@ -1,6 +1,6 @@
 // Assignment of a table's columns: prefilled from their names.
 import { useSignal } from '@preact/signals';
-import type { FileVerdict } from '../../edit/tools/importing/importing';
+import type { FileVerdict } from '../../edit/tools/importing/file-verdict';
 import {
   ASKED,
   complete,

@@ -4,7 +4,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { laneWords } from '../../edit/moves/snap';
 import { metres } from '../../model/base/units';
-import type { History, HistoryStep } from '../../model/document/history';
+import type { ReadonlyHistory, HistoryStep } from '../../model/document/history';
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { DrawerTabs } from '../parts/drawer-tabs';
@@ -24,7 +24,7 @@ interface HistoryRow {
 }
 
 /** Newest first; a branch is above the step it comes from. */
-export function rowsOf(h: History): HistoryRow[] {
+export function rowsOf(h: ReadonlyHistory): HistoryRow[] {
   const line = h.line();
   const onLine = new Set(line.map((s) => s.id));
   const after = new Map<number | null, HistoryStep[]>();

@@ -79,9 +79,9 @@ export const eventShown = ({ editor }: Context): TrafficEvent | null =>
 /** Events in the plot: for two variants those of both, each with its number. */
 export function eventsShown(c: Context): readonly TrafficEvent[] {
   if (c.layouts.isNew.peek()) return [];
-  const both = c.variants.compared.peek();
+  const both = c.variants.comparing.compared.peek();
   if (!both) return c.editor.reading.shownEvents.peek();
-  const who = c.variants.followed.peek()?.agent.id;
+  const who = c.variants.comparing.followed.peek()?.agent.id;
   return [both.left, both.right]
     .flatMap(({ id, events }) =>
       events
@@ -97,7 +97,7 @@ export function eventsShown(c: Context): readonly TrafficEvent[] {
  */
 export function severalShown(c: Context): SpeedLine[] {
   const { editor } = c;
-  const both = c.variants.followed.peek();
+  const both = c.variants.comparing.followed.peek();
   if (both) return [both.left, both.right].map((motion) => ({ agent: both.agent, motion }));
   const b = editor.view.beside.peek();
   const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);

@@ -17,7 +17,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const { editor, curve } = c;
   const several = severalShown(c);
   const meeting = editor.view.beside.peek()?.meeting;
-  const both = c.variants.followed.peek() && c.variants.compared.peek();
+  const both = c.variants.comparing.followed.peek() && c.variants.comparing.compared.peek();
   const event = eventShown(c);
   const few = !!both || !!meeting || !!event;
   const agent = meeting || both ? null : editor.agent.peek();

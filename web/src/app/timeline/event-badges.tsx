@@ -59,7 +59,7 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const to = events[turn % events.length];
   // Events of a case or a variant are not events of the current scene.
-  const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.compared.peek();
+  const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.comparing.compared.peek();
   const go = () => (elsewhere() ? c.editor.playhead.moveTo(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
   const x = p.x - SIGN - (p.words === 'left' ? w : 0);

@@ -18,8 +18,8 @@ import { TEXTS } from '../../texts/panels/timeline';
 /** All inputs of curves, grid and badges. */
 const shown = ({ editor, variants, layouts, curve }: Context): unknown => [
   layouts.isNew.value,
-  variants.compared.value,
-  variants.followed.value,
+  variants.comparing.compared.value,
+  variants.comparing.followed.value,
   editor.agent.value,
   editor.selected.value,
   editor.selected.value.length > 1 && editor.hover.value,

@@ -11,7 +11,7 @@ import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function ComparePanel() {
   const c = useApp();
-  const now = c.variants.compared.value;
+  const now = c.variants.comparing.compared.value;
   if (!now) return null;
   const { left, right, parting } = now;
   return (
@@ -24,7 +24,12 @@ export default function ComparePanel() {
           <h2>{TEXTS.compare}</h2>
           <p>{TEXTS.variantAndVariant(calledOf(left), calledOf(right))}</p>
         </div>
-        <button type="button" class="btn i" aria-label={TEXTS.endTheComparison} onClick={() => c.variants.endCompare()}>
+        <button
+          type="button"
+          class="btn i"
+          aria-label={TEXTS.endTheComparison}
+          onClick={() => c.variants.comparing.end()}
+        >
           <Icon name="x" size={16} />
         </button>
       </div>

@@ -24,7 +24,7 @@ import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function CompareView() {
   const c = useApp();
-  const now = c.variants.compared.value;
+  const now = c.variants.comparing.compared.value;
   useEffect(() => {
     c.stage.element.classList.add('halved');
     c.ui.showDrawer(null);

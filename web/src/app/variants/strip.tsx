@@ -5,7 +5,7 @@ import { perform } from '../../actions/registry';
 import { hasEvents, type Card, type VariantFilter, type Pictured } from '../../edit/tools/variants/cards';
 import { leftWords } from '../../model/base/units';
 import { MOST_NEW } from '../../model/document/variants';
-import type { Making } from '../../edit/tools/variants/variants';
+import type { Making } from '../../edit/tools/variants/making';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -87,7 +87,7 @@ export default function Strip() {
     return (
       <p class="none">
         {any ? TEXTS.noMatches : TEXTS.noVariantsYet}{' '}
-        {any || variants.sweep.value ? null : (
+        {any || variants.range.sweep.value ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
             {TEXTS.make(variants.count.value)}
           </button>
@@ -137,7 +137,7 @@ function About() {
   return (
     <>
       <small>{words}</small>
-      {variants.sweep.value ? null : (
+      {variants.range.sweep.value ? null : (
         <label class="field count">
           <input
             type="number"

@@ -16,8 +16,8 @@ export function WhoseSpeed({ now }: { now: Compared }) {
       <select
         class="field pick"
         aria-label={TEXTS.speedOf}
-        value={variants.followed.value?.agent.id}
-        onChange={(e) => variants.follow(e.currentTarget.value)}
+        value={variants.comparing.followed.value?.agent.id}
+        onChange={(e) => variants.comparing.follow(e.currentTarget.value)}
       >
         {parted.map((p) => (
           <option key={p.agent.id} value={p.agent.id}>

@@ -3,7 +3,7 @@ import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from 
 import { armLane, namedLane, namedPlace, type LaneName } from '../../model/words/arm-names';
 import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
-import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from '../../model/physics/stop-places';
+import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from '../../model/physics/stop-gaps';
 import { JUDGING } from '../../model/base/domain';
 import { TEXTS } from '../../texts/editing/picture';
 

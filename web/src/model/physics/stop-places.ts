@@ -3,6 +3,7 @@ import { JUDGING } from '../base/domain';
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
 import { alongOf, lineOf } from './speed-profile';
 import type { Path } from '../document/profile';
+import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from './stop-gaps';
 import { TEXTS } from '../../texts/scene/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 
@@ -12,18 +13,9 @@ export interface StopPlace {
   readonly words: string;
 }
 
-// View only: places that a drawn stop snaps to. Any other place on the path is accepted too.
-
-/** Distance of the front before a line, and behind a standing road user, metres. */
-export const BEFORE_LINE_M = 0.3;
-export const QUEUE_GAP_M = 2;
-/** A stop line belongs to the path when its lane ends this near and has its direction, metres and radians. */
+/** View only: a stop line belongs to the path when its lane ends this near, metres, with its direction, radians. */
 const ON_WAY_M = 1.5;
 const ALONG_RAD = 0.5;
-/** A standing road user blocks the path when its centre is this near, metres. */
-export const IN_WAY_M = 1.2;
-/** A stop sign belongs to the lane that ends this near, metres. */
-export const SIGN_M = 4;
 /** Places closer than this are one: the line before the crosswalk counts. */
 const APART_M = 1;
 

@@ -1,6 +1,5 @@
 // Names of lanes at a junction: by arm and manoeuvre. Without a single junction, compass directions are used.
 import { pointAt, type Vec } from '../base/geometry';
-import { TEXTS as PICTURE } from '../../texts/editing/picture';
 import { TEXTS } from '../../texts/scene/places';
 import { turnOf, type Lane, type LaneMap } from '../document/lanemap';
 
@@ -27,7 +26,7 @@ export interface LaneName {
   readonly place: string;
 }
 
-export const namedLane = (name: string): LaneName => ({ name, place: PICTURE.on(name) });
+export const namedLane = (name: string): LaneName => ({ name, place: TEXTS.on(name) });
 
 /** Of a place whose words have a preposition. */
 export const namedPlace = (name: string): LaneName => ({ name, place: name });

@@ -18,8 +18,6 @@ export const TEXTS = table('picture', {
   beyondReach: (beyond: string) => `${beyond} beyond reach`,
   holdToCross: 'Hold: cross',
   altToCross: 'Alt: cross',
-  /** Of a lane; places beside the lanes have their own preposition: `off the lanes`. */
-  on: (lane: string) => `on ${lane}`,
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
   occupied: 'Occupied',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,

@@ -26,6 +26,8 @@ export const TEXTS = table('places', {
     south: 'South',
     southEast: 'South-east',
   },
+  /** Of a lane; places beside the lanes have their own preposition: `off the lanes`. */
+  on: (lane: string) => `on ${lane}`,
   arm: (compass: string) => `${compass} arm`,
   bikeLane: (arm: string) => `${arm}, bike lane`,
   busLane: (arm: string) => `${arm}, bus lane`,

@@ -2,43 +2,13 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../../../model/document/scene-json';
 import { Refused, type FileCompanions, type Client } from '../../../net/client';
-import type { ImportReply, ImportWarning, Problem } from '../../../net/types';
-import type { Broken } from './broken-file';
+import type { ImportReply, Problem } from '../../../net/types';
 import type { Editor } from '../../session/editor';
+import type { FileVerdict, ImportedScene } from './file-verdict';
 import { foreignKind, kindByName, type ForeignKind } from './file-kinds';
 import type { Library } from '../../document/library';
 import { countAll, type SceneList } from '../../document/scene-list';
 import { TEXTS } from '../../../texts/files/importing';
-
-export interface ImportedScene {
-  readonly id: string;
-  readonly name: string;
-  /** Road users. */
-  readonly count: number;
-}
-
-/** The result of one file, and, if it could not be read, what is wrong, where, and what to do. */
-export interface FileVerdict {
-  readonly file: string;
-  /** `saved scene`, `scenario record`, `a PDF`. */
-  readonly kind: string;
-  readonly ok: boolean;
-  readonly scenes: readonly ImportedScene[];
-  readonly wrong?: string;
-  readonly where?: string;
-  readonly todo?: string;
-  readonly details?: string;
-  /** The broken lines of the file, and the number of the first. */
-  readonly excerpt?: Broken['excerpt'];
-  /** Parts to leave out so that the rest can be imported. */
-  readonly without?: readonly string[];
-  /** Assumptions, omissions and changes of the reader. */
-  readonly notes?: readonly ImportWarning[];
-  /** A table with unknown column names: the user assigns them. */
-  readonly columns?: readonly string[];
-  /** The server did not answer: a retry may work. */
-  readonly again?: File;
-}
 
 const READING_MS = 120_000;
 /** Larger files are not examined here. */

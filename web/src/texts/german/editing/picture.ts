@@ -18,7 +18,6 @@ export const german: Said<typeof TEXTS> = {
   beyondReach: (far: string) => `${far} außer Reichweite`,
   holdToCross: 'Halten: queren',
   altToCross: 'Alt: queren',
-  on: (lane: string) => lane,
   atAhead: (time, along) => `bei ${time} · ${along} Weg`,
   occupied: 'Belegt',
   stopsHereFor: (lasts, place) => `hält ${place ?? 'hier'}, ${lasts} lang`,

@@ -25,6 +25,7 @@ export const german: Said<typeof TEXTS> = {
     south: 'Süd',
     southEast: 'Südost',
   },
+  on: (lane) => lane,
   arm: (compass) => `Arm ${compass}`,
   bikeLane: (arm) => `${arm}, Radspur`,
   busLane: (arm) => `${arm}, Busspur`,
