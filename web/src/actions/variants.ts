@@ -26,7 +26,7 @@ export function goToMoment({ editor, stage }: Context, m: DivergingMoment): void
 
 /** The next one after the playhead; after the last, the first again. */
 function nextMoment(c: Context): void {
-  const all = c.variants.comparing.compared.value?.parting.moments ?? [];
+  const all = c.variants.comparing.compared.value?.comparison.moments ?? [];
   const next = all.find((m) => m.time > c.editor.playhead.time.value + 0.05) ?? all[0];
   if (next) goToMoment(c, next);
 }
@@ -128,7 +128,7 @@ export const variants = inGroup('variants', [
     run: (c) => c.variants.comparing.swapSides(),
   },
   {
-    id: 'next-parting',
+    id: 'next-difference',
     label: TEXTS.nextDifference,
     keys: ['E'],
     icon: 'next',

@@ -35,15 +35,15 @@ export class Fades<T extends PlacedGhost> {
     return this.#fading;
   }
 
-  /** Ghosts to paint now; `calm` for reduced motion. */
-  next(ghosts: readonly T[], now: number, calm: boolean): Faded<T>[] {
+  /** Ghosts to paint now; `reducedMotion` for reduced motion. */
+  next(ghosts: readonly T[], now: number, reducedMotion: boolean): Faded<T>[] {
     const before = this.#here;
     this.#here = new Map(ghosts.map((ghost) => [ghost.id, this.#kept(before.get(ghost.id), ghost, now)]));
     for (const [id, k] of before) if (!this.#here.has(id)) this.#leave(k, now);
-    this.#going = calm ? [] : this.#going.filter((k) => now - k.since < FADE_MS);
+    this.#going = reducedMotion ? [] : this.#going.filter((k) => now - k.since < FADE_MS);
     const here = [...this.#here.values()].map(({ ghost, since }): Faded<T> => ({
       ghost,
-      alpha: calm ? 1 : share(since, now),
+      alpha: reducedMotion ? 1 : share(since, now),
       here: true,
     }));
     this.#fading = this.#going.length > 0 || here.some((g) => g.alpha < 1);

@@ -181,7 +181,7 @@ describe('the difference of variants', () => {
   it('is listed with the moment of divergence', () => {
     const side = (label: string, m: Motion) => ({ label, scene: s, set: setOf(s, { [a.id]: m }), events: [] });
     const p = comparisonOf(side('1', on), side('4', stops));
-    expect(p.parted.map((x) => x.agent.id)).toEqual([a.id]);
+    expect(p.diverging.map((x) => x.agent.id)).toEqual([a.id]);
     expect(p.same).toBe(p.all - 1);
     expect(p.moments).toHaveLength(1);
     expect(p.moments[0].words).toBe(`${a.name} stops only in 4`);

@@ -99,9 +99,9 @@ journeys('the first minute', (stage) => {
     assert.match(await e.text('.helpbar'), /where others would wait/);
     await e.settled();
     assert.match(await e.text('.status'), /Six futures/);
-    const [previews, foreseen] = [false, true].map((react) => e.wire.since(mark).filter((a) => a.body.react === react));
+    const [previews, previewed] = [false, true].map((react) => e.wire.since(mark).filter((a) => a.body.react === react));
     assert.ok(previews.length > 3, `${previews.length} requests while moving`);
-    assert.ok([...previews, ...foreseen].every((a) => a.body.conditions[car.id]?.goal));
+    assert.ok([...previews, ...previewed].every((a) => a.body.conditions[car.id]?.goal));
     const revisions = previews.map((a) => a.body.revision);
     assert.ok(
       revisions.every((r, i) => i === 0 || r > revisions[i - 1]),
@@ -109,10 +109,10 @@ journeys('the first minute', (stage) => {
     );
     assert.ok(Wire.crowd(previews) <= 3, 'at most one on the way beside the two it passes');
     // Reactions are requested on a connection of their own, the last one for the present place of the flag.
-    assert.ok(foreseen.length && Wire.crowd(foreseen) <= 2, 'at most one on the way beside the one it replaces');
-    assert.ok(foreseen.every((a) => a.body.client !== previews[0].body.client));
-    assert.deepEqual(foreseen.at(-1).body.conditions, previews.at(-1).body.conditions);
-    const wouldChange = await e.page.locator('.foreseen .ch').allInnerTexts();
+    assert.ok(previewed.length && Wire.crowd(previewed) <= 2, 'at most one on the way beside the one it replaces');
+    assert.ok(previewed.every((a) => a.body.client !== previews[0].body.client));
+    assert.deepEqual(previewed.at(-1).body.conditions, previews.at(-1).body.conditions);
+    const wouldChange = await e.page.locator('.previewed .ch').allInnerTexts();
     // The status line is not updated sixty times a second, but follows.
     const heard = (await said()).filter((words) => /(?:First draft|Refining|Six futures).* ms/.test(words));
     assert.ok(new Set(heard).size > 2, heard.join('; '));
@@ -136,10 +136,10 @@ journeys('the first minute', (stage) => {
     assert.deepEqual(
       e.wire.since(released).filter((a) => a.body.react === true),
       [],
-      'the release is answered by what was foreseen',
+      'the release is answered by what was previewed',
     );
     assert.deepEqual(await e.page.locator('.ch').allInnerTexts(), wouldChange);
-    const commit = foreseen.at(-1);
+    const commit = previewed.at(-1);
     const asked = commit.body.conditions[car.id].goal;
     const answer = commit.event('final').samples[0].agents[car.id];
     const chosen = answer.modes[answer.chosen];

@@ -13,7 +13,7 @@ export default function ComparePanel() {
   const c = useApp();
   const now = c.variants.comparing.compared.value;
   if (!now) return null;
-  const { left, right, parting } = now;
+  const { left, right, comparison } = now;
   return (
     <>
       <div class="ih">
@@ -47,7 +47,7 @@ export default function ComparePanel() {
             </tr>
           </thead>
           <tbody>
-            {parting.rows.map((r) => (
+            {comparison.rows.map((r) => (
               <tr key={r.what} class={r.differs ? 'differs' : ''}>
                 <th scope="row">{r.what}</th>
                 <td>{r.left}</td>
@@ -63,8 +63,8 @@ export default function ComparePanel() {
           {TEXTS.differences}
           <small>{TEXTS.clickToGoThere}</small>
         </h3>
-        {parting.moments.length ? null : <p class="sec">{TEXTS.noDifferences}</p>}
-        {parting.moments.map((m) => (
+        {comparison.moments.length ? null : <p class="sec">{TEXTS.noDifferences}</p>}
+        {comparison.moments.map((m) => (
           <MomentRow key={`${m.time} ${m.words}`} moment={m} />
         ))}
       </section>
@@ -105,10 +105,10 @@ function MomentRow({ moment: m }: { moment: DivergingMoment }) {
   );
 }
 
-function sameWords({ left, right, parting }: Compared): string {
+function sameWords({ left, right, comparison }: Compared): string {
   const numbers = [
     left.state.seed === right.state.seed ? TEXTS.seed(left.state.seed) : '',
     left.state.diversity === right.state.diversity ? TEXTS.diversity(num(left.state.diversity * 100, 0)) : '',
   ].filter(Boolean);
-  return TEXTS.ofRoadUsers([TEXTS.map, ...numbers].join(', '), parting.same, parting.all);
+  return TEXTS.ofRoadUsers([TEXTS.map, ...numbers].join(', '), comparison.same, comparison.all);
 }

@@ -35,7 +35,7 @@ export class RemedyPreview {
     const tried = triedChange(scene, command);
     if (!tried) return;
     const before = editor.answers.motion.peek();
-    this.#show({ scene: tried.scene, set: before, parted: tried.changed, tried: true });
+    this.#show({ scene: tried.scene, set: before, diverging: tried.changed, tried: true });
     this.whatIf.ask(tried, (set) => set && this.#answered(tried, before, set));
   }
 
@@ -48,7 +48,7 @@ export class RemedyPreview {
 
   #answered({ scene, changed }: TriedChange, before: MotionSet, set: MotionSet): void {
     const others = findChanges(scene, before, set, new Set(changed)).map((c) => c.id);
-    this.#show({ scene, set, parted: [...changed, ...others], tried: true });
+    this.#show({ scene, set, diverging: [...changed, ...others], tried: true });
   }
 
   #show(beside: SceneBeside): void {

@@ -34,9 +34,9 @@ export function paintTries(g: Pen, v: View, tries: Tries): void {
   g.globalAlpha = 1;
 }
 
-export function paintBeside(g: Pen, v: View, { scene, set, parted }: SceneBeside, time: number): void {
+export function paintBeside(g: Pen, v: View, { scene, set, diverging }: SceneBeside, time: number): void {
   const c = colours();
-  const all = parted.flatMap((id) => scene.agents.get(id) ?? []);
+  const all = diverging.flatMap((id) => scene.agents.get(id) ?? []);
   for (const a of all)
     trail(g, v, motionOf(scene, set, a), { colour: c['ink-2'], width: 1.5, alpha: 0.8, dash: WAY_DASH, cap: 'butt' });
   for (const a of all) {
@@ -85,12 +85,12 @@ export function paintTried(
   g: Pen,
   v: View,
   labels: Labels,
-  { scene, set, parted }: SceneBeside,
+  { scene, set, diverging }: SceneBeside,
   now: Scene,
   unitOf: (a: Agent) => SpeedUnit,
 ): void {
   const c = colours();
-  for (const id of parted) {
+  for (const id of diverging) {
     const [a, was] = [scene.agents.get(id), now.agents.get(id)];
     if (!a || !was || a === was) continue;
     trail(g, v, motionOf(scene, set, a), { colour: c.goal, width: 3, dash: TRIED_DASH, halo: true, dots: true });

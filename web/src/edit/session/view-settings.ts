@@ -36,7 +36,7 @@ function remembered(): ShownLayers {
 export interface SceneBeside {
   readonly scene: Scene;
   readonly set: MotionSet;
-  readonly parted: readonly string[];
+  readonly diverging: readonly string[];
   /** A tried change: painted before the selected road user's own display. */
   readonly tried?: true;
   /** A pointed-out moment in it: its road users, place, time, and words. */

@@ -291,7 +291,7 @@ function readVariants(json: unknown, agents: ReadonlyMap<string, Agent>): Pick<S
       replan: readReplan(v.replan_s),
       drawn: whole(v.drawn, 0, 1e6) ? v.drawn : 0,
       subject: typeof v.subject === 'string' && agents.has(v.subject) ? v.subject : null,
-      roster: v.roster,
+      castKey: v.roster,
       asked: readAsked(v, agents),
     });
   }

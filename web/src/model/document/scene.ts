@@ -108,7 +108,7 @@ export interface VariantState {
   /** Subject of its set of variants; null for all road users. */
   readonly subject: string | null;
   /** Road users of the scene, as in `Scene.castKey`. */
-  readonly roster: string;
+  readonly castKey: string;
   /** Conditions by id; road users not listed have none. */
   readonly asked: Readonly<Record<string, AgentConditions>>;
 }

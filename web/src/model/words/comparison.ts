@@ -10,7 +10,7 @@ import { poseAt, STEP_S, type Motion } from '../base/motion';
 import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from '../document/scene';
 import { metres, num, seconds } from '../base/units';
-import { TEXTS } from '../../texts/scene/parting';
+import { TEXTS } from '../../texts/scene/comparison';
 
 export interface ComparedVariant {
   /** Its number, as the name in a sentence. */
@@ -47,7 +47,7 @@ export interface Diverging {
 
 export interface Comparison {
   /** The largest distance first. */
-  readonly parted: readonly Diverging[];
+  readonly diverging: readonly Diverging[];
   readonly rows: readonly ComparisonRow[];
   readonly moments: readonly DivergingMoment[];
   /** Number of road users with equal motions. */
@@ -65,12 +65,12 @@ const SLOWS_MPS = 1;
 
 export function comparisonOf(left: ComparedVariant, right: ComparedVariant): Comparison {
   const all = [...left.scene.agents.values()].filter((a) => a.type !== 'other');
-  const parted = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
+  const diverging = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
   return {
-    parted,
-    rows: rowsOf(left, right, parted),
-    moments: momentsOf(left, right, parted),
-    same: all.length - parted.length,
+    diverging,
+    rows: rowsOf(left, right, diverging),
+    moments: momentsOf(left, right, diverging),
+    same: all.length - diverging.length,
     all: all.length,
   };
 }
@@ -103,13 +103,13 @@ const row = (what: string, left: string, right: string): ComparisonRow => ({
   differs: left !== right,
 });
 
-function rowsOf(left: ComparedVariant, right: ComparedVariant, parted: readonly Diverging[]): ComparisonRow[] {
+function rowsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): ComparisonRow[] {
   const gap = ({ set }: ComparedVariant): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
   const events = (s: ComparedVariant): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
   const closing = ({ set }: ComparedVariant): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
   return [
     row(TEXTS.events, events(left), events(right)),
-    ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
+    ...diverging.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
     row(TEXTS.minPet, gap(left), gap(right)),
     row(TEXTS.minTtc, closing(left), closing(right)),
     ...goals(left, right),
@@ -143,7 +143,7 @@ function goals(left: ComparedVariant, right: ComparedVariant): ComparisonRow[] {
 
 // -------------------------------------------------------------- the moments
 
-function momentsOf(left: ComparedVariant, right: ComparedVariant, parted: readonly Diverging[]): DivergingMoment[] {
+function momentsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): DivergingMoment[] {
   const said = (e: TrafficEvent): string =>
     e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
   // If there are too many the worst are listed, and of these the earliest, on either side.
@@ -153,7 +153,7 @@ function momentsOf(left: ComparedVariant, right: ComparedVariant, parted: readon
   // An event in both, with a slightly different gap, is no difference.
   const alone = events.filter((m) => !events.some((o) => o !== m && sameMeeting(o.e, m.e)));
   const own = alone.map(({ e, words }): DivergingMoment => ({ time: e.time, words, at: e.at }));
-  const ways = parted.map((p) => wayOf(left, right, p));
+  const ways = diverging.map((p) => wayOf(left, right, p));
   return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
 }
 

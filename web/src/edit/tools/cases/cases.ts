@@ -320,7 +320,7 @@ export class Cases {
       return;
     }
     const sought = this.#sought.peek()!;
-    this.#beside = { ...c.take, parted: this.#parted(c), meeting: meetingOf(c, sought) };
+    this.#beside = { ...c.take, diverging: this.#diverging(c), meeting: meetingOf(c, sought) };
     editor.view.showBeside(this.#beside);
     editor.playhead.pause();
     editor.playhead.moveTo(c.moment.time);
@@ -335,7 +335,7 @@ export class Cases {
   }
 
   /** Road users of the moment, and all others with another motion. */
-  #parted({ take, moment }: Case): string[] {
+  #diverging({ take, moment }: Case): string[] {
     const sought = this.#sought.peek()!;
     const now = this.editor.answers.motion.peek();
     const others = findChanges(take.scene, now, take.set, new Set([sought.who])).map((c) => c.id);

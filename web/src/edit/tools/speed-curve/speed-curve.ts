@@ -29,7 +29,7 @@ const THERE_M = 0.6;
 /** Least distance of a new point from others, seconds. */
 const ROOM_S = 0.4;
 /** Largest deceleration for an added stop, m/s². */
-const CALM_MPS2 = 3;
+const COMFORTABLE_MPS2 = 3;
 
 const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? 0);
 
@@ -184,8 +184,8 @@ export class SpeedCurve {
     const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
     const middle = (widest.from + widest.to - (hold ?? 0)) / 2;
     // A stop without a chosen time is placed where comfortable braking suffices, if there is room.
-    const calm = widest.from + speedAt(motion, widest.from) / CALM_MPS2 + EASING_S;
-    const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(calm, widest.to - hold - ROOM_S));
+    const comfortable = widest.from + speedAt(motion, widest.from) / COMFORTABLE_MPS2 + EASING_S;
+    const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(comfortable, widest.to - hold - ROOM_S));
     const v = hold === null ? speedAt(motion, t) : 0;
     this.add(t, v, hold ?? 0);
   }

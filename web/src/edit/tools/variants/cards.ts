@@ -30,7 +30,7 @@ export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet 
 export interface Compared {
   readonly left: WholeCard;
   readonly right: WholeCard;
-  readonly parting: Comparison;
+  readonly comparison: Comparison;
 }
 
 export type VariantFilter = 'all' | 'events' | 'starred';
@@ -65,7 +65,7 @@ export function comparedOf(cards: readonly Card[], pair: readonly [number, numbe
     set: c.set,
     events: c.events,
   });
-  return { left, right, parting: comparisonOf(side(left), side(right)) };
+  return { left, right, comparison: comparisonOf(side(left), side(right)) };
 }
 
 export const hasEvents = (c: Pick<Card, 'events'>): boolean => worstOf(counted(c.events)) !== null;

@@ -30,8 +30,8 @@ export class Comparing {
   readonly compared: ReadonlySignal<Compared | null>;
   /** The road user whose speeds are compared: the picked one, else the one with the largest distance. */
   readonly followed = computed<Diverging | null>(() => {
-    const parted = this.compared.value?.parting.parted ?? [];
-    return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
+    const diverging = this.compared.value?.comparison.diverging ?? [];
+    return diverging.find((p) => p.agent.id === this.#followed.value) ?? diverging.at(0) ?? null;
   });
 
   constructor(
@@ -41,8 +41,8 @@ export class Comparing {
     this.compared = computed(() => comparedOf(of.cards.value, this.#pair.value));
     effect(() => {
       const now = this.compared.value;
-      const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
-      editor.view.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
+      const diverging = now?.comparison.diverging.map((p) => p.agent.id) ?? [];
+      editor.view.showBeside(now && { scene: now.right.scene, set: now.right.set, diverging });
     });
     // A change of the scene ends the comparison: the scene is none of the two any more.
     effect(() => {
@@ -84,7 +84,7 @@ export class Comparing {
       this.#picked.value = null;
       this.#pair.value = [left, right];
     });
-    const moment = this.compared.peek()?.parting.moments[0];
+    const moment = this.compared.peek()?.comparison.moments[0];
     this.editor.notices.say(
       moment ? TEXTS.variantsDiffer(left, right, moment.words) : TEXTS.variantsAreIdentical(left, right),
     );

@@ -1,4 +1,4 @@
-import type { TEXTS } from '../../scene/parting';
+import type { TEXTS } from '../../scene/comparison';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {

@@ -1,6 +1,6 @@
 import { table } from '../table';
 
-export const TEXTS = table('parting', {
+export const TEXTS = table('comparison', {
   events: 'Events',
   minPet: 'Minimum PET',
   minTtc: 'Minimum TTC',
