@@ -54,7 +54,7 @@ journeys('keeping', (stage) => {
       await e.until(() => /^Saved on this computer/.test(document.querySelector('.title small').textContent));
       const again = await e.killed();
       await again.until(() =>
-        /Restored the changes of your last session/.test(document.querySelector('.toast')?.textContent),
+        /The changes of your last session are restored/.test(document.querySelector('.toast')?.textContent),
       );
       await again.settled();
       await again.choose(car.id);

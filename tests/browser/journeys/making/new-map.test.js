@@ -121,7 +121,7 @@ journeys('new map', (stage) => {
     await drawn(e);
     assert.equal(await angle(e), 71);
 
-    await e.page.getByRole('group', { name: 'Right of way' }).getByText('Equal').click();
+    await e.page.getByRole('group', { name: 'Right of way' }).getByText('Uncontrolled').click();
     await drawn(e);
     await e.page.getByRole('group', { name: 'Right of way' }).getByText('Signals').click();
     await e.type('layout-kerb_radius_m', '10');

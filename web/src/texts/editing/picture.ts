@@ -51,6 +51,6 @@ export const TEXTS = table('picture', {
   southEast: 'south-east',
   exitLane: (arm: string, lane: number) => `${arm}, lane ${lane}`,
   toExit: (exit: string) => `To ${exit}`,
-  dropOnAnExit: 'Drop on an exit',
+  dropOnAnExit: 'Drop on an outbound lane',
   lanesInOut: (into: number, out: number) => `${into} in, ${out} out`,
 });

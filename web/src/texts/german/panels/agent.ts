@@ -100,7 +100,7 @@ export const german: Said<typeof TEXTS> = {
       other: `${letters} verfehlen das Ziel um bis zu ${furthest}.`,
     }),
   stopsFor: (lasts) => `Hält ${lasts}, fährt dann weiter`,
-  stopsUntilTheEnd: (from) => `Hält ab ${from} bis zum Ende`,
+  stopsUntilTheEnd: (from) => `Steht ab ${from} bis zum Ende`,
   goesAtYourSpeed: 'Folgt der Tempokurve',
   brakesAtUpTo: (braking) => `Bremst mit bis zu ${braking}.`,
   reachesTheGoal: (time) => `Am Ziel bei ${time}.`,
