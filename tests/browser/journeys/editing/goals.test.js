@@ -108,7 +108,7 @@ journeys('goals and values', (stage) => {
       await e.release();
       assert.match(await e.text('.hint'), /^Zu weit für 2,0 s\s+Das Ziel ist \d+ m entfernt\. In 2,0 s kommt /);
       assert.match(await e.text('.status'), /nächsten erreichbaren Punkt/);
-      assert.match((await e.page.locator('.opt').allInnerTexts()).join(), /Nächsten erreichbaren nehmen/);
+      assert.match((await e.page.locator('.opt').allInnerTexts()).join(), /Nächsten erreichbaren Punkt nehmen/);
     }
   });
 
