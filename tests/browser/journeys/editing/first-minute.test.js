@@ -99,7 +99,9 @@ journeys('the first minute', (stage) => {
     assert.match(await e.text('.helpbar'), /where others would wait/);
     await e.settled();
     assert.match(await e.text('.status'), /Six futures/);
-    const [previews, previewed] = [false, true].map((react) => e.wire.since(mark).filter((a) => a.body.react === react));
+    const [previews, previewed] = [false, true].map((react) =>
+      e.wire.since(mark).filter((a) => a.body.react === react),
+    );
     assert.ok(previews.length > 3, `${previews.length} requests while moving`);
     assert.ok([...previews, ...previewed].every((a) => a.body.conditions[car.id]?.goal));
     const revisions = previews.map((a) => a.body.revision);
