@@ -1,16 +1,17 @@
-// Rings of imports in src, and folders of many files. `npm run rings` prints the counts and fails where a number
-// differs from the one below: a smaller count lowers its number here, a larger one is refused. Imports of types count,
-// since a file is not read without them; a dynamic import() does not, since the importing file works without it.
+// Rings of imports in src, and folders of many files in src, test and the browser journeys. `npm run rings` prints the
+// counts and fails where a number differs from the one below: a smaller count lowers its number here, a larger one is
+// refused. Imports of types count, since a file is not read without them, and a dynamic import() too.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 
 /** Files in rings, by room; `across` for a ring through several rooms. Rooms without a number have none. */
 const RINGS = {};
-/** The most files in a folder, and the folders with more. */
+/** The most files in a folder, and the folders with more; the folders that are looked at. */
 const MOST_FILES = 25;
 const LARGER = {};
+const COUNTED = ['src', 'test', '../tests/browser/journeys', '../tests/browser/support'];
 
 const src = fileURLToPath(new URL('../src', import.meta.url));
 const files = readdirSync(src, { recursive: true, encoding: 'utf8' })
@@ -23,7 +24,8 @@ function importsOf(name) {
   const out = new Set();
   const file = ts.createSourceFile(name, readFileSync(join(src, name), 'utf8'), ts.ScriptTarget.Latest);
   const visit = (node) => {
-    const from = ts.isImportTypeNode(node) ? node.argument.literal : node.moduleSpecifier;
+    const dynamic = ts.isCallExpression(node) && node.expression.kind === ts.SyntaxKind.ImportKeyword;
+    const from = dynamic ? node.arguments[0] : ts.isImportTypeNode(node) ? node.argument.literal : node.moduleSpecifier;
     const path = from?.text?.startsWith('.') ? join(dirname(name), from.text).replaceAll('\\', '/') : null;
     const hit = path && ['', '.ts', '.tsx'].map((end) => path + end).find((p) => known.has(p));
     if (hit) out.add(hit);
@@ -57,7 +59,7 @@ const faults = [];
 function hold(what, found, allowed) {
   for (const key of new Set([...Object.keys(found), ...Object.keys(allowed)]))
     if ((found[key] ?? 0) !== (allowed[key] ?? 0))
-      faults.push(`${what} in src/${key}: ${found[key] ?? 0}, tools/rings.mjs says ${allowed[key] ?? 0}`);
+      faults.push(`${what} in ${key}: ${found[key] ?? 0}, tools/rings.mjs says ${allowed[key] ?? 0}`);
 }
 
 const rings = ringsOf(new Map(files.map((name) => [name, importsOf(name)])));
@@ -68,7 +70,11 @@ for (const ring of rings) {
   inRings[room] = (inRings[room] ?? 0) + ring.length;
 }
 const counts = {};
-for (const name of files) counts[dirname(name)] = (counts[dirname(name)] ?? 0) + 1;
+for (const top of COUNTED)
+  for (const file of readdirSync(join(src, '..', top), { recursive: true, withFileTypes: true })) {
+    const folder = relative(join(src, '..'), file.parentPath).replaceAll('\\', '/');
+    if (file.isFile()) counts[folder] = (counts[folder] ?? 0) + 1;
+  }
 const large = Object.fromEntries(Object.entries(counts).filter(([, n]) => n > MOST_FILES));
 hold('files in rings', inRings, RINGS);
 hold(`more than ${MOST_FILES} files`, large, LARGER);

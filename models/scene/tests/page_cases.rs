@@ -1,6 +1,6 @@
 //! Cases of geometry and verdicts that the engine and the page work out alike. This test works out the expected
 //! values and compares them with `assets/cases/physics.json`; `ACCEPT=1 cargo test -p dragtraffic-scene --test
-//! page_cases` writes them. The page reads the same file (`web/test/physics-cases.test.ts`).
+//! page_cases` writes them. The page reads the same file (`web/test/model/physics-cases.test.ts`).
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs, reason = "a test")]
 
 use scene::geometry::obb::{OrientedBox, overlaps, signed_gap};

@@ -349,10 +349,10 @@ export const STATES = [
       // Reactions have been requested; if this car itself waits there are none.
       for (const ahead of [40, 35, 50, 30]) {
         await e.settled();
-        if (await e.shows('.foreseen')) break;
+        if (await e.shows('.previewed')) break;
         await e.page.mouse.move(...(await flagAt(ahead)));
       }
-      await e.page.waitForSelector('.foreseen');
+      await e.page.waitForSelector('.previewed');
       await e.settled();
     },
   ],

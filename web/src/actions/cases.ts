@@ -23,7 +23,7 @@ export const cases = inGroup('variants', [
     run: (c) => {
       const open = c.searching.open.value;
       if (open) return open.close();
-      c.variants.endCompare();
+      c.variants.comparing.end();
       c.rounds.close();
       c.ui.showEvents(false);
       void c.searching.begin();

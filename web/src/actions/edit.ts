@@ -9,9 +9,9 @@ import { hasAgent, hasScene, hasSome, inGroup, onSome, type Action } from './act
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
 
-type Plain = Omit<Action, 'group'>;
+type UngroupedAction = Omit<Action, 'group'>;
 
-const kinds = PLACED_KINDS.map((kind): Plain => ({
+const kinds = PLACED_KINDS.map((kind): UngroupedAction => ({
   id: `kind-${kind}`,
   label: TEXTS.changeTo(KIND_WORDS[kind]),
   icon: kind,
@@ -23,7 +23,7 @@ const kinds = PLACED_KINDS.map((kind): Plain => ({
   ...onSome((_, all) => several.setKind(all, kind)),
 }));
 
-const does = (id: Others, key: string, label: string, help: Help): Plain => ({
+const does = (id: Others, key: string, label: string, help: Help): UngroupedAction => ({
   id: `does-${id}`,
   label,
   keys: [key],

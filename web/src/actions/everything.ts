@@ -29,7 +29,7 @@ function letGo({ editor, gestures, importing, maker, rounds, searching, ui, vari
   else if (rounds.isOpen.value) rounds.close();
   else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
-  else if (variants.pair.value || variants.picked.value !== null) variants.endCompare();
+  else if (variants.comparing.pair.value || variants.comparing.picked.value !== null) variants.comparing.end();
   else editor.select(null);
 }
 

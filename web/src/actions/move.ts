@@ -14,7 +14,7 @@ import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
 import { TEXTS } from '../texts/desk/actions';
 
-type Move = (e: Editor, a: Agent, part: HandlePart, v: View) => Command | null;
+type KeyMove = (e: Editor, a: Agent, part: HandlePart, v: View) => Command | null;
 /** The same for several; a move without it applies to a single one. */
 type MoveAll = (all: readonly Agent[], v: View) => Command | null;
 /** The same for a road user about to be placed; false where there is none. */
@@ -31,7 +31,7 @@ const move = (
   label: string,
   key: string,
   help: Help,
-  make: Move,
+  make: KeyMove,
   { icon, all, ghost }: Also = {},
 ): Omit<Action, 'group'> => ({
   id,

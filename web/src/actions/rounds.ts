@@ -24,7 +24,7 @@ const hasSubject = (c: Context): true | string => {
 };
 
 function open(c: Context, one: boolean): void {
-  c.variants.endCompare();
+  c.variants.comparing.end();
   c.ui.showEvents(false);
   if (one) c.rounds.open();
   else c.rounds.openScene();

@@ -1,5 +1,5 @@
 // Variants: alternatives of the scene, side by side.
-import type { Moment } from '../model/words/comparison';
+import type { DivergingMoment } from '../model/words/comparison';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 import { TEXTS } from '../texts/desk/actions';
@@ -8,13 +8,13 @@ const isOpen = (c: Context): boolean => c.variants.open.value;
 /** Text keys go to the road user while one is selected and no card has the focus. */
 const onCard = (c: Context): boolean => isOpen(c) && c.variants.current.value !== null;
 const hasCard = (c: Context): true | string => (onCard(c) ? true : TEXTS.selectAVariantFirst);
-const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
+const isComparing = (c: Context): boolean => c.variants.comparing.pair.value !== null;
 
 /** A moment nearer to the edge of the picture than this is centred, pixels. */
 const EDGE_PX = 60;
 
 /** Goes to a moment when the two compared variants diverge. */
-export function goToMoment({ editor, stage }: Context, m: Moment): void {
+export function goToMoment({ editor, stage }: Context, m: DivergingMoment): void {
   editor.playhead.pause();
   editor.playhead.moveTo(m.time);
   const v = stage.view;
@@ -26,7 +26,7 @@ export function goToMoment({ editor, stage }: Context, m: Moment): void {
 
 /** The next one after the playhead; after the last, the first again. */
 function nextMoment(c: Context): void {
-  const all = c.variants.compared.value?.parting.moments ?? [];
+  const all = c.variants.comparing.compared.value?.comparison.moments ?? [];
   const next = all.find((m) => m.time > c.editor.playhead.time.value + 0.05) ?? all[0];
   if (next) goToMoment(c, next);
 }
@@ -102,8 +102,8 @@ export const variants = inGroup('variants', [
     when: hasCard,
     checked: isComparing,
     run: (c) => {
-      if (isComparing(c)) c.variants.endCompare();
-      else c.variants.compareWith(c.variants.current.value!);
+      if (isComparing(c)) c.variants.comparing.end();
+      else c.variants.comparing.with(c.variants.current.value!);
     },
   },
   {
@@ -125,10 +125,10 @@ export const variants = inGroup('variants', [
     help: 'movesTheRightToTheLeft',
     onOffer: isComparing,
     when: (c) => (isComparing(c) ? true : TEXTS.compareTwoVariants),
-    run: (c) => c.variants.swapSides(),
+    run: (c) => c.variants.comparing.swapSides(),
   },
   {
-    id: 'next-parting',
+    id: 'next-difference',
     label: TEXTS.nextDifference,
     keys: ['E'],
     icon: 'next',

@@ -11,13 +11,13 @@ import { Icon } from './parts/icons';
 import { TEXTS } from '../texts/desk/context-menu';
 
 /** Ids of actions; null is a separator, a list with a name is a submenu. */
-type Entry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };
+type MenuEntry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };
 
-const KINDS: Entry = { name: TEXTS.type, icon: 'pencil', items: PLACED_KINDS.map((k) => `kind-${k}`) };
+const KINDS: MenuEntry = { name: TEXTS.type, icon: 'pencil', items: PLACED_KINDS.map((k) => `kind-${k}`) };
 const DOES = ['does-react', 'does-log', 'does-still'];
 const COPIES = ['copy', 'cut', 'duplicate', 'delete'];
 
-const MENUS: Record<MenuOn, readonly Entry[]> = {
+const MENUS: Record<MenuOn, readonly MenuEntry[]> = {
   'road-user': [
     ...COPIES,
     null,
@@ -173,7 +173,7 @@ function openSub(button: HTMLElement): void {
 }
 
 /** Opens on hover, click and right arrow, and stays while it has the focus. */
-function Sub({ name, icon, items }: Exclude<Entry, string | null>) {
+function Sub({ name, icon, items }: Exclude<MenuEntry, string | null>) {
   return (
     <div
       class="more"

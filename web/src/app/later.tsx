@@ -146,9 +146,9 @@ const PARTS = {
   ),
 } as const;
 
-type Parts = typeof PARTS;
-type Name = keyof Parts;
-type PropsOf<N extends Name> = ComponentProps<Awaited<ReturnType<Parts[N]>>>;
+type LateParts = typeof PARTS;
+type Name = keyof LateParts;
+type PropsOf<N extends Name> = ComponentProps<Awaited<ReturnType<LateParts[N]>>>;
 
 const here = new Map<Name, ComponentType>();
 

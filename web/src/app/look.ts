@@ -3,7 +3,7 @@ import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/physics/scene-centre';
 import { wrapAngle, type Vec } from '../model/base/geometry';
-import type { Way } from '../model/document/scene-diff';
+import type { HistoryDirection } from '../model/document/scene-diff';
 import type { Camera, HistoryStep } from '../model/document/history';
 import { poseShown } from '../edit/overlay/frame';
 import { endPose, poseAt } from '../model/base/motion';
@@ -85,7 +85,7 @@ const moved = (a: Camera, b: Camera): boolean =>
 export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
   editor.document.camera = () => stage.view.camera;
-  const travelled = (step: HistoryStep, way: Way): void => {
+  const travelled = (step: HistoryStep, way: HistoryDirection): void => {
     const there = way === 'back' ? step.from : step.to;
     if (!there || !step.from || !step.to || !moved(there, stage.view.camera)) return;
     const a = step.agent === null ? undefined : editor.scene.peek()?.agents.get(step.agent);

@@ -33,7 +33,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   const input = target instanceof HTMLInputElement ? target : null;
   // A typed character is text.
   const typed = e.key.length === 1 && !e.ctrlKey && !e.metaKey && !e.altKey;
-  if (typed && (target instanceof HTMLTextAreaElement || (input && !/range|radio/.test(input.type)))) {
+  if (typed && (target instanceof HTMLTextAreaElement || (input && !['range', 'radio'].includes(input.type)))) {
     if (!input || !leavesField(input, e, a)) return true;
   }
   if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
@@ -41,7 +41,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   if (ui.dialog.peek() && a.context !== 'always') return true;
   // Tab walks through road users from the picture, once; elsewhere, and at the end, it is the browser's.
   const inList = target.closest('[data-group="users"]') !== null;
-  if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body)
+  if (['Tab', 'Shift+Tab'].includes(a.keys![0]) && target !== document.body)
     if (!inList || ui.drawer.peek() === 'users' || walkEnds(c, e.shiftKey ? -1 : 1)) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;

@@ -50,7 +50,7 @@ function Around() {
   const { editor, form, rounds, ui, variants } = useApp();
   const menu = useComputed(() => ui.contextMenu.value !== null).value;
   const judging = rounds.isOpen.value;
-  const comparing = useComputed(() => variants.compared.value !== null).value;
+  const comparing = useComputed(() => variants.comparing.compared.value !== null).value;
   const strip = useComputed(() => variants.open.value && editor.isOpen.value).value;
   return (
     <>

@@ -5,7 +5,7 @@ import { colours, paletteStamp } from './theme';
 import type { View } from './view';
 
 /** A stretch of a motion, in seconds of the scene. */
-export interface Stretch {
+export interface MotionStretch {
   readonly motion: Motion;
   readonly from: number;
   readonly to: number;
@@ -17,7 +17,7 @@ const SHORTEST_PX = 12;
 const MOST_STEPS = 8;
 
 /** Corner points of a stretch on screen. */
-function pointsOf(v: View, s: Stretch): [number, number][] {
+function pointsOf(v: View, s: MotionStretch): [number, number][] {
   const m = s.motion;
   const at = (i: number): [number, number] => v.to(m.x[i], m.y[i]);
   const inside = (i: number): boolean => i >= 0 && i < m.x.length && isValidAt(m, m.first + i);
@@ -56,7 +56,7 @@ export interface BrokenStyle {
   readonly alpha: number;
 }
 
-export function paintBroken(g: Pen, v: View, s: Stretch, style: BrokenStyle): void {
+export function paintBroken(g: Pen, v: View, s: MotionStretch, style: BrokenStyle): void {
   const { halo } = colours();
   const pts = pointsOf(v, s);
   if (pts.length < 2) return;
@@ -81,7 +81,7 @@ export function paintBroken(g: Pen, v: View, s: Stretch, style: BrokenStyle): vo
 }
 
 /** The ground under stretches, as wide as the road user; where several cross it, it is hatched once. */
-export function paintGround(g: Pen, v: View, stretches: readonly Stretch[], width: number): void {
+export function paintGround(g: Pen, v: View, stretches: readonly MotionStretch[], width: number): void {
   if (!stretches.length) return;
   g.beginPath();
   for (const s of stretches) trace(g, pointsOf(v, s));

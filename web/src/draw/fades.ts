@@ -6,7 +6,7 @@ const FADE_MS = 90;
 /** Largest distance that a ghost slides between two frames, in metres. */
 const SLIDE_M = 2;
 
-export interface Placed {
+export interface PlacedGhost {
   readonly id: string;
   readonly place: Pose;
 }
@@ -25,7 +25,7 @@ interface Kept<T> {
   from: number;
 }
 
-export class Fades<T extends Placed> {
+export class Fades<T extends PlacedGhost> {
   #here = new Map<string, Kept<T>>();
   #going: Kept<T>[] = [];
   #fading = false;
@@ -35,15 +35,15 @@ export class Fades<T extends Placed> {
     return this.#fading;
   }
 
-  /** Ghosts to paint now; `calm` for reduced motion. */
-  next(ghosts: readonly T[], now: number, calm: boolean): Faded<T>[] {
+  /** Ghosts to paint now; `reducedMotion` for reduced motion. */
+  next(ghosts: readonly T[], now: number, reducedMotion: boolean): Faded<T>[] {
     const before = this.#here;
     this.#here = new Map(ghosts.map((ghost) => [ghost.id, this.#kept(before.get(ghost.id), ghost, now)]));
     for (const [id, k] of before) if (!this.#here.has(id)) this.#leave(k, now);
-    this.#going = calm ? [] : this.#going.filter((k) => now - k.since < FADE_MS);
+    this.#going = reducedMotion ? [] : this.#going.filter((k) => now - k.since < FADE_MS);
     const here = [...this.#here.values()].map(({ ghost, since }): Faded<T> => ({
       ghost,
-      alpha: calm ? 1 : share(since, now),
+      alpha: reducedMotion ? 1 : share(since, now),
       here: true,
     }));
     this.#fading = this.#going.length > 0 || here.some((g) => g.alpha < 1);

@@ -12,7 +12,7 @@ export class Glide {
   #began = 0;
   /** The camera after the last frame: a different one means that another change moved it. */
   #left: Required<Camera> | null = null;
-  readonly #calm = matchMedia('(prefers-reduced-motion: reduce)');
+  readonly #reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(
     private readonly view: View,
@@ -38,7 +38,7 @@ export class Glide {
   }
 
   to(camera: Camera): void {
-    if (this.#calm.matches) {
+    if (this.#reducedMotion.matches) {
       this.view.look(camera);
       this.stop();
       this.moved();

@@ -40,7 +40,7 @@ export function paintZones(g: Pen, v: View, zones: readonly Zone[]): void {
 }
 
 /** Place of a speed-limit sign, m/s. */
-interface Sign {
+interface SpeedSign {
   readonly x: number;
   readonly y: number;
   readonly limit: number;
@@ -52,12 +52,12 @@ const APART_PX = 64;
 /** Distance into a lane, metres: past the part it shares with the one before. */
 const INTO_LANE_M = 20;
 
-const signs = new WeakMap<LaneMap, readonly Sign[]>();
+const signs = new WeakMap<LaneMap, readonly SpeedSign[]>();
 
-function signsOf(map: LaneMap): readonly Sign[] {
+function signsOf(map: LaneMap): readonly SpeedSign[] {
   const known = signs.get(map);
   if (known) return known;
-  const all = [...map.lanes.values()].flatMap((l): Sign[] => {
+  const all = [...map.lanes.values()].flatMap((l): SpeedSign[] => {
     if (l.limit === null || l.kind !== 'road' || l.inside) return [];
     const { x, y } = pointAt(l.line, Math.min(INTO_LANE_M, l.line.length / 2));
     return [{ x, y, limit: l.limit }];

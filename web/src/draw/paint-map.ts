@@ -2,7 +2,7 @@
 import type { Pen } from './pen';
 import { pointAt, wrapAngle, type Box, type Vec } from '../model/base/geometry';
 import { nearestLanes, turnOf, type Lane, type LaneMap } from '../model/document/lanemap';
-import { Layer } from './tiles';
+import { TileLayer } from './tiles';
 import { colours } from './theme';
 import type { View } from './view';
 
@@ -22,16 +22,16 @@ interface Arrow {
 const BAND_M = 5.2;
 
 export class MapPicture {
-  private readonly roads = new Map<number, Layer>();
-  private readonly openRoads = new Map<number, Layer>();
-  private readonly drivable = new Layer();
-  private readonly bike = new Map<number, Layer>();
-  private readonly walks = new Layer();
-  private readonly driveways = new Layer();
-  private readonly bumps = new Layer();
-  private readonly kerbs = new Layer();
-  private readonly lines = new Map<string, Layer>();
-  private readonly outlines = new Layer();
+  private readonly roads = new Map<number, TileLayer>();
+  private readonly openRoads = new Map<number, TileLayer>();
+  private readonly drivable = new TileLayer();
+  private readonly bike = new Map<number, TileLayer>();
+  private readonly walks = new TileLayer();
+  private readonly driveways = new TileLayer();
+  private readonly bumps = new TileLayer();
+  private readonly kerbs = new TileLayer();
+  private readonly lines = new Map<string, TileLayer>();
+  private readonly outlines = new TileLayer();
   private readonly stripes: Stripe[];
   private readonly arrows: Arrow[];
 
@@ -116,7 +116,7 @@ export class MapPicture {
     for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
   }
 
-  private strokeAll(g: Pen, layer: Layer, box: Box, colour: string, width: number, dash: number[] = []): void {
+  private strokeAll(g: Pen, layer: TileLayer, box: Box, colour: string, width: number, dash: number[] = []): void {
     g.strokeStyle = colour;
     g.lineWidth = width;
     g.setLineDash(dash);
@@ -223,9 +223,9 @@ export class MapPicture {
   }
 }
 
-function layerOf<K>(layers: Map<K, Layer>, key: K): Layer {
+function layerOf<K>(layers: Map<K, TileLayer>, key: K): TileLayer {
   let l = layers.get(key);
-  if (!l) layers.set(key, (l = new Layer()));
+  if (!l) layers.set(key, (l = new TileLayer()));
   return l;
 }
 

@@ -24,10 +24,10 @@ export interface Sprite {
   readonly paint: (pen: Pen) => void;
 }
 
-type Canvas2D = CanvasRenderingContext2D;
+type ScreenContext = CanvasRenderingContext2D;
 
 export interface Pen extends Pick<
-  Canvas2D,
+  ScreenContext,
   | 'beginPath'
   | 'moveTo'
   | 'lineTo'

@@ -1,7 +1,7 @@
 // Schedules painting: map, road users and overlay are each repainted only after a change, within one animation frame.
 // While the view moves, the painted map is shifted, scaled and turned; it is repainted when the movement ends or its
 // margin is used up.
-import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './recording/easel';
+import { LAYERS, MARGIN, sameShift, type CanvasLayer, type Loupe, type Shift } from './recording/easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
 import { opaquePen, paintOn } from './recording/replay';
@@ -20,7 +20,7 @@ export class Stage {
   readonly view = new View();
   readonly glide = new Glide(this.view, () => this.viewChanged());
   private readonly screen: Screen;
-  private readonly painters: Partial<Record<LayerName, Painter>> = {};
+  private readonly painters: Partial<Record<CanvasLayer, Painter>> = {};
   private readonly dirty = { map: true, agents: true, overlay: true };
   /** The view of the painted map. */
   private painted: View | null = null;
@@ -65,12 +65,12 @@ export class Stage {
     this.screen.close();
   }
 
-  painter(layer: LayerName, p: Painter): void {
+  painter(layer: CanvasLayer, p: Painter): void {
     this.painters[layer] = p;
   }
 
   /** Paints layers of the screen on another canvas, with `scale` pixels for each CSS pixel. */
-  paintOn(canvas: HTMLCanvasElement, layers: readonly LayerName[], scale = this.view.dpr): void {
+  paintOn(canvas: HTMLCanvasElement, layers: readonly CanvasLayer[], scale = this.view.dpr): void {
     const v = this.view.copy();
     v.dpr = scale;
     const [w, h] = [Math.round(v.w * scale), Math.round(v.h * scale)];
@@ -83,7 +83,7 @@ export class Stage {
   }
 
   /** The same for any pen. */
-  paintWith(pen: Pen, layers: readonly LayerName[]): void {
+  paintWith(pen: Pen, layers: readonly CanvasLayer[]): void {
     const v = this.view.copy();
     v.dpr = 1;
     for (const name of layers) {
@@ -110,13 +110,13 @@ export class Stage {
     else if (was) this.grown.emit();
   }
 
-  invalidate(...layers: LayerName[]): void {
+  invalidate(...layers: CanvasLayer[]): void {
     for (const l of layers) this.dirty[l] = true;
     this.request();
   }
 
   /** The same without a wait for the next frame: for changes that do not come from input. */
-  soon(...layers: LayerName[]): void {
+  soon(...layers: CanvasLayer[]): void {
     for (const l of layers) this.dirty[l] = true;
     if (this.hurried) return;
     this.hurried = true;
@@ -176,7 +176,7 @@ export class Stage {
     this.owed = this.screen.busy;
     if (this.owed) return;
     const v = this.view;
-    const layers: Partial<Record<LayerName, Float64Array>> = {};
+    const layers: Partial<Record<CanvasLayer, Float64Array>> = {};
     let shift = this.shift();
     if (this.dirty.map || !shift) {
       layers.map = this.paintMap();

@@ -41,7 +41,7 @@ const initial = () => ({
   dash: [] as readonly number[],
   tiles: null as string | null,
 });
-type State = ReturnType<typeof initial>;
+type PenState = ReturnType<typeof initial>;
 
 const ANCHOR: Partial<Record<CanvasTextAlign, string>> = { center: 'middle', right: 'end', end: 'end' };
 
@@ -51,8 +51,8 @@ export class SvgPen implements Pen {
   shadowBlur = 0;
   shadowOffsetY = 0;
   readonly #out: string[] = [];
-  #s: State = initial();
-  #saved: State[] = [];
+  #s: PenState = initial();
+  #saved: PenState[] = [];
   #path = '';
   #last: readonly [number, number] | null = null;
 

@@ -9,7 +9,7 @@ interface Tile {
 
 const SIZE = 64;
 
-export class Layer {
+export class TileLayer {
   private readonly tiles = new Map<string, Tile>();
 
   constructor(readonly reach = 6) {}

@@ -9,7 +9,7 @@ import type {
   PlaceReply,
   Problem,
   SceneJson,
-  SceneList,
+  SceneListReply,
   ScoreReply,
   TemplateName,
   FormatInfo,
@@ -34,7 +34,7 @@ const etagOf = (reply: Response): string | null => reply.headers.get('etag')?.re
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
 
 /** Companions of a file. */
-export interface Beside {
+export interface FileCompanions {
   /** Its network or map. */
   readonly net?: Blob;
   /** Meaning of a table's columns. */
@@ -66,12 +66,12 @@ export class Client {
     throw new Refused(reply.status, problem);
   }
 
-  async scenes(query = ''): Promise<SceneList> {
-    const all: SceneList = { scenes: [], next: null };
+  async scenes(query = ''): Promise<SceneListReply> {
+    const all: SceneListReply = { scenes: [], next: null };
     let after: string | null = null;
     do {
       const p = new URLSearchParams({ limit: '200', ...(query ? { q: query } : {}), ...(after ? { after } : {}) });
-      const page = (await (await this.request(`/v1/scenes?${p}`)).json()) as SceneList;
+      const page = (await (await this.request(`/v1/scenes?${p}`)).json()) as SceneListReply;
       all.scenes.push(...page.scenes);
       after = page.next;
     } while (after && all.scenes.length < 2000);
@@ -135,7 +135,7 @@ export class Client {
     await this.request(`/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE', headers: { 'If-Match': etag } });
   }
 
-  async importFile(name: string, body: Blob, { net, columns }: Beside = {}): Promise<ImportReply> {
+  async importFile(name: string, body: Blob, { net, columns }: FileCompanions = {}): Promise<ImportReply> {
     const isJson = /\.json$/i.test(name);
     const form = new FormData();
     form.append('file', body, name);

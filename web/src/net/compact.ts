@@ -1,15 +1,14 @@
 // Converts the server's compact futures to those of a scene document.
-import type { components } from '../model/base/api';
+import type { Schemas } from '../model/base/schemas';
 import type { AgentFuturesJson } from '../model/document/scene-json';
 import type { DraftEvent, FinalEvent, GenerateEvent } from './types';
 
-type Schemas = components['schemas'];
-type Sent = Schemas['FuturesDoc'];
+type SentFutures = Schemas['FuturesDoc'];
 type CompactFuture = Schemas['CompactFuture'];
 
 /** An event with its futures in columns; numbers are equal to the last digit, all in one memory block. */
 export function expanded(e: Schemas['Event']): GenerateEvent {
-  const all = (agents: Record<string, Sent>, to: Block): Record<string, AgentFuturesJson> =>
+  const all = (agents: Record<string, SentFutures>, to: Block): Record<string, AgentFuturesJson> =>
     Object.fromEntries(Object.entries(agents).map(([id, sent]) => [id, futures(sent, to)]));
   if (e.event === 'initial' || e.event === 'step')
     return { ...e, agents: all(e.agents, new Block([e.agents])) } as DraftEvent;
@@ -23,7 +22,7 @@ class Block {
   readonly #numbers: Float64Array;
   #used = 0;
 
-  constructor(samples: readonly Record<string, Sent>[]) {
+  constructor(samples: readonly Record<string, SentFutures>[]) {
     let count = 0;
     for (const sent of samples.flatMap((agents) => Object.values(agents)))
       if ('compact' in sent)
@@ -44,7 +43,7 @@ class Block {
   }
 }
 
-function futures(sent: Sent, to: Block): AgentFuturesJson {
+function futures(sent: SentFutures, to: Block): AgentFuturesJson {
   if (!('compact' in sent)) return sent as AgentFuturesJson;
   const { compact, ...rest } = sent;
   return { ...rest, modes: compact.map((c) => columns(c, to)) } as unknown as AgentFuturesJson;

@@ -2,10 +2,10 @@
 import type { SceneJson } from '../model/document/scene-json';
 import type { Client } from './client';
 import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
-import type { Answer, Transport } from './http-transport';
+import type { EventReply, Transport } from './http-transport';
 import type { ScoreReply } from './types';
 
-interface Running {
+interface RunningQuestion {
   question: Question;
   /** Time of sending, milliseconds. */
   asked: number;
@@ -43,10 +43,10 @@ const PROBE_MS = 1500;
 const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
 
 export class HttpGenerator implements Generator {
-  private running: Running | null = null;
+  private running: RunningQuestion | null = null;
   private waiting: Question | null = null;
   /** An overtaken drag question whose first visible result is under way. */
-  private passed: Running | null = null;
+  private passed: RunningQuestion | null = null;
   /** Delays of the last first visible results, milliseconds. */
   private readonly firsts: number[] = [];
   /** Was a question overtaken since the last drawn result? */
@@ -100,20 +100,20 @@ export class HttpGenerator implements Generator {
   }
 
   /** Has a visible result surely left the server? Never assumed twice in a row: something must be drawn. */
-  private isAnswered(r: Running): boolean {
+  private isAnswered(r: RunningQuestion): boolean {
     if (!r.named || this.passed || this.guessed || this.firsts.length < SURELY.of) return false;
     return this.now() - r.asked > SURELY.times * Math.min(...this.firsts) + SURELY.more_ms;
   }
 
   /** The next question overtakes one without a result so far, which is still read. */
-  private pass(r: Running): void {
+  private pass(r: RunningQuestion): void {
     this.passed = r;
     this.guessed = true;
     this.next();
   }
 
   /** A first visible result arrived: a draft, or the answer where that was as quick. */
-  private noteDrawn(r: Running, ms: number): void {
+  private noteDrawn(r: RunningQuestion, ms: number): void {
     this.guessed = false;
     if (!r.drawn && r.question.preview) {
       this.firsts.push(ms);
@@ -148,7 +148,7 @@ export class HttpGenerator implements Generator {
   }
 
   private async run(ask: Question): Promise<void> {
-    const me: Running = {
+    const me: RunningQuestion = {
       question: ask,
       asked: this.now(),
       named: false,
@@ -212,7 +212,7 @@ export class HttpGenerator implements Generator {
    * Watches a question while it is open. Time is counted in ticks, so that a computer's sleep does not count as the
    * generator's absence.
    */
-  private watch(me: Running): () => void {
+  private watch(me: RunningQuestion): () => void {
     const { slow, look, lost, tick, alive } = this.patience;
     let looked = false;
     let told = 0;
@@ -234,7 +234,7 @@ export class HttpGenerator implements Generator {
     return () => clearInterval(timer);
   }
 
-  private lose(me: Running): void {
+  private lose(me: RunningQuestion): void {
     this.forgetPassed();
     this.running = null;
     this.silent = 0;
@@ -245,7 +245,7 @@ export class HttpGenerator implements Generator {
   }
 
   /** The queue is full for a moment: a preview is dropped, a change is sent again later. */
-  private async later(ask: Question, me: Running, seconds: number): Promise<void> {
+  private async later(ask: Question, me: RunningQuestion, seconds: number): Promise<void> {
     if (ask.preview) {
       ask.on.dropped?.();
       return;
@@ -255,7 +255,7 @@ export class HttpGenerator implements Generator {
     if (this.running === me) await this.run(ask);
   }
 
-  private async post(scene: SceneRef, me: Running): Promise<Answer> {
+  private async post(scene: SceneRef, me: RunningQuestion): Promise<EventReply> {
     const hold = 'scene' in scene && me.question.preview;
     const rest = JSON.stringify({
       client: this.name,
@@ -279,7 +279,7 @@ export class HttpGenerator implements Generator {
     return text;
   }
 
-  private async read(answer: Answer, me: Running, began: number): Promise<void> {
+  private async read(answer: EventReply, me: RunningQuestion, began: number): Promise<void> {
     const { on } = me.question;
     let shown = -1,
       window = 0;

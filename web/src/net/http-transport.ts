@@ -14,7 +14,7 @@ export interface Head {
   readonly problem: Problem | null;
 }
 
-export interface Answer extends Head {
+export interface EventReply extends Head {
   /** To be read once. Leaving the loop early ends the server's work too. */
   readonly events: AsyncIterable<GenerateEvent>;
 }
@@ -23,7 +23,7 @@ export interface Answer extends Head {
 export type Sender = Pick<Client, 'send'>;
 
 /** Sends a question, given as a request body. The abort signal makes it fail. */
-export type Transport = (body: string, signal: AbortSignal) => Promise<Answer>;
+export type Transport = (body: string, signal: AbortSignal) => Promise<EventReply>;
 
 async function* none(): AsyncGenerator<Together> {}
 

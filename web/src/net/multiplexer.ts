@@ -3,7 +3,7 @@ import type { Head } from './http-transport';
 import { faultOf } from './problem';
 
 /** An open question: the promise of its head, and the pieces not read yet. */
-class Question<Piece> {
+class OpenQuestion<Piece> {
   head!: (h: Head) => void;
   fail!: (e: unknown) => void;
   readonly begun = new Promise<Head>((done, fail) => {
@@ -43,14 +43,14 @@ class Question<Piece> {
 }
 
 /** How a connection sends a question, and cancels it. */
-export interface Saying {
+export interface QuestionSender {
   ask(id: number, body: string): void;
   end(id: number): void;
 }
 
 export class Multiplexer<Piece> {
   #count = 0;
-  readonly #open = new Map<number, Question<Piece>>();
+  readonly #open = new Map<number, OpenQuestion<Piece>>();
 
   /** Number of open questions. */
   get size(): number {
@@ -58,10 +58,10 @@ export class Multiplexer<Piece> {
   }
 
   /** Sends a question; it is cancelled when the signal aborts, and when its reader leaves early. */
-  async put(body: string, signal: AbortSignal, say: Saying): Promise<Head & { pieces: AsyncIterable<Piece> }> {
+  async put(body: string, signal: AbortSignal, say: QuestionSender): Promise<Head & { pieces: AsyncIterable<Piece> }> {
     signal.throwIfAborted();
     const id = ++this.#count;
-    const question = new Question<Piece>();
+    const question = new OpenQuestion<Piece>();
     this.#open.set(id, question);
     const leave = (): void => {
       signal.removeEventListener('abort', stop);

@@ -1,7 +1,7 @@
 // Locks a scene among tabs of one browser: one tab holds the lock, the others wait. A waiting tab may ask for it; the
 // holder then finishes writing and releases it. A closed or killed tab releases it automatically.
 
-interface Word {
+interface LockMessage {
   readonly kind: 'ask' | 'changed';
   readonly scene: string;
 }
@@ -41,7 +41,7 @@ export class SceneTurns {
   ) {
     this.#locks = locks;
     this.#channel = channel;
-    channel?.addEventListener('message', (e) => void this.#heard((e as MessageEvent<Word>).data));
+    channel?.addEventListener('message', (e) => void this.#heard((e as MessageEvent<LockMessage>).data));
   }
 
   /** Does this tab hold the lock? Without lock support every tab does. */
@@ -88,7 +88,7 @@ export class SceneTurns {
   takeOver(): void {
     const scene = this.#scene;
     if (!scene || this.#holds) return;
-    this.#channel?.postMessage({ kind: 'ask', scene } satisfies Word);
+    this.#channel?.postMessage({ kind: 'ask', scene } satisfies LockMessage);
     setTimeout(() => {
       if (this.#scene !== scene || this.#holds) return;
       this.#waiting?.abort();
@@ -98,7 +98,8 @@ export class SceneTurns {
 
   /** Notifies tabs that show the scene of a change. */
   tellChanged(): void {
-    if (this.#scene && this.#holds) this.#channel?.postMessage({ kind: 'changed', scene: this.#scene } satisfies Word);
+    if (this.#scene && this.#holds)
+      this.#channel?.postMessage({ kind: 'changed', scene: this.#scene } satisfies LockMessage);
   }
 
   /** Waits for the lock. */
@@ -139,7 +140,7 @@ export class SceneTurns {
     this.#queue(scene);
   }
 
-  async #heard({ kind, scene }: Word): Promise<void> {
+  async #heard({ kind, scene }: LockMessage): Promise<void> {
     const mine = scene === this.#scene ? this.#holds : this.#before.has(scene);
     if (kind === 'changed') {
       if (!mine) this.on.changed(scene);

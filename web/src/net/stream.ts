@@ -31,6 +31,6 @@ export function eventsOf(text: string): Together {
   return lines.filter(Boolean).map(parse);
 }
 
-type Sent = Parameters<typeof expanded>[0];
+type SentEvent = Parameters<typeof expanded>[0];
 
-const parse = (line: string): GenerateEvent => expanded(JSON.parse(line) as Sent);
+const parse = (line: string): GenerateEvent => expanded(JSON.parse(line) as SentEvent);

@@ -1,12 +1,10 @@
 // The API as the editor uses it: names for parts of the generated types. The editor uses no private API, so a script
 // can do the same.
-import type { components } from '../model/base/api';
+import type { Schemas } from '../model/base/schemas';
 import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/document/scene-json';
 
-type Schemas = components['schemas'];
-
 export type SceneListItem = Schemas['SceneItem'];
-export type SceneList = Schemas['SceneList'];
+export type SceneListReply = Schemas['SceneList'];
 /** Road users in document form. */
 export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };
 export type ImportReply = Schemas['ImportReply'];
@@ -53,7 +51,7 @@ export type GenerateEvent =
 export type Resolved = Schemas['Resolved'];
 export type ScoreReply = Schemas['ScoreReply'];
 
-export type TemplateName = Schemas['Template'];
+export type { TemplateName } from '../model/document/layouts';
 export type MapReply = Schemas['MapReply'];
 /** A template with its parameters, completed by the server. */
 export type Layout = MapReply['layout'];

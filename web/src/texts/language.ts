@@ -57,14 +57,14 @@ export const inSentence = (title: string): string =>
 export const capitalised = (words: string): string => words.charAt(0).toUpperCase() + words.slice(1);
 
 /** Texts of another language; null where they stay unchanged. */
-interface Change {
+interface Translation {
   area(area: string, english: Words): Words;
   /** Text of a refusal of the server, by code; `undefined` where there is none. */
   refused(code: string): string | undefined;
   readonly taps: Taps;
 }
 
-async function changeOf(): Promise<Change | null> {
+async function changeOf(): Promise<Translation | null> {
   if (chosen === MARKED) {
     const { marked } = await import('./marked');
     return { area: marked, refused: () => undefined, taps: [] };
@@ -89,6 +89,3 @@ export function speak(name: LanguageName): void {
   }
   location.reload();
 }
-
-/** Places with a preposition of their own: `off the lanes`, `in the junction`. */
-export const SAYS_WHERE = /^(on|off|inside|beside|in) /;

@@ -11,6 +11,12 @@ export type Said<T> = {
   readonly [K in keyof T]: T[K] extends string ? string : T[K] extends (...v: never[]) => string ? T[K] : Said<T[K]>;
 };
 
+/** A sentence of the server, or one with a title that also stands alone; the rest may be empty. */
+export type Sentence =
+  | string
+  | ((values: Values) => string)
+  | { readonly title: (values: Values) => string; readonly rest: string | ((values: Values) => string) };
+
 /** Values of a server sentence by name, as text in the units of the page; an absent one is empty. */
 export type Values = Readonly<Record<string, string>>;
 

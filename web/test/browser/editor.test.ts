@@ -137,8 +137,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const [x, y] = await d.at(...(await d.goal()));
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
     await d.settled();
-    expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+on release$/);
-    const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
+    expect(await d.text('.previewed h3')).toMatch(/^\d others would change\s+on release$/);
+    const causes = await d.page.locator('.previewed .ch').allInnerTexts();
     for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
     await d.key('h');
     await expect.poll(() => d.text('.helpbar')).toContain('show others’ reactions');
@@ -147,7 +147,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const asked = d.server.log.filter((l) => l.react).length;
     await d.release();
     expect(d.server.log.filter((l) => l.react).length).toBe(asked);
-    expect(await d.page.locator('.foreseen').count()).toBe(0);
+    expect(await d.page.locator('.previewed').count()).toBe(0);
     expect(await d.page.locator('.ch').allInnerTexts()).toEqual(causes);
   });
 

@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { rename, setSeed } from '../../src/model/document/commands';
 import { PassingStepStore } from '../../src/net/step-store';
 import { crossingJson } from '../helpers';
-import { channels, Locks } from '../locks';
+import { channels, Locks } from '../net/locks';
 import { ScriptedServer } from './server';
 import { Tab } from './tab';
 

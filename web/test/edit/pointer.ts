@@ -59,7 +59,7 @@ export class Pointer {
       previews: { preview: (id) => this.previewed.push(id), cancelPreviews: () => this.dropped++ },
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
-      calm: () => this.calm,
+      reducedMotion: () => this.calm,
       ticks: () => this.ticked++,
       menu: (_, on, future) => this.menus.push(future === null ? on : `${on} ${future}`),
       tapped: (fingers) => this.taps.push(fingers),

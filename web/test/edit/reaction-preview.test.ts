@@ -43,17 +43,17 @@ describe('while a handle is dragged', () => {
     begin();
     await frame(10);
     expect(s.generator.last.options).toMatchObject({ agents: ['1'], react: false });
-    const foreseen = s.others.last;
+    const previewed = s.others.last;
     releaseAt(10);
     s.others.last.on.dropped!();
     const asked = s.generator.last;
     expect(asked.preview).toBe(false);
-    const { background, ...foreseenOptions } = foreseen.options;
+    const { background, ...previewedOptions } = previewed.options;
     expect(background).toBe(true);
     // Only the streaming differs: its drafts are not shown.
     const sent = { stream_modes: 'all', draft_delay_ms: 8, draft_interval_ms: 16 };
-    expect({ ...foreseenOptions, ...sent }).toEqual(asked.options);
-    expect(foreseen.scene()).toEqual(asked.scene());
+    expect({ ...previewedOptions, ...sent }).toEqual(asked.options);
+    expect(previewed.scene()).toEqual(asked.scene());
   });
 
   it("lets the drag's own futures go first", async () => {
@@ -195,15 +195,15 @@ describe('a release', () => {
     begin();
     await frame(10);
     answer({ '2': late('2', 3, '1'), '3': late('3', 1, '2') });
-    const foreseen = s.editor.answers.previewed.peek()!;
+    const previewed = s.editor.answers.previewed.peek()!;
     const asked = s.generator.asked.length;
     releaseAt(10);
     expect(s.editor.answers.motion.peek().stale).toBe(false);
     expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
     expect(s.editor.answers.previewed.peek()).toBeNull();
     const changes = s.editor.answers.changes.peek();
-    expect(changes.map((c) => c.words)).toEqual(foreseen.map((c) => c.words));
-    expect(changes.map((c) => c.place)).toEqual(foreseen.map((c) => c.place));
+    expect(changes.map((c) => c.words)).toEqual(previewed.map((c) => c.words));
+    expect(changes.map((c) => c.place)).toEqual(previewed.map((c) => c.place));
     expect(s.editor.notices.toast.peek()?.text).toMatch(/2 others changed\.$/);
     vi.advanceTimersByTime(1000);
     expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);

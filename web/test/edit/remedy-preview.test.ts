@@ -36,14 +36,14 @@ describe('a trial', () => {
     const [scene, motion] = [t.editor.scene.peek(), t.editor.answers.motion.peek()];
     const asked = t.generator.asked.length;
     t.trial.begin(t.command);
-    expect(t.editor.view.beside.peek()?.parted).toEqual([ID]);
+    expect(t.editor.view.beside.peek()?.diverging).toEqual([ID]);
     expect(t.editor.view.beside.peek()?.scene.agents.get(ID)?.goal.pos).toEqual([10, 3]);
     expect(t.line.last.options.conditions?.[ID]?.goal).toMatchObject({ x_m: 10, y_m: 3 });
     expect(t.trial.asking.peek()).toBe(true);
     t.line.last.on.final(finalWith({ [ID]: six(ID), 2: late('2', 3, ID) }), 20);
     expect(t.trial.asking.peek()).toBe(false);
     const beside = t.editor.view.beside.peek()!;
-    expect(beside.parted).toEqual([ID, '2']);
+    expect(beside.diverging).toEqual([ID, '2']);
     const other = beside.scene.agents.get('2')!;
     expect(motionOf(beside.scene, beside.set, other)).not.toBe(motionOf(scene!, motion, other));
     // The document and the answers are unchanged, and no regular request was sent.
@@ -74,7 +74,7 @@ describe('a trial', () => {
   it('leaves previews of other owners in place', () => {
     const t = new Trying();
     t.trial.begin(t.command);
-    const other = { scene: t.editor.scene.peek()!, set: t.editor.answers.motion.peek(), parted: [] };
+    const other = { scene: t.editor.scene.peek()!, set: t.editor.answers.motion.peek(), diverging: [] };
     t.editor.view.showBeside(other);
     t.trial.stop();
     expect(t.editor.view.beside.peek()).toBe(other);

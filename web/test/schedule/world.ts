@@ -15,7 +15,7 @@ import type { HistoryStep } from '../../src/model/document/history';
 import { ScriptedServer, type Fate } from '../document/server';
 import { Tab } from '../document/tab';
 import { crossingJson } from '../helpers';
-import { channels, Locks } from '../locks';
+import { channels, Locks } from '../net/locks';
 import type { Dice } from './dice';
 
 /** The page's own scenes are saved; the example stays on this computer. */

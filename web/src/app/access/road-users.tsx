@@ -21,12 +21,12 @@ const KINDS: readonly (readonly [AgentType | 'all', string])[] = [
 ];
 
 /** Filter of the list: kind, and optionally only road users with a goal, or in an event. */
-interface Filter {
+interface UserFilter {
   readonly kind: AgentType | 'all';
   readonly goal: boolean;
   readonly events: boolean;
 }
-const EVERYBODY: Filter = { kind: 'all', goal: false, events: false };
+const EVERYBODY: UserFilter = { kind: 'all', goal: false, events: false };
 
 export function RoadUsers() {
   const { editor, ui } = useApp();
@@ -63,7 +63,7 @@ function walkList(e: KeyboardEvent & { currentTarget: HTMLElement }): void {
   all[at + (e.key === 'ArrowDown' ? 1 : -1)]?.focus();
 }
 
-function Head({ filter }: { filter: { value: Filter } }) {
+function Head({ filter }: { filter: { value: UserFilter } }) {
   const { kind, goal, events } = filter.value;
   const toggle = (what: 'goal' | 'events', words: string, on: boolean) => (
     <button
@@ -104,7 +104,7 @@ function Head({ filter }: { filter: { value: Filter } }) {
 const inEvent = ({ editor }: Context, id: string) =>
   editor.reading.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id));
 
-function List({ filter }: { filter: ReadonlySignal<Filter> }) {
+function List({ filter }: { filter: ReadonlySignal<UserFilter> }) {
   const c = useApp();
   const { editor } = c;
   // Added or removed road users change the list; changed ones do not.

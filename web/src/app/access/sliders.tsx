@@ -35,7 +35,7 @@ const ARROWS: Record<string, readonly [right: number, up: number, more: 1 | -1]>
   ArrowDown: [0, -1, -1],
 };
 
-interface SliderProps {
+interface HandleSliderProps {
   label: string;
   part: HandlePart;
   /** Index of the via point. */
@@ -46,7 +46,7 @@ interface SliderProps {
   move: (arrow: (typeof ARROWS)[string], far: boolean) => Command | null;
 }
 
-function Slider({ label, part, via, now, text, move }: SliderProps) {
+function Slider({ label, part, via, now, text, move }: HandleSliderProps) {
   const { editor } = useApp();
   const focus = (e: FocusEvent) => {
     editor.activate(part);

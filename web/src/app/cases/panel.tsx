@@ -3,7 +3,7 @@ import { useRef } from 'preact/hooks';
 import { KINDS, type Sought, type What } from '../../model/physics/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
 import { readEvents } from '../../model/words/event-words';
-import { MOST_TRIES, type Case, type Cases, type Progress, type State } from '../../edit/tools/cases/cases';
+import { MOST_TRIES, type Case, type Cases, type Progress, type SearchState } from '../../edit/tools/cases/cases';
 import { PLACE_MORE_M } from '../../model/physics/attempts';
 import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/base/units';
 import { useAlbum } from '../variants/album';
@@ -47,23 +47,23 @@ export default function CasesPanel() {
   );
 }
 
-interface Of {
+interface SearchProps {
   readonly cases: Cases;
   readonly sought: Sought;
 }
 
-type NameOf = (id: string | null) => string;
+type PartyName = (id: string | null) => string;
 
-function useName(): NameOf {
+function useName(): PartyName {
   const { editor } = useApp();
   const agents = editor.scene.peek()?.agents;
   return (id) => (id === null ? TEXTS.anyRoadUser : (agents?.get(id)?.name ?? TEXTS.aRoadUser));
 }
 
-const about = ({ what, who, other }: Sought, nameOf: NameOf): string =>
+const about = ({ what, who, other }: Sought, nameOf: PartyName): string =>
   KINDS[what].two && other !== null ? TEXTS.betweenAnd(nameOf(who), nameOf(other)) : TEXTS.of(nameOf(who));
 
-function Sentence({ cases, sought }: Of) {
+function Sentence({ cases, sought }: SearchProps) {
   const nameOf = useName();
   const { two, unit, step, range } = KINDS[sought.what];
   const may = cases.may.value;
@@ -146,13 +146,13 @@ function Sentence({ cases, sought }: Of) {
   );
 }
 
-function stateWords(state: State, { tried, of, left }: Progress): string {
+function stateWords(state: SearchState, { tried, of, left }: Progress): string {
   if (state === 'running') return left === null ? '' : leftWords(left);
   if (state === 'paused') return TEXTS.paused;
   return tried < of ? TEXTS.enough : '';
 }
 
-function Run({ cases, sought }: Of) {
+function Run({ cases, sought }: SearchProps) {
   const state = cases.state.value;
   const obstacle = cases.obstacle.value;
   const p = cases.progress.value;
@@ -206,14 +206,14 @@ function Run({ cases, sought }: Of) {
 
 const clock = (d: Date): string => d.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
 
-function AsItWas({ cases }: Pick<Of, 'cases'>) {
+function AsItWas({ cases }: Pick<SearchProps, 'cases'>) {
   const from = cases.from.value;
   if (!from) return null;
   const words = cases.outdated.value ? TEXTS.youHaveChanged(clock(from.at)) : TEXTS.youCanKeepEditing(clock(from.at));
   return <p class="note">{words}</p>;
 }
 
-function Nothing({ cases, sought, tried }: Of & { tried: number }) {
+function Nothing({ cases, sought, tried }: SearchProps & { tried: number }) {
   const nearest = cases.closest.value;
   const may = cases.may.value;
   return (
@@ -247,7 +247,7 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
 
 const ORDER: Partial<Record<What, string>> = { braking: TEXTS.hardestFirst, red: TEXTS.fastestFirst };
 
-function Found({ cases, sought }: Of) {
+function Found({ cases, sought }: SearchProps) {
   const all = cases.found.value;
   const list = useRef<HTMLDivElement>(null);
   const pictures = all.map((c) => pictureOf(c, sought));

@@ -1,7 +1,14 @@
 // Assignment of a table's columns: prefilled from their names.
 import { useSignal } from '@preact/signals';
-import type { FileVerdict } from '../../edit/tools/importing/importing';
-import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/tools/outward/table-columns';
+import type { FileVerdict } from '../../edit/tools/importing/file-verdict';
+import {
+  ASKED,
+  complete,
+  guessed,
+  toldColumns,
+  type ColumnChoice,
+  type ColumnQuantity,
+} from '../../edit/tools/outward/table-columns';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/files/imports';
 
@@ -9,7 +16,7 @@ export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly st
   const { importing } = useApp();
   const answers = useSignal(guessed(of));
   const off = !complete(answers.value);
-  const put = (field: string, patch: Partial<Answer>) => {
+  const put = (field: string, patch: Partial<ColumnChoice>) => {
     answers.value = { ...answers.value, [field]: { ...answers.value[field], ...patch } };
   };
   return (
@@ -33,14 +40,14 @@ export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly st
   );
 }
 
-interface RowProps {
-  asked: Asked;
+interface ColumnRowProps {
+  asked: ColumnQuantity;
   of: readonly string[];
-  answer: Answer;
-  put: (patch: Partial<Answer>) => void;
+  answer: ColumnChoice;
+  put: (patch: Partial<ColumnChoice>) => void;
 }
 
-function Row({ asked: { field, label, says, needed, units }, of, answer, put }: RowProps) {
+function Row({ asked: { field, label, says, needed, units }, of, answer, put }: ColumnRowProps) {
   const missing = needed && !answer.column;
   return (
     <div class={`crow ${missing ? 'missing' : ''}`}>

@@ -11,7 +11,7 @@ import { about } from '../scenes/drawer';
 import { dayAndTime } from '../scenes/dates';
 import { TEXTS } from '../../texts/desk/palette';
 
-export interface Entry {
+export interface FindEntry {
   readonly label: string;
   readonly note: string;
   readonly group: string;
@@ -32,7 +32,7 @@ const FOR_AGENT: readonly Group[] = ['goal', 'rounds', 'move', 'edit'];
 const SCENES = TEXTS.scenes;
 const ALSO_CALLED: Readonly<Record<string, string>> = TEXTS.alsoCalled;
 
-export function find(c: Context, typed: string): Entry[] {
+export function find(c: Context, typed: string): FindEntry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
   if (!words.length) return [...actions(c, []), ...recent(c)].slice(0, MOST);
   const found = [
@@ -61,8 +61,8 @@ export function fit(text: string, words: readonly string[]): number {
 const COMMON = 1.5;
 
 /** The group with the best match first, and in each group the best first. */
-function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
-  const worth = (e: Entry): number => (e.off ? -10 : 0) + (e.common ? COMMON : 0) + (fit(e.label, words) || 0.5);
+function inGroups(found: readonly FindEntry[], words: readonly string[]): FindEntry[] {
+  const worth = (e: FindEntry): number => (e.off ? -10 : 0) + (e.common ? COMMON : 0) + (fit(e.label, words) || 0.5);
   const best = new Map<string, number>();
   for (const e of found) best.set(e.group, Math.max(best.get(e.group) ?? -Infinity, worth(e)));
   return [...found].sort(
@@ -84,9 +84,9 @@ const ORDER: readonly Group[] = [
   'everything',
 ];
 
-function actions(c: Context, words: readonly string[]): Entry[] {
+function actions(c: Context, words: readonly string[]): FindEntry[] {
   const agent = c.editor.agent.peek();
-  const out: Entry[] = [];
+  const out: FindEntry[] = [];
   for (const a of ACTIONS) {
     const moves = a.group === 'move';
     if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves) || a.onOffer?.(c) === false) continue;
@@ -105,13 +105,13 @@ function actions(c: Context, words: readonly string[]): Entry[] {
     });
   }
   const titles = ORDER.map((group) => GROUP_TITLES[group]);
-  const rank = (e: Entry): number => titles.indexOf(e.group);
+  const rank = (e: FindEntry): number => titles.indexOf(e.group);
   return out.sort((p, q) => Number(p.off) - Number(q.off) || rank(p) - rank(q));
 }
 
 const possibleEntry = { keys: [], off: false } as const;
 
-function roadUsers({ editor, reveal }: Context, words: readonly string[]): Entry[] {
+function roadUsers({ editor, reveal }: Context, words: readonly string[]): FindEntry[] {
   return [...(editor.scene.peek()?.agents.values() ?? [])]
     .filter((a) => fit(a.name, words) || a.id === words[0])
     .slice(0, MOST_OF_A_KIND)
@@ -128,13 +128,13 @@ function roadUsers({ editor, reveal }: Context, words: readonly string[]): Entry
     }));
 }
 
-function sceneEntry(c: Context, s: Context['scenes']['list']['value'][number]): Entry {
+function sceneEntry(c: Context, s: Context['scenes']['list']['value'][number]): FindEntry {
   const when = s.readonly || !s.updated_at ? '' : ` · ${dayAndTime(s.updated_at)}`;
   const run = () => void c.library.open(s.id);
   return { ...possibleEntry, label: s.name, note: about(s) + when, group: SCENES, icon: 'list', run };
 }
 
-const scenes = (c: Context, words: readonly string[]): Entry[] =>
+const scenes = (c: Context, words: readonly string[]): FindEntry[] =>
   c.scenes.list
     .peek()
     .filter((s) => fit(s.name, words))
@@ -142,7 +142,7 @@ const scenes = (c: Context, words: readonly string[]): Entry[] =>
     .map((s) => sceneEntry(c, s));
 
 /** The last opened scenes, except the open one. */
-const recent = (c: Context): Entry[] =>
+const recent = (c: Context): FindEntry[] =>
   c.scenes.recent
     .peek()
     .filter((id) => id !== c.editor.scene.peek()?.id)
@@ -151,7 +151,7 @@ const recent = (c: Context): Entry[] =>
     .map((s) => sceneEntry(c, s));
 
 /** `near miss between Car 7 and Cyclist 2`: a case to search, if one or two road users are named. */
-function cases(c: Context, typed: string): Entry[] {
+function cases(c: Context, typed: string): FindEntry[] {
   const text = typed.toLowerCase();
   const all = [...(c.editor.scene.peek()?.agents.values() ?? [])];
   const named = all
@@ -193,7 +193,7 @@ const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
 ];
 
 /** `4.2` jumps to that time. */
-function times({ editor }: Context, query: string): Entry[] {
+function times({ editor }: Context, query: string): FindEntry[] {
   if (!/^\d([.,]\d)?$/.test(query)) return [];
   const run = () => {
     editor.playhead.pause();

@@ -73,4 +73,4 @@ export function ImportFiles() {
 }
 
 /** Without the parenthesised part, which repeats the endings. */
-const short = (name: string): string => name.replace(/ \(.*\)$/, '').replace(/^ASAM /, '');
+const short = (name: string): string => name.replace(/ \(.*\)$/, '');

@@ -1,7 +1,7 @@
 // Results of the import: one row for each file, faults below, and next steps.
 import { Fragment, type ComponentChild } from 'preact';
 import { useSignal } from '@preact/signals';
-import type { FileVerdict } from '../../edit/tools/importing/importing';
+import type { FileVerdict } from '../../edit/tools/importing/file-verdict';
 import { messageText } from '../../model/words/message-text';
 import { SENTENCES } from '../../texts/messages/file-messages';
 import { useApp } from '../parts/app-context';

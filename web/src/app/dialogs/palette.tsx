@@ -5,7 +5,7 @@ import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
-import { find, type Entry } from './find';
+import { find, type FindEntry } from './find';
 import { TEXTS } from '../../texts/desk/palette';
 
 export function Palette() {
@@ -15,7 +15,7 @@ export function Palette() {
   const input = useRef<HTMLInputElement>(null);
   const entries = find(c, query.value);
   const close = () => c.ui.closeDialog();
-  const go = (e: Entry | undefined) => {
+  const go = (e: FindEntry | undefined) => {
     if (!e || e.off) return;
     close();
     e.run();
@@ -60,11 +60,11 @@ export function Palette() {
 }
 
 interface ResultsProps {
-  entries: readonly Entry[];
+  entries: readonly FindEntry[];
   query: string;
   at: ReadonlySignal<number>;
   point: (index: number) => void;
-  go: (e: Entry) => void;
+  go: (e: FindEntry) => void;
 }
 
 function Results({ entries, query, at, point, go }: ResultsProps) {
@@ -83,7 +83,7 @@ function Results({ entries, query, at, point, go }: ResultsProps) {
   );
 }
 
-type ResultProps = Omit<ResultsProps, 'entries'> & { entry: Entry; index: number };
+type ResultProps = Omit<ResultsProps, 'entries'> & { entry: FindEntry; index: number };
 
 function Result({ entry: e, query, index, at, point, go }: ResultProps) {
   const selected = useComputed(() => String(at.value === index));

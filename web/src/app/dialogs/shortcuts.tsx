@@ -10,14 +10,14 @@ import { Modal } from '../parts/modal';
 import { GROUP_TITLES } from '../../texts/desk/groups';
 import { TEXTS } from '../../texts/desk/shortcuts';
 
-interface Line {
+interface ShortcutLine {
   readonly label: string;
   readonly keys: readonly string[];
   /** The mouse gesture. */
   readonly how?: string;
 }
 
-const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
+const POINTER_LINES: Partial<Record<Group, readonly ShortcutLine[]>> = {
   select: [
     { label: TEXTS.addOneOrTake, keys: ['Shift'], how: TEXTS.click },
     { label: TEXTS.marqueeSelect, keys: [], how: TEXTS.dragOverTheGround },
@@ -40,7 +40,7 @@ const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
 };
 
 /** Related keys on one line. */
-const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
+const FAMILIES: readonly (ShortcutLine & { readonly ids: RegExp })[] = [
   { ids: /^nudge-(left|right|up|down)$/, label: TEXTS.nudge01M, keys: ['Left', 'Up', 'Down', 'Right'] },
   { ids: /^nudge-far-/, label: TEXTS.nudge1M, keys: ['Shift+Left', 'Up', 'Down', 'Right'] },
   { ids: /^future-[a-f]$/, label: TEXTS.chooseFuture, keys: ['Alt+1–6'] },
@@ -105,7 +105,7 @@ export function Shortcuts() {
 }
 
 function Sheet({ group, query }: { group: Group; query: string }) {
-  const named = (l: Line): boolean => l.label.toLowerCase().includes(query);
+  const named = (l: ShortcutLine): boolean => l.label.toLowerCase().includes(query);
   const always = [...linesOf(group, false), ...(POINTER_LINES[group] ?? [])].filter(named);
   const offered = linesOf(group, true).filter(named);
   if (!always.length && !offered.length) return null;
@@ -119,7 +119,7 @@ function Sheet({ group, query }: { group: Group; query: string }) {
   );
 }
 
-function Lines({ of }: { of: readonly Line[] }) {
+function Lines({ of }: { of: readonly ShortcutLine[] }) {
   return (
     <>
       {of.map(({ label, keys, how }) => (
@@ -147,13 +147,13 @@ const WHEN: Partial<Record<Group, string>> = {
 };
 
 /** Lines of a group: of keys that always apply, or of those that apply in a context. */
-function linesOf(group: Group, offered: boolean): Line[] {
+function linesOf(group: Group, offered: boolean): ShortcutLine[] {
   const actions = ACTIONS.filter((a) => a.group === group && a.keys?.length && !!a.onOffer === offered);
   return [...new Set(actions.map(lineOf))];
 }
 
 /** The line of an action; shared by all of a family. */
-function lineOf(a: Action): Line {
+function lineOf(a: Action): ShortcutLine {
   return (
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {
       label: a.label,

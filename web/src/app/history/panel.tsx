@@ -4,7 +4,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { laneWords } from '../../edit/moves/snap';
 import { metres } from '../../model/base/units';
-import type { History, HistoryStep } from '../../model/document/history';
+import type { ReadonlyHistory, HistoryStep } from '../../model/document/history';
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { DrawerTabs } from '../parts/drawer-tabs';
@@ -16,7 +16,7 @@ import { TEXTS } from '../../texts/desk/history';
 const SHOWN = 120;
 
 /** A row of the list: a step of the current line, or of a branch beside it. */
-interface Row {
+interface HistoryRow {
   readonly step: HistoryStep;
   readonly branch: boolean;
   /** Last of its branch: the branch leads here. */
@@ -24,13 +24,13 @@ interface Row {
 }
 
 /** Newest first; a branch is above the step it comes from. */
-export function rowsOf(h: History): Row[] {
+export function rowsOf(h: ReadonlyHistory): HistoryRow[] {
   const line = h.line();
   const onLine = new Set(line.map((s) => s.id));
   const after = new Map<number | null, HistoryStep[]>();
   for (const s of h.kept().steps) after.set(s.parent, [...(after.get(s.parent) ?? []), s]);
-  const branches = (parent: number | null): Row[] => {
-    const out: Row[] = [];
+  const branches = (parent: number | null): HistoryRow[] => {
+    const out: HistoryRow[] = [];
     const open = (after.get(parent) ?? []).filter((s) => !onLine.has(s.id));
     for (let s = open.pop(); s; s = open.pop()) {
       const next: HistoryStep[] = after.get(s.id) ?? [];
@@ -100,7 +100,7 @@ function First({ now }: { now: boolean }) {
   );
 }
 
-function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
+function Step({ row: { step, branch, tip }, now }: { row: HistoryRow; now: boolean }) {
   const { editor } = useApp();
   const naming = useSignal(false);
   const who = step.agent === null ? null : editor.scene.peek()?.agents.get(step.agent)?.name;

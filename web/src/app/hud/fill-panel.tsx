@@ -2,8 +2,8 @@
 import { useComputed } from '@preact/signals';
 import type { ComponentChildren, ComponentProps } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/tools/filling/fill-mix';
-import { armName, RATE_STEP } from '../../edit/tools/filling/arm-handles';
-import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type Arm } from '../../edit/tools/filling/filling';
+import { RATE_STEP } from '../../edit/tools/filling/arm-handles';
+import { ANY_SPEED, LEAST_DENSITY, MOST_DENSITY, type EntryArm } from '../../edit/tools/filling/filling';
 import { comesLater, type Newcomer } from '../../model/document/newcomer';
 import { KIND_NAMES } from '../../model/base/kinds';
 import { STEP_S } from '../../model/base/motion';
@@ -146,7 +146,7 @@ function Arms() {
     <fieldset class="arms">
       <legend>{TEXTS.arrivals}</legend>
       {arms.map((arm) => (
-        <Line key={arm.id} label={armName(arm)}>
+        <Line key={arm.id} label={arm.title}>
           <RateField arm={arm} />
         </Line>
       ))}
@@ -154,12 +154,12 @@ function Arms() {
   );
 }
 
-function RateField({ arm }: { arm: Arm }) {
+function RateField({ arm }: { arm: EntryArm }) {
   const { filling } = useApp();
   const rate = (): number => filling.wish.value?.rates[arm.id] ?? 0;
   return (
     <NumberField
-      label={TEXTS.vehiclesAnHour(armName(arm))}
+      label={TEXTS.vehiclesAnHour(arm.title)}
       field={`fill-arm-${arm.id}`}
       unit={() => '/h'}
       quantity={() => 'count'}

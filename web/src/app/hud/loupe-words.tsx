@@ -4,7 +4,7 @@ import { useApp } from '../parts/app-context';
 
 export function LoupeWords() {
   const { editor } = useApp();
-  const words = useComputed(() => editor.drag.info.value?.laneName ?? '').value;
+  const words = useComputed(() => editor.drag.info.value?.lane?.name ?? '').value;
   return words ? (
     <div class="loupewords" aria-hidden="true">
       {words}

@@ -13,7 +13,7 @@ import { outOfReach } from '../../edit/moves/goal-verdict';
 import { useApp } from '../parts/app-context';
 import { TEXTS } from '../../texts/desk/hud';
 
-interface Line {
+interface StatusLine {
   /** Colour of the dot; empty without problems. */
   readonly dot: '' | 'busy' | 'near' | 'collision';
   readonly text: string;
@@ -45,7 +45,7 @@ function statusLine(c: Context) {
 }
 
 /** Progress of a search, or of making variants. */
-function workLine({ searching, variants }: Context): Line | null {
+function workLine({ searching, variants }: Context): StatusLine | null {
   const making = variants.making.value;
   if (making) return { dot: 'busy', text: TEXTS.makingVariants(making.made.length, making.of) };
   const open = searching.open.value;
@@ -59,7 +59,7 @@ const driven = (lanes: ReadonlyMap<string, Lane>): number =>
   [...lanes.values()].filter((l) => l.kind === 'road').length;
 
 /** Contents of the map being made. */
-function mapLine({ layouts }: Context): Line {
+function mapLine({ layouts }: Context): StatusLine {
   const made = layouts.made.value;
   if (!made) return { dot: 'busy', text: TEXTS.drawing };
   const { lanes, crosswalks } = made.scene.map;
@@ -69,7 +69,7 @@ function mapLine({ layouts }: Context): Line {
 }
 
 /** Neither row is a component: a drag alternates between them in every frame. */
-function row({ dot, text, go }: Line) {
+function row({ dot, text, go }: StatusLine) {
   const words = (
     <>
       <span class={`dot ${dot}`} />
@@ -107,7 +107,7 @@ function refining({ step, steps, ms, part }: RefiningStatus) {
   );
 }
 
-function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line {
+function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): StatusLine {
   const { editor } = c;
   switch (s.kind) {
     case 'loading':
@@ -129,7 +129,7 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
   }
 }
 
-function settledLine(c: Context, ms: number, adapted: number | null): Line {
+function settledLine(c: Context, ms: number, adapted: number | null): StatusLine {
   const { editor } = c;
   const a = editor.agent.value;
   const bad = a?.goal.pos ? outOfReach(editor, a) : null;
@@ -145,13 +145,13 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
   return { dot: dotOf(editor.reading.events.value), text: parts.filter(Boolean).join(' · ') };
 }
 
-function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
+function dotOf(events: readonly TrafficEvent[]): StatusLine['dot'] {
   const worst = worstOf(events);
   return worst === 'collision' ? 'collision' : worst && worst !== 'short' ? 'near' : '';
 }
 
 /** Events of the scene; a press goes to the first of the worst kind. */
-function sceneLine(c: Context): Line {
+function sceneLine(c: Context): StatusLine {
   const { editor } = c;
   const events = editor.reading.events.value;
   const worst = worstOf(events);

@@ -11,8 +11,8 @@ const others = (n: number): string => TEXTS.others(n);
 
 export function Changes() {
   const { editor } = useApp();
-  const foreseen = useComputed(() => editor.answers.previewed.value).value;
-  if (foreseen) return <Foreseen list={foreseen} />;
+  const previewed = useComputed(() => editor.answers.previewed.value).value;
+  if (previewed) return <PreviewedChanges list={previewed} />;
   const list = editor.answers.changes.value;
   if (!list.length) return null;
   return (
@@ -29,10 +29,10 @@ export function Changes() {
 }
 
 /** A preview: the dots are hollow. */
-function Foreseen({ list }: { list: readonly Change[] }) {
+function PreviewedChanges({ list }: { list: readonly Change[] }) {
   if (!list.length) return null;
   return (
-    <section class="sect foreseen" aria-label={TEXTS.othersThatWould}>
+    <section class="sect previewed" aria-label={TEXTS.othersThatWould}>
       <h3>
         {TEXTS.wouldChange(others(list.length))}
         <small>{TEXTS.onRelease}</small>

@@ -12,7 +12,7 @@ import { useTrying } from '../parts/trying';
 import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
-import { verdictOn, type Verdict } from './verdict';
+import { verdictOn, type AgentVerdict } from './verdict';
 import { TEXTS } from '../../texts/panels/agent';
 
 export function Hint({ agent }: { agent: LiveAgent }) {
@@ -37,7 +37,7 @@ export function Hint({ agent }: { agent: LiveAgent }) {
 }
 
 /** A click on a fault moves the playhead to it. */
-function Title({ verdict: { title, at } }: { verdict: Verdict }) {
+function Title({ verdict: { title, at } }: { verdict: AgentVerdict }) {
   const { editor } = useApp();
   if (at == null) return <b>{title}</b>;
   const go = () => {

@@ -10,7 +10,7 @@ export function Inspector() {
   const making = layouts.isOpen.value;
   const judging = rounds.isOpen.value;
   const cases = searching.open.value !== null;
-  const comparing = useComputed(() => variants.compared.value !== null).value;
+  const comparing = useComputed(() => variants.comparing.compared.value !== null).value;
   const events = useComputed(() => {
     const open = ui.eventsPanel.value;
     // It stays open after a change of thresholds, even if no event remains.

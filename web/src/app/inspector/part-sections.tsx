@@ -20,7 +20,6 @@ import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field
 import type { LiveAgent } from './use-agent';
 import { placesAlong } from '../../model/document/lanemap';
 import { TEXTS } from '../../texts/panels/agent';
-import { SAYS_WHERE } from '../../texts/language';
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
   const { form, ui } = useApp();
@@ -94,7 +93,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   const place = useComputed(() => {
     const a = agent.value;
     const drag = editor.reading.throttle.read(() => editor.drag.info.value);
-    if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
+    if (drag?.grip.part === 'goal' && drag.lane) return drag.lane.place;
     if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asRecordedNote;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;
@@ -145,10 +144,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   );
 }
 
-/** Lane texts have a preposition where "on" does not fit. */
-const onLane = (name: string): string => (SAYS_WHERE.test(name) ? name : TEXTS.on(name));
-
-interface RowProps {
+interface PartRowProps {
   label: string;
   children: ComponentChildren;
   end?: ComponentChildren;
@@ -156,7 +152,7 @@ interface RowProps {
   scrub?: Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'>;
 }
 
-function Row({ label, children, end, scrub }: RowProps) {
+function Row({ label, children, end, scrub }: PartRowProps) {
   return (
     <div class="pr">
       {scrub ? <Scrub letter={label} class="lab scrub" {...scrub} /> : <span class="lab">{label}</span>}

@@ -14,7 +14,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Nearest } from './nearest';
-import { SharedField, sharedFields, type Shared } from './shared-field';
+import { SharedField, sharedFields, type FieldOfSeveral } from './shared-field';
 import { inSentence } from '../../texts/language';
 import { TEXTS } from '../../texts/panels/several-panel';
 
@@ -103,14 +103,14 @@ function Filter({ all, only }: { all: Live; only: { value: AgentType | null } })
   );
 }
 
-interface RowProps {
-  shared: Shared;
+interface SharedRowProps {
+  shared: FieldOfSeveral;
   those: Live;
   /** The field that each of them has fixed or free. */
   fixes?: readonly ['start' | 'goal', 'heading' | 'speed'];
 }
 
-function Row({ shared, those, fixes }: RowProps) {
+function Row({ shared, those, fixes }: SharedRowProps) {
   return (
     <div class={`pr ${fixes ? '' : 'wide'}`}>
       <span class="lab">{shared.word}</span>

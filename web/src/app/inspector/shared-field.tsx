@@ -30,7 +30,7 @@ import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-fie
 import { TEXTS } from '../../texts/panels/several-panel';
 
 /** A shared field. Values are in the displayed unit. */
-export interface Shared {
+export interface FieldOfSeveral {
   readonly word: string;
   readonly label: string;
   readonly field: string;
@@ -53,7 +53,7 @@ const inAll = (all: readonly Agent[], of: (a: Agent) => readonly [number, number
   Math.min(...all.map((a) => of(a)[1])),
 ];
 
-function speedField(e: Editor, part: 'start' | 'goal'): Shared {
+function speedField(e: Editor, part: 'start' | 'goal'): FieldOfSeveral {
   const mps = (a: Agent): number | null => (part === 'start' ? (startPose(a)?.speed ?? null) : a.goal.speed);
   return {
     word: TEXTS.speed,
@@ -78,7 +78,7 @@ function speedField(e: Editor, part: 'start' | 'goal'): Shared {
   };
 }
 
-function sizeField(name: 'length' | 'width'): Shared {
+function sizeField(name: 'length' | 'width'): FieldOfSeveral {
   const word = name === 'length' ? TEXTS.length : TEXTS.width;
   return {
     word,
@@ -148,9 +148,9 @@ export const sharedFields = (e: Editor) =>
     },
     length: sizeField('length'),
     width: sizeField('width'),
-  }) satisfies Record<string, Shared>;
+  }) satisfies Record<string, FieldOfSeveral>;
 
-export function SharedField({ shared, those }: { shared: Shared; those: ReadonlySignal<readonly Agent[]> }) {
+export function SharedField({ shared, those }: { shared: FieldOfSeveral; those: ReadonlySignal<readonly Agent[]> }) {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const typed = useRef(false);

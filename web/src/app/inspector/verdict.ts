@@ -17,7 +17,7 @@ import { TEXTS } from '../../texts/panels/agent';
 import { isGoalOfLog } from '../../edit/moves/moves';
 import type { LiveAgent } from './use-agent';
 
-export interface Verdict {
+export interface AgentVerdict {
   readonly kind: 'ok' | 'near' | 'collision' | 'plain';
   readonly icon: string;
   readonly title: string;
@@ -38,10 +38,10 @@ const CREEPS_MPS = 0.5;
 const NO_LANE_M = 4;
 
 /** At the panels' rate: in a drag only at intervals. */
-export const verdictOn = (c: Context, agent: LiveAgent): Verdict | null =>
+export const verdictOn = (c: Context, agent: LiveAgent): AgentVerdict | null =>
   c.editor.reading.throttle.read(() => verdictNow(c, agent.value));
 
-function verdictNow(c: Context, a: Agent): Verdict | null {
+function verdictNow(c: Context, a: Agent): AgentVerdict | null {
   const { editor: e } = c;
   if (e.answers.away.value && e.answers.motion.value.stale) return OUTDATED;
   const bad = a.goal.pos ? outOfReach(e, a) : null;
@@ -59,14 +59,14 @@ function verdictNow(c: Context, a: Agent): Verdict | null {
   return log ?? onCurve(c, a) ?? judged ?? onFutures(c, a);
 }
 
-const OUTDATED: Verdict = {
+const OUTDATED: AgentVerdict = {
   kind: 'near',
   icon: 'warn',
   title: TEXTS.futuresAreOut,
   words: TEXTS.computedAgainLater,
 };
 
-const NO_LANE: Verdict = {
+const NO_LANE: AgentVerdict = {
   kind: 'plain',
   icon: 'warn',
   title: TEXTS.thereIsNoLane,
@@ -96,7 +96,7 @@ function wayUntil(m: Motion, time: number): number {
   return s[Math.min(s.length - 1, Math.max(0, Math.round(time * 10) - m.first))] ?? 0;
 }
 
-const AS_RECORDED: Verdict = {
+const AS_RECORDED: AgentVerdict = {
   kind: 'ok',
   icon: 'check',
   title: TEXTS.goalAsRecorded,
@@ -104,12 +104,12 @@ const AS_RECORDED: Verdict = {
 };
 
 /** During a drag, until the generator's verdict arrives, the local estimate is shown even when positive. */
-function onQuickReach({ editor: e }: Context, a: Agent): Verdict | null {
+function onQuickReach({ editor: e }: Context, a: Agent): AgentVerdict | null {
   const local = a.goal.pos ? e.reading.localReach.value : null;
   return local && { kind: 'plain', icon: 'flag', title: local.title, words: local.words };
 }
 
-const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
+const KINDS: Readonly<Record<Mark, AgentVerdict['kind']>> = {
   collision: 'collision',
   rule: 'near',
   near: 'near',
@@ -118,7 +118,7 @@ const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
 };
 
 /** Faults of the shown future, from the generator. */
-function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
+function onFaults({ editor: e }: Context, a: Agent): AgentVerdict | null {
   const f = e.reading.futures.value;
   if (!f || !verdictsHold(e)) return null;
   const who = { type: a.type, nameOf: nameIn(e.scene.value!) };
@@ -131,7 +131,7 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
 }
 
 /** For a drawn speed profile without faults: its result. */
-function onCurve({ editor: e, curve }: Context, a: Agent): Verdict | null {
+function onCurve({ editor: e, curve }: Context, a: Agent): AgentVerdict | null {
   const f = e.reading.futures.value;
   const mode = f?.modes[e.reading.chosen.value];
   if (!f || !mode?.about || !curve.profile.value || e.reading.chosen.value !== a.chosen) return null;
@@ -158,14 +158,14 @@ function offLanes({ editor }: Context, a: Agent): boolean {
   return !nearestLanes(map, x, y, null, NO_LANE_M, (l) => l.kind === 'road' || l.kind === 'other').length;
 }
 
-function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
+function againstLog({ editor: e }: Context, a: Agent): AgentVerdict | null {
   const log = e.view.layers.value.log ? comparedWithLog(a, e.reading.motionFor(a), e.scene.value!.duration) : null;
   if (!log) return null;
   const words = TEXTS.largestDistance(log.words, metres(log.d, 1), seconds(log.t));
   return { kind: 'plain', icon: 'eye', title: TEXTS.comparedWith, words };
 }
 
-function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
+function onFutures({ editor: e }: Context, a: Agent): AgentVerdict | null {
   const f = e.reading.futures.value;
   if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.answers.motion.value.stale || isJudged(f)) return null;
   // The futures are not judged individually; known events are reported all the same.
@@ -180,7 +180,7 @@ const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
 };
 
 /** The worst event on its shown path; null without one. */
-function happening(e: Editor, a: Agent): Verdict | null {
+function happening(e: Editor, a: Agent): AgentVerdict | null {
   const own = counted(e.reading.events.value).filter((ev) => ev.a.id === a.id || ev.b?.id === a.id);
   const kind = worstOf(own);
   const worst = own.find((ev) => ev.kind === kind);
@@ -193,7 +193,7 @@ function happening(e: Editor, a: Agent): Verdict | null {
 }
 
 /** Futures that reach the goal, and how closely: for unjudged futures. */
-function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Verdict {
+function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): AgentVerdict {
   const misses = f.modes.flatMap(({ motion }, i) => {
     const p = poseAt(motion, a.goal.time) ?? endPose(motion);
     // For a goal later than 9 s only a future of that length counts.

@@ -6,19 +6,19 @@ import { saveAll, whyNot, type ExportedFile } from '../../edit/tools/outward/dow
 import { found, meant } from '../../edit/tools/outward/finding';
 import { WISHES } from '../../edit/tools/outward/formats';
 import { stays, type Loss } from '../../edit/tools/outward/losses';
-import type { Scope } from '../../edit/tools/variants/variants';
+import type { VariantScope } from '../../edit/tools/variants/variants';
 import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
-import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
+import { ofScreen, ofServer, ofVariants, type ExportKind } from './kinds';
 import '../../styles/outward.css';
 import { resultCode } from '../../model/document/result-code';
 import { TEXTS } from '../../texts/files/export';
 import { TEXTS as CODE } from '../../texts/files/result-code';
 import { inSentence } from '../../texts/language';
 
-const SCOPES: readonly (readonly [Scope, string])[] = [
+const SCOPES: readonly (readonly [VariantScope, string])[] = [
   ['present', TEXTS.thisScene],
   ['pair', TEXTS.both],
   ['kept', TEXTS.kept],
@@ -62,9 +62,9 @@ export default function Export() {
 const MANY = 8;
 
 /** Kinds of export, once the server's formats are known. */
-function Kinds({ scope }: { scope: Scope }) {
+function Kinds({ scope }: { scope: VariantScope }) {
   const c = useApp();
-  const kinds = useSignal<readonly Kind[] | null>(null);
+  const kinds = useSignal<readonly ExportKind[] | null>(null);
   useEffect(() => {
     const offer = (formats: readonly FormatInfo[]) => {
       const all = ofServer(formats);
@@ -79,7 +79,7 @@ function Kinds({ scope }: { scope: Scope }) {
 }
 
 /** Makes each file in turn; the viewed one comes first. */
-function useFiles(kinds: readonly Kind[], chosen: Signal<string>, stop: AbortSignal) {
+function useFiles(kinds: readonly ExportKind[], chosen: Signal<string>, stop: AbortSignal) {
   const c = useApp();
   const made = useSignal<ReadonlyMap<string, ExportedFile | string>>(new Map());
   useEffect(() => {
@@ -99,7 +99,7 @@ function useFiles(kinds: readonly Kind[], chosen: Signal<string>, stop: AbortSig
   return made;
 }
 
-function Offer({ kinds }: { kinds: readonly Kind[] }) {
+function Offer({ kinds }: { kinds: readonly ExportKind[] }) {
   const chosen = useSignal(kinds[0].id);
   const sought = useSignal('');
   const progress = useSignal<number | null>(null);
@@ -181,7 +181,7 @@ const sizeWords = (bytes: number): string =>
   bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1000))} KB` : `${num(bytes / 1e6, 1)} MB`;
 
 interface KindRowProps {
-  kind: Kind;
+  kind: ExportKind;
   made: Signal<ReadonlyMap<string, ExportedFile | string>>;
   chosen: Signal<string>;
 }
@@ -267,7 +267,7 @@ function Losses({ of }: { of: readonly Loss[] }) {
 }
 
 interface SaveButtonProps {
-  kind: Kind;
+  kind: ExportKind;
   ready: ExportedFile | string | undefined;
   progress: Signal<number | null>;
   stop: AbortSignal;

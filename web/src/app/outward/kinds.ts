@@ -7,7 +7,7 @@ import { eventsTable } from '../../edit/tools/outward/events-table';
 import type { Findable } from '../../edit/tools/outward/finding';
 import { film, filmEnding, filmKind } from '../../edit/tools/outward/film';
 import { movingPicture } from '../../edit/tools/outward/moving-picture';
-import { outFormats, type Wish } from '../../edit/tools/outward/formats';
+import { outFormats, type ExportPurpose } from '../../edit/tools/outward/formats';
 import { reportPage } from '../../edit/tools/outward/report-page';
 import type { WholeCard } from '../../edit/tools/variants/cards';
 import { paintLegend } from '../../draw/legend';
@@ -16,9 +16,9 @@ import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
 import { TEXTS } from '../../texts/files/export';
 
-export interface Kind extends Findable {
+export interface ExportKind extends Findable {
   readonly id: string;
-  readonly wish: Wish;
+  readonly wish: ExportPurpose;
   readonly icon: string;
   /** In place of losses, for media. */
   readonly tag?: string;
@@ -27,7 +27,7 @@ export interface Kind extends Findable {
 
 const FINE = 2;
 /** The server's formats, for the shown scene. */
-export const ofServer = (formats: readonly FormatInfo[]): Kind[] =>
+export const ofServer = (formats: readonly FormatInfo[]): ExportKind[] =>
   outFormats(formats).map((f) => ({ ...f, make: (c) => exported(c, f.id) }));
 
 const named = (c: Context, blob: Blob, ending: string, what = ''): ExportedFile => ({
@@ -46,7 +46,7 @@ function pictureOf({ editor, stage }: Context): HTMLCanvasElement {
 }
 
 /** Local exports: events, pictures and a report of the screen. */
-export function ofScreen(c: Context): Kind[] {
+export function ofScreen(c: Context): ExportKind[] {
   const { editor, stage } = c;
   const time = editor.playhead.time.peek();
   const scene = editor.scene.peek()!;
@@ -169,7 +169,7 @@ function originOf({ file }: Context): string {
 }
 
 /** Several variants in one format: a file for each. A file of records contains all of them. */
-export const ofVariants = (kinds: readonly Kind[], cards: readonly WholeCard[]): Kind[] =>
+export const ofVariants = (kinds: readonly ExportKind[], cards: readonly WholeCard[]): ExportKind[] =>
   kinds.map((kind) => ({
     ...kind,
     make: async ({ client, editor, file }, progress, stop) => {

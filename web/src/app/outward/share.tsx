@@ -2,7 +2,7 @@
 import { num } from '../../model/base/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
-import type { Link, Parts } from '../../edit/document/sharing';
+import type { Link, SharedParts } from '../../edit/document/sharing';
 import { MOST_LINK_BYTES } from '../../edit/document/share-link';
 import { download } from '../../edit/tools/outward/download';
 import '../../styles/outward.css';
@@ -12,13 +12,13 @@ import { Flyout } from './flyout';
 import { TEXTS } from '../../texts/files/share';
 
 const COPIED_MS = 1500;
-const ALL: Parts = { futures: true, words: true, start: true };
+const ALL: SharedParts = { futures: true, words: true, start: true };
 const KB = 1024;
 
 export default function Share() {
   const c = useApp();
   const { editor, sharing, stage } = c;
-  const parts = useSignal<Parts>(ALL);
+  const parts = useSignal<SharedParts>(ALL);
   const link = useSignal<Link | null>(null);
   const copied = useSignal(false);
   const time = editor.playhead.time.value;
@@ -44,7 +44,7 @@ export default function Share() {
       document.querySelector<HTMLInputElement>('.share input')?.select();
     }
   };
-  const set = (name: keyof Parts) => (on: boolean) => (parts.value = { ...parts.peek(), [name]: on });
+  const set = (name: keyof SharedParts) => (on: boolean) => (parts.value = { ...parts.peek(), [name]: on });
   const { url, bytes } = link.value ?? { url: null, bytes: 0 };
   const tooLong = link.value !== null && url === null;
   return (
@@ -108,7 +108,7 @@ export default function Share() {
   );
 }
 
-interface SwitchProps {
+interface PartSwitchProps {
   label: string;
   note?: string;
   on: boolean;
@@ -116,7 +116,7 @@ interface SwitchProps {
   set?: (on: boolean) => void;
 }
 
-function Switch({ label, note, on, set }: SwitchProps) {
+function Switch({ label, note, on, set }: PartSwitchProps) {
   return (
     <button
       type="button"

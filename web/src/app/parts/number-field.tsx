@@ -55,7 +55,7 @@ const clean = (v: number): number => Number(v.toFixed(6));
 
 /** A field for lengths or accelerations is used in metres and displayed in the unit of lengths. */
 function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
-  if (!/^(?:length|acceleration)$/.test(p.quantity()) || lengthUnit() === 'm') return p;
+  if (!['length', 'acceleration'].includes(p.quantity()) || lengthUnit() === 'm') return p;
   return {
     ...p,
     step: lengthStep(p.step),
@@ -68,20 +68,14 @@ function inUnitOfLengths(p: NumberFieldProps): NumberFieldProps {
   };
 }
 
-export function NumberField(props: NumberFieldProps) {
-  const p = inUnitOfLengths(props);
-  const { form, editor } = useApp();
+/** Typed text of a field until it is committed, and why it was refused. */
+function useTyped(p: NumberFieldProps) {
   const input = useRef<HTMLInputElement>(null);
-  const [id] = useState(() => `number-${++made}`);
   /** There is typed text that is not committed. */
   const typed = useRef(false);
   /** Why typed text is refused. */
   const bad = useSignal<string | null>(null);
   const shown = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
-  const className = useComputed(() =>
-    ['field', p.free?.() && 'free', p.live?.() && 'live', bad.value !== null && 'bad'].filter(Boolean).join(' '),
-  );
-  const unit = useComputed(p.unit);
 
   const setTyped = (on: boolean) => {
     typed.current = on;
@@ -93,6 +87,59 @@ export function NumberField(props: NumberFieldProps) {
     bad.value = null;
     input.current!.value = p.text();
   };
+  return {
+    input,
+    typed,
+    bad,
+    show,
+    /** The user typed: the reason of a refusal goes. */
+    type: () => {
+      setTyped(true);
+      bad.value = null;
+    },
+    /** Commits typed text; false when it cannot be parsed. */
+    commit: (): boolean => {
+      const text = input.current!.value;
+      if (!typed.current) return true;
+      const read = text === p.text() ? undefined : readTyped(text, p.quantity());
+      const v = read?.(p.value() ?? 0);
+      bad.value = read === null ? noNumber(text) : v === undefined ? null : outside(v, p);
+      if (bad.value !== null) return false;
+      if (v !== undefined) {
+        setTyped(false);
+        p.set(v);
+      }
+      show();
+      return true;
+    },
+    /** Refused text is removed; its reason stays visible for a while. */
+    leave: () => {
+      const why = bad.value;
+      show();
+      bad.value = why;
+      shown.current = setTimeout(() => (bad.value = null), WHY_MS);
+    },
+    /** Adds to the number in the field. */
+    bump: (d: number) => {
+      const now = parseTyped(input.current!.value, p.quantity()) ?? p.value();
+      if (now === null) return;
+      setTyped(false);
+      bad.value = outside(clean(now + d), p);
+      if (bad.value !== null) return;
+      p.set(clean(now + d), true);
+      input.current!.value = p.text();
+    },
+  };
+}
+
+export function NumberField(props: NumberFieldProps) {
+  const p = inUnitOfLengths(props);
+  const { form, editor } = useApp();
+  const [id] = useState(() => `number-${++made}`);
+  const { input, typed, bad, show, type, commit, leave, bump } = useTyped(p);
+  const className = useComputed(() =>
+    ['field', p.free?.() && 'free', p.live?.() && 'live', bad.value !== null && 'bad'].filter(Boolean).join(' '),
+  );
 
   useLiveEffect(() => {
     const text = editor.reading.throttle.read(p.text);
@@ -102,54 +149,6 @@ export function NumberField(props: NumberFieldProps) {
     if (document.activeElement === el) el.select();
   });
 
-  /** Commits typed text; false when it cannot be parsed. */
-  const commit = (): boolean => {
-    const text = input.current!.value;
-    if (!typed.current) return true;
-    const read = text === p.text() ? undefined : readTyped(text, p.quantity());
-    const v = read?.(p.value() ?? 0);
-    bad.value = read === null ? noNumber(text) : v === undefined ? null : outside(v, p);
-    if (bad.value !== null) return false;
-    if (v !== undefined) {
-      setTyped(false);
-      p.set(v);
-    }
-    show();
-    return true;
-  };
-  /** Refused text is removed; its reason stays visible for a while. */
-  const leave = () => {
-    const why = bad.value;
-    show();
-    bad.value = why;
-    shown.current = setTimeout(() => (bad.value = null), WHY_MS);
-  };
-  const bump = (d: number) => {
-    const now = parseTyped(input.current!.value, p.quantity()) ?? p.value();
-    if (now === null) return;
-    setTyped(false);
-    bad.value = outside(clean(now + d), p);
-    if (bad.value !== null) return;
-    p.set(clean(now + d), true);
-    input.current!.value = p.text();
-  };
-  /** For fingers, while the field is in use: buttons for one step less and one more. */
-  const stepper = (by: 1 | -1) =>
-    form.touch.value ? (
-      <button
-        type="button"
-        class="stepper"
-        tabindex={-1}
-        aria-label={`${p.label}, ${by < 0 ? TEXTS.less : TEXTS.more}`}
-        onPointerDown={(e) => e.preventDefault()}
-        onClick={(e) => {
-          e.preventDefault();
-          bump(by * p.step);
-        }}
-      >
-        {by < 0 ? '−' : '+'}
-      </button>
-    ) : null;
   const keyDown = (e: KeyboardEvent) => {
     if (e.key === 'Enter') {
       if (commit()) input.current!.select();
@@ -163,6 +162,8 @@ export function NumberField(props: NumberFieldProps) {
       bump(arrowStep(e, p.step));
     }
   };
+  const stepper = (by: 1 | -1) =>
+    form.touch.value ? <Stepper by={by} label={p.label} press={() => bump(by * p.step)} /> : null;
   return (
     // Without a target, a label presses its first button: a step less.
     <label class={className} for={id}>
@@ -182,10 +183,7 @@ export function NumberField(props: NumberFieldProps) {
           input.current!.select();
         }}
         aria-invalid={useComputed(() => (bad.value === null ? null : 'true')) as never}
-        onInput={() => {
-          setTyped(true);
-          bad.value = null;
-        }}
+        onInput={type}
         onBlur={() => {
           // A focused field that is unmounted gets no blur event.
           if (input.current && !commit()) leave();
@@ -193,28 +191,52 @@ export function NumberField(props: NumberFieldProps) {
         onKeyDown={keyDown}
       />
       {stepper(1)}
-      {p.onUnit ? (
-        <button
-          type="button"
-          class="u"
-          title={TEXTS.changeTheUnit}
-          tabindex={-1}
-          onClick={(e) => {
-            e.preventDefault();
-            p.onUnit!();
-          }}
-        >
-          {unit}
-        </button>
-      ) : (
-        <span class="u">{unit}</span>
-      )}
+      <UnitOfField unit={p.unit} change={p.onUnit} />
       {bad.value === null ? null : (
         <span class="why" role="alert">
           {bad}
         </span>
       )}
     </label>
+  );
+}
+
+/** For fingers, while the field is in use: one step less or one more. */
+function Stepper({ by, label, press }: { by: 1 | -1; label: string; press: () => void }) {
+  return (
+    <button
+      type="button"
+      class="stepper"
+      tabindex={-1}
+      aria-label={`${label}, ${by < 0 ? TEXTS.less : TEXTS.more}`}
+      onPointerDown={(e) => e.preventDefault()}
+      onClick={(e) => {
+        e.preventDefault();
+        press();
+      }}
+    >
+      {by < 0 ? '−' : '+'}
+    </button>
+  );
+}
+
+/** The unit behind the number; a button where it can be changed. */
+function UnitOfField({ unit: unitNow, change }: { unit: () => string; change?: () => void }) {
+  const unit = useComputed(unitNow);
+  if (!change) return <span class="u">{unit}</span>;
+  return (
+    <button
+      type="button"
+      class="u"
+      title={TEXTS.changeTheUnit}
+      tabindex={-1}
+      onClick={(e) => {
+        e.preventDefault();
+        change();
+      }}
+    >
+      {unit}
+    </button>
   );
 }
 

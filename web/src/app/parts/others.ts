@@ -4,10 +4,10 @@ import type { Others } from '../../model/document/scene';
 import { TEXTS } from '../../texts/desk/parts';
 import { useApp } from './app-context';
 
-type Words = Readonly<Record<Others, string>>;
+type OthersWords = Readonly<Record<Others, string>>;
 
-const RECORDED: Words = { react: TEXTS.react, log: TEXTS.replayLog, still: TEXTS.holdStill };
-const PLACED: Words = { ...RECORDED, log: TEXTS.continueAsNow };
+const RECORDED: OthersWords = { react: TEXTS.react, log: TEXTS.replayLog, still: TEXTS.holdStill };
+const PLACED: OthersWords = { ...RECORDED, log: TEXTS.continueAsNow };
 
 /** What the others do, in a word. If all were placed there is no recording to replay. */
 export function useOthersWord(): string {
@@ -21,7 +21,7 @@ export function useOthersWord(): string {
 }
 
 /** The meaning of each. */
-export const OTHERS_DO: Words = {
+export const OTHERS_DO: OthersWords = {
   react: TEXTS.allReactOnRelease,
   log: TEXTS.recordedReplay,
   still: TEXTS.othersHoldStill,

@@ -1,5 +1,5 @@
 // Learned preferences: each with its evidence, and contradicting verdicts.
-import { earlierAnswers, type Answer } from '../../model/document/feedback';
+import { earlierAnswers, type CardVerdict } from '../../model/document/feedback';
 import type { Subject } from '../../model/document/feedback-commands';
 import { againstWords, restsOn, wishes, wishKey } from '../../model/words/feedback-words';
 import { nameIn } from '../../model/document/scene';
@@ -48,7 +48,7 @@ export default function RoundsPanel() {
   );
 }
 
-interface Of {
+interface RoundProps {
   readonly subject: Subject;
 }
 
@@ -60,7 +60,7 @@ function unitFor(e: Editor, { id }: Subject): SpeedUnit {
 
 const percent = (v: number): string => `${Math.round(v * 100)}%`;
 
-function RoundList({ subject }: Of) {
+function RoundList({ subject }: RoundProps) {
   const { rounds, deck } = useApp();
   const now = rounds.asked.value?.round ?? 1;
   const answers = subject.feedback?.answers ?? [];
@@ -86,12 +86,12 @@ function RoundList({ subject }: Of) {
   );
 }
 
-function countWords(of: readonly Answer[]): string {
+function countWords(of: readonly CardVerdict[]): string {
   const kept = of.filter((x) => x.verdict === 'keep').length;
   return of.length ? TEXTS.keptRejected(kept, of.length - kept) : TEXTS.noAnswersYet;
 }
 
-function Wishes({ subject }: Of) {
+function Wishes({ subject }: RoundProps) {
   const { rounds } = useApp();
   const all = rounds.wished.value;
   return (
@@ -109,7 +109,7 @@ function Wishes({ subject }: Of) {
   );
 }
 
-function WishRow({ wished, subject }: Of & { wished: Wished }) {
+function WishRow({ wished, subject }: RoundProps & { wished: Wished }) {
   const { editor, rounds, deck } = useApp();
   const { words, learned } = wished;
   const scene = editor.scene.value!;
@@ -168,7 +168,7 @@ function AddWish() {
 /** Further contradictions are counted. */
 const MOST_NAMED = 3;
 
-function Apart({ subject }: Of) {
+function Apart({ subject }: RoundProps) {
   const { rounds, deck } = useApp();
   const hand = deck.hand.value;
   if (!hand) return null;

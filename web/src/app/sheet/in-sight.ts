@@ -10,7 +10,7 @@ import { endShown, whenItsEndIsKnown } from '../look';
 /** Nearer to the edge of the sheet than this a road user counts as covered, pixels. */
 const EDGE_PX = 20;
 
-type Shown = readonly (readonly [Agent, OnLine])[];
+type AgentsInSight = readonly (readonly [Agent, OnLine])[];
 
 export function keepInSight(c: Opening): void {
   const { editor, stage } = c;
@@ -26,7 +26,7 @@ export function keepInSight(c: Opening): void {
   });
 }
 
-function shownOf({ editor }: Opening, ids: readonly string[]): Shown {
+function shownOf({ editor }: Opening, ids: readonly string[]): AgentsInSight {
   const agents = editor.scene.peek()?.agents;
   return ids.flatMap((id) => {
     const a = agents?.get(id);

@@ -14,7 +14,7 @@ const RIGHT = 22;
 export const LANE = 24;
 const BOTTOM = 20;
 
-export interface Size {
+export interface PlotSize {
   readonly w: number;
   readonly h: number;
 }
@@ -32,7 +32,7 @@ export interface Axes {
   readonly duration: number;
 }
 
-export function axesOf(c: Context, { w, h }: Size): Axes {
+export function axesOf(c: Context, { w, h }: PlotSize): Axes {
   const { editor } = c;
   const several = severalShown(c);
   const agent = several.length ? null : editor.agent.peek();
@@ -67,7 +67,7 @@ export const hasCurves = (a: Axes): boolean => a.y1 - a.y0 > 20;
 const MOST_LINES = 40;
 
 /** A road user and the motion with the shown speeds. */
-export interface Line {
+export interface SpeedLine {
   readonly agent: Agent;
   readonly motion: Motion;
 }
@@ -79,9 +79,9 @@ export const eventShown = ({ editor }: Context): TrafficEvent | null =>
 /** Events in the plot: for two variants those of both, each with its number. */
 export function eventsShown(c: Context): readonly TrafficEvent[] {
   if (c.layouts.isNew.peek()) return [];
-  const both = c.variants.compared.peek();
+  const both = c.variants.comparing.compared.peek();
   if (!both) return c.editor.reading.shownEvents.peek();
-  const who = c.variants.followed.peek()?.agent.id;
+  const who = c.variants.comparing.followed.peek()?.agent.id;
   return [both.left, both.right]
     .flatMap(({ id, events }) =>
       events
@@ -95,9 +95,9 @@ export function eventsShown(c: Context): readonly TrafficEvent[] {
  * Lines of the plot: the compared road user in both variants, the road users of a viewed case or event, or several
  * selected ones.
  */
-export function severalShown(c: Context): Line[] {
+export function severalShown(c: Context): SpeedLine[] {
   const { editor } = c;
-  const both = c.variants.followed.peek();
+  const both = c.variants.comparing.followed.peek();
   if (both) return [both.left, both.right].map((motion) => ({ agent: both.agent, motion }));
   const b = editor.view.beside.peek();
   const inCase = b?.meeting?.who.flatMap((id) => b.scene.agents.get(id) ?? []);
@@ -135,7 +135,7 @@ export const SIGN = 10;
 const APART = 3;
 
 /** A sign in the lane of events. It is at its time; its words are where there is room. */
-export interface Placed {
+export interface PlacedSign {
   /** Index of the shown item, and of all that share its sign because they are close in time. */
   readonly item: number;
   readonly items: readonly number[];
@@ -143,7 +143,7 @@ export interface Placed {
   readonly words: 'right' | 'left' | null;
 }
 
-export interface Sign {
+export interface EventSign {
   /** Position of its time, in pixels. */
   readonly at: number;
   /** Width of its words. */
@@ -153,7 +153,7 @@ export interface Sign {
 }
 
 /** Signs in order of time; overlapping ones share the sign of the worst. */
-export function placeSigns(items: readonly Sign[], from: number, to: number): Placed[] {
+export function placeSigns(items: readonly EventSign[], from: number, to: number): PlacedSign[] {
   const groups: { item: number; items: number[] }[] = [];
   items.forEach(({ at, rank }, i) => {
     const last = groups.at(-1);

@@ -1,6 +1,6 @@
 // Infeasible parts of the speed curve, in words, with remedies: hover previews one, a press is one step.
 import { useEffect } from 'preact/hooks';
-import { misfitOf, type Misfit, type Way } from '../../model/physics/curve-fit';
+import { misfitOf, type Misfit, type CurveRemedy } from '../../model/physics/curve-fit';
 import { limitsOf, topSpeed } from '../../model/base/domain';
 import { canMove } from '../../model/document/scene';
 import { metres, num, speedLabel, type SpeedUnit } from '../../model/base/units';
@@ -58,7 +58,7 @@ function wordsOf(m: Misfit, unit: SpeedUnit): string {
   return m.point.v > 0 ? TEXTS.cannotBrakeTo(wanted, by, reached) : TEXTS.cannotStopBy(by, reached);
 }
 
-function labelOf(w: Way, { what }: Misfit, unit: SpeedUnit): string {
+function labelOf(w: CurveRemedy, { what }: Misfit, unit: SpeedUnit): string {
   if (w.kind === 'later') return TEXTS.allowSMore(num(w.by, 1));
   if (w.kind === 'shorter') return TEXTS.shorterStopS(num(w.hold, 1));
   const to = speedLabel(w.v, unit);

@@ -9,7 +9,7 @@ import { modeStyle, UNSEEN_PX } from '../../draw/strokes';
 import type { Context } from '../../actions/context';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
-import { eventShown, severalShown, X0, type Axes, type Line, hasCurves } from './axes';
+import { eventShown, severalShown, X0, type Axes, type SpeedLine, hasCurves } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
@@ -17,7 +17,7 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const { editor, curve } = c;
   const several = severalShown(c);
   const meeting = editor.view.beside.peek()?.meeting;
-  const both = c.variants.followed.peek() && c.variants.compared.peek();
+  const both = c.variants.comparing.followed.peek() && c.variants.comparing.compared.peek();
   const event = eventShown(c);
   const few = !!both || !!meeting || !!event;
   const agent = meeting || both ? null : editor.agent.peek();
@@ -66,7 +66,7 @@ function titleAt(a: Axes, motions: readonly Motion[]): number {
 }
 
 /** One thin line each; thick for the one under the pointer, and for the few of a case or an event. */
-function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly Line[]; strong: boolean }) {
+function SeveralCurves({ axes, all, strong }: { axes: Axes; all: readonly SpeedLine[]; strong: boolean }) {
   const { editor } = useApp();
   const hovered = editor.hover.peek();
   return (

@@ -3,7 +3,7 @@ import { goToEvent } from '../../actions/time';
 import { counted } from '../../model/physics/events';
 import type { TrafficEvent } from '../../model/words/event-words';
 import { useApp } from '../parts/app-context';
-import { eventsShown, placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
+import { eventsShown, placeSigns, SIGN, X0, type Axes, type PlacedSign } from './axes';
 import { TEXTS } from '../../texts/panels/timeline';
 
 const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
@@ -47,7 +47,7 @@ interface BadgeProps {
   /** All that share the place, by time. */
   events: readonly TrafficEvent[];
   shown: TrafficEvent;
-  placed: Placed;
+  placed: PlacedSign;
 }
 
 function Badge({ events, shown: e, placed: p }: BadgeProps) {
@@ -59,7 +59,7 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const to = events[turn % events.length];
   // Events of a case or a variant are not events of the current scene.
-  const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.compared.peek();
+  const elsewhere = () => c.editor.view.beside.peek()?.meeting ?? c.variants.comparing.compared.peek();
   const go = () => (elsewhere() ? c.editor.playhead.moveTo(to.time) : goToEvent(c, to));
   const w = p.words ? wordsWidth(e.label) : 0;
   const x = p.x - SIGN - (p.words === 'left' ? w : 0);

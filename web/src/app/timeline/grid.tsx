@@ -64,7 +64,7 @@ function SecondLines({ axes: a }: { axes: Axes }) {
 /** Times of events of the road user with the curves, marked behind them; without one, of all. */
 export function EventTimes({ axes: a }: { axes: Axes }) {
   const c = useApp();
-  const id = c.variants.compared.peek() ? null : c.editor.selection.peek();
+  const id = c.variants.comparing.compared.peek() ? null : c.editor.selection.peek();
   return (
     <>
       {counted(eventsShown(c)).map((e, i) => {

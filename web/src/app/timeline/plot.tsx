@@ -9,7 +9,7 @@ import { addViaAt } from '../../edit/moves/vias';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 import { useFrameTick } from '../parts/hooks';
-import { axesOf, X0, type Axes, type Size } from './axes';
+import { axesOf, X0, type Axes, type PlotSize } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
@@ -18,8 +18,8 @@ import { TEXTS } from '../../texts/panels/timeline';
 /** All inputs of curves, grid and badges. */
 const shown = ({ editor, variants, layouts, curve }: Context): unknown => [
   layouts.isNew.value,
-  variants.compared.value,
-  variants.followed.value,
+  variants.comparing.compared.value,
+  variants.comparing.followed.value,
   editor.agent.value,
   editor.selected.value,
   editor.selected.value.length > 1 && editor.hover.value,
@@ -43,7 +43,7 @@ export function Plot() {
   const c = useApp();
   const { editor, curve } = c;
   const box = useRef<HTMLDivElement>(null);
-  const size = useSignal<Size>({ w: 900, h: 110 });
+  const size = useSignal<PlotSize>({ w: 900, h: 110 });
   const tick = useFrameTick(() => [editor.reading.throttle.read(() => shown(c)), size.value]);
   const now = useComputed(() => editor.playhead.time.value.toFixed(1));
   const end = useComputed(() => String(editor.resting.value?.duration ?? 9));
@@ -142,7 +142,7 @@ function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
 }
 
 /** The playhead follows a press and drag, and keys in steps of 0.1 s. */
-function useSeek(c: Context, size: ReadonlySignal<Size>) {
+function useSeek(c: Context, size: ReadonlySignal<PlotSize>) {
   const on = useRef(false);
   /** Playhead before the last two presses: a double click restores it. */
   const before = useRef<readonly [number, number]>([0, 0]);

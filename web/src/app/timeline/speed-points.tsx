@@ -16,7 +16,7 @@ const FIRST_HOLD_S = 1;
 const REACH_PX = 11;
 const REACH_FINGER_PX = 22;
 
-interface Grip {
+interface PointGrip {
   readonly i: number;
   /** The point, the end of its hold, or the whole hold. */
   readonly what: 'point' | 'end' | 'hold';
@@ -29,7 +29,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
   const { editor, form, curve } = useApp();
   const agent = editor.agent.value;
   const points = curve.points.value;
-  const grip = useRef<Grip | null>(null);
+  const grip = useRef<PointGrip | null>(null);
   if (!agent || !points.length || agent.locked) return null;
   const speedAt = (y: number): number => {
     const a = axes;
@@ -37,7 +37,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
     return y > a.y1 - STICK_PX ? 0 : Math.max(0, fromUnit(v, a.unit));
   };
   const timeAt = (x: number): number => ((x - axes.x(0)) / (axes.x1 - axes.x(0))) * axes.duration;
-  const down = (i: number, what: Grip['what']) => (e: PointerEvent & { currentTarget: SVGElement }) => {
+  const down = (i: number, what: PointGrip['what']) => (e: PointerEvent & { currentTarget: SVGElement }) => {
     if (e.button !== 0) return;
     e.stopPropagation();
     e.currentTarget.setPointerCapture(e.pointerId);

@@ -18,7 +18,7 @@ export function Timeline() {
       editor.selected.value.length > 0 ||
       editor.selectedEvent.value !== null ||
       editor.view.beside.value !== null ||
-      variants.compared.value !== null,
+      variants.comparing.compared.value !== null,
   ).value;
   const others = useOthersWord();
   return (

@@ -39,9 +39,9 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
   const { id, variant: v } = card;
   const shown = useComputed(() => variants.shown.value === id).value;
   const side = useComputed(() => {
-    const pair = variants.pair.value;
+    const pair = variants.comparing.pair.value;
     if (pair) return pair[0] === id ? 'left' : pair[1] === id ? 'right' : null;
-    return variants.picked.value === id ? 'first' : null;
+    return variants.comparing.picked.value === id ? 'first' : null;
   }).value;
   const renaming = useComputed(() => variants.renaming.value === id).value;
   const verdict = verdictOf(card);
@@ -62,7 +62,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
         if (!from) return;
         e.preventDefault();
         e.stopPropagation();
-        variants.compare(id, from);
+        variants.comparing.between(id, from);
       }}
     >
       <button

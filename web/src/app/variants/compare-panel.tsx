@@ -1,7 +1,7 @@
 // Differences between the two compared variants: a table, and the moments when they diverge.
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/base/units';
-import type { Moment } from '../../model/words/comparison';
+import type { DivergingMoment } from '../../model/words/comparison';
 import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -11,9 +11,9 @@ import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function ComparePanel() {
   const c = useApp();
-  const now = c.variants.compared.value;
+  const now = c.variants.comparing.compared.value;
   if (!now) return null;
-  const { left, right, parting } = now;
+  const { left, right, comparison } = now;
   return (
     <>
       <div class="ih">
@@ -24,7 +24,12 @@ export default function ComparePanel() {
           <h2>{TEXTS.compare}</h2>
           <p>{TEXTS.variantAndVariant(calledOf(left), calledOf(right))}</p>
         </div>
-        <button type="button" class="btn i" aria-label={TEXTS.endTheComparison} onClick={() => c.variants.endCompare()}>
+        <button
+          type="button"
+          class="btn i"
+          aria-label={TEXTS.endTheComparison}
+          onClick={() => c.variants.comparing.end()}
+        >
           <Icon name="x" size={16} />
         </button>
       </div>
@@ -42,7 +47,7 @@ export default function ComparePanel() {
             </tr>
           </thead>
           <tbody>
-            {parting.rows.map((r) => (
+            {comparison.rows.map((r) => (
               <tr key={r.what} class={r.differs ? 'differs' : ''}>
                 <th scope="row">{r.what}</th>
                 <td>{r.left}</td>
@@ -58,8 +63,8 @@ export default function ComparePanel() {
           {TEXTS.differences}
           <small>{TEXTS.clickToGoThere}</small>
         </h3>
-        {parting.moments.length ? null : <p class="sec">{TEXTS.noDifferences}</p>}
-        {parting.moments.map((m) => (
+        {comparison.moments.length ? null : <p class="sec">{TEXTS.noDifferences}</p>}
+        {comparison.moments.map((m) => (
           <MomentRow key={`${m.time} ${m.words}`} moment={m} />
         ))}
       </section>
@@ -89,7 +94,7 @@ export default function ComparePanel() {
 /** Its number, and its given name. */
 const calledOf = ({ id, variant }: WholeCard): string => [id, variant.called].filter(Boolean).join(' ');
 
-function MomentRow({ moment: m }: { moment: Moment }) {
+function MomentRow({ moment: m }: { moment: DivergingMoment }) {
   const c = useApp();
   const here = Math.abs(c.editor.playhead.time.value - m.time) < 0.05;
   return (
@@ -100,10 +105,10 @@ function MomentRow({ moment: m }: { moment: Moment }) {
   );
 }
 
-function sameWords({ left, right, parting }: Compared): string {
+function sameWords({ left, right, comparison }: Compared): string {
   const numbers = [
     left.state.seed === right.state.seed ? TEXTS.seed(left.state.seed) : '',
     left.state.diversity === right.state.diversity ? TEXTS.diversity(num(left.state.diversity * 100, 0)) : '',
   ].filter(Boolean);
-  return TEXTS.ofRoadUsers([TEXTS.map, ...numbers].join(', '), parting.same, parting.all);
+  return TEXTS.ofRoadUsers([TEXTS.map, ...numbers].join(', '), comparison.same, comparison.all);
 }

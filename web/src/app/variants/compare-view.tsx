@@ -24,7 +24,7 @@ import { TEXTS } from '../../texts/panels/variants-panel';
 
 export default function CompareView() {
   const c = useApp();
-  const now = c.variants.compared.value;
+  const now = c.variants.comparing.compared.value;
   useEffect(() => {
     c.stage.element.classList.add('halved');
     c.ui.showDrawer(null);
@@ -130,10 +130,15 @@ function paintersOf(stage: Stage, { editor }: Context, shown: { readonly current
     paintAgents(g, v, shown.current.right, editor.playhead.time.peek(), poseIn);
   });
   stage.painter('overlay', (g, v) => {
-    const { left, right, parting } = shown.current;
+    const { left, right, comparison } = shown.current;
     const time = editor.playhead.time.peek();
     labels.reset(v.w, v.h, { left: 0, right: 0, top: 44, bottom: 0 });
-    paintBeside(g, v, { scene: left.scene, set: left.set, parted: parting.parted.map((p) => p.agent.id) }, time);
+    paintBeside(
+      g,
+      v,
+      { scene: left.scene, set: left.set, diverging: comparison.diverging.map((p) => p.agent.id) },
+      time,
+    );
     paintSubject(g, v, right);
     paintEventsAt(g, v, labels, right.events, time, poseIn(right, time));
   });

@@ -17,14 +17,14 @@ const SAID: Record<Over, string> = { start: TEXTS.startsAt, goal: TEXTS.arrivesA
 /** Difference of new ones: the seed, or a number of the subject. */
 export function RangePick() {
   const { variants } = useApp();
-  const sweep = variants.sweep.value;
+  const sweep = variants.range.sweep.value;
   if (!variants.subject.value && !sweep) return null;
   return (
     <select
       class="field pick"
       aria-label={TEXTS.whatNewVariants}
       value={sweep?.over ?? ''}
-      onChange={(e) => variants.sweepOver((e.currentTarget.value || null) as Over | null)}
+      onChange={(e) => variants.range.over((e.currentTarget.value || null) as Over | null)}
     >
       <option value="">{TEXTS.bySeed}</option>
       {BY.map(([over, words]) => (
@@ -40,10 +40,10 @@ export function RangePick() {
 export function Range() {
   const c = useApp();
   const { editor, variants } = c;
-  const sweep = variants.sweep.value;
+  const sweep = variants.range.sweep.value;
   const subject = variants.subject.value;
   if (!sweep) return null;
-  const obstacle = variants.obstacle.value;
+  const obstacle = variants.range.obstacle.value;
   const unit = sweep.over === 'time' || !subject ? 's' : editor.view.unitOf(subject);
   const quantity: Quantity = unit === 's' ? 'time' : unit;
   const decimals = unit === 's' || inTenths(unit) ? 1 : 0;
@@ -56,7 +56,7 @@ export function Range() {
     return [shown(least), shown(most)];
   };
   const field = (which: 'from' | 'to' | 'step', label: string) => {
-    const value = () => shown((variants.sweep.value ?? sweep)[which]);
+    const value = () => shown((variants.range.sweep.value ?? sweep)[which]);
     return (
       <NumberField
         key={`${which} ${unit}`}
@@ -68,7 +68,7 @@ export function Range() {
         value={value}
         text={() => num(value(), decimals)}
         range={which === 'step' ? () => [shown(LEAST_STEP), limits()[1]] : limits}
-        set={(v) => variants.setSweep({ [which]: meant(v) })}
+        set={(v) => variants.range.set({ [which]: meant(v) })}
       />
     );
   };

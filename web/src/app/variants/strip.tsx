@@ -2,10 +2,10 @@
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
-import { hasEvents, type Card, type Filter, type Pictured } from '../../edit/tools/variants/cards';
+import { hasEvents, type Card, type VariantFilter, type Pictured } from '../../edit/tools/variants/cards';
 import { leftWords } from '../../model/base/units';
 import { MOST_NEW } from '../../model/document/variants';
-import type { Making } from '../../edit/tools/variants/variants';
+import type { Making } from '../../edit/tools/variants/making';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -17,7 +17,7 @@ import '../../styles/variants.css';
 import { TEXTS } from '../../texts/panels/variants-panel';
 import '../../styles/cases.css';
 
-const FILTERS: readonly (readonly [Filter, string])[] = [
+const FILTERS: readonly (readonly [VariantFilter, string])[] = [
   ['all', TEXTS.all],
   ['events', TEXTS.withEvents],
   ['starred', TEXTS.starred],
@@ -87,7 +87,7 @@ export default function Strip() {
     return (
       <p class="none">
         {any ? TEXTS.noMatches : TEXTS.noVariantsYet}{' '}
-        {any || variants.sweep.value ? null : (
+        {any || variants.range.sweep.value ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
             {TEXTS.make(variants.count.value)}
           </button>
@@ -114,7 +114,7 @@ function Arriving({ one, album }: { one: Pictured | undefined; album: Album }) {
   );
 }
 
-const countOf = (all: readonly Card[], filter: Filter): number =>
+const countOf = (all: readonly Card[], filter: VariantFilter): number =>
   filter === 'all' ? all.length : all.filter((c) => (filter === 'events' ? hasEvents(c) : c.variant.starred)).length;
 
 /** Subject and numbers; progress while more are made. */
@@ -137,7 +137,7 @@ function About() {
   return (
     <>
       <small>{words}</small>
-      {variants.sweep.value ? null : (
+      {variants.range.sweep.value ? null : (
         <label class="field count">
           <input
             type="number"

@@ -5,8 +5,8 @@ import { TEXTS } from '../../texts/panels/variants-panel';
 
 export function WhoseSpeed({ now }: { now: Compared }) {
   const { variants } = useApp();
-  const { parted } = now.parting;
-  if (!parted.length) return null;
+  const { diverging } = now.comparison;
+  if (!diverging.length) return null;
   return (
     <section class="sect">
       <h3>
@@ -16,10 +16,10 @@ export function WhoseSpeed({ now }: { now: Compared }) {
       <select
         class="field pick"
         aria-label={TEXTS.speedOf}
-        value={variants.followed.value?.agent.id}
-        onChange={(e) => variants.follow(e.currentTarget.value)}
+        value={variants.comparing.followed.value?.agent.id}
+        onChange={(e) => variants.comparing.follow(e.currentTarget.value)}
       >
-        {parted.map((p) => (
+        {diverging.map((p) => (
           <option key={p.agent.id} value={p.agent.id}>
             {p.agent.name}
           </option>

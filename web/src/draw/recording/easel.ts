@@ -1,10 +1,10 @@
 // The visible canvas and its layers: map, road users, overlay. Works in a worker and on the page.
-import type { Part } from './extent';
+import type { PixelBox } from './extent';
 import type { News } from './recording';
-import { Player, opaquePen, surface, type Canvas2D, type Surface } from './replay';
+import { Player, opaquePen, surface, type Canvas2D, type CanvasSurface } from './replay';
 
 export const LAYERS = ['map', 'agents', 'overlay'] as const;
-export type LayerName = (typeof LAYERS)[number];
+export type CanvasLayer = (typeof LAYERS)[number];
 export const CANVASES = ['picture', 'loupe'] as const;
 export type Canvases = Record<(typeof CANVASES)[number], HTMLCanvasElement | OffscreenCanvas>;
 
@@ -37,16 +37,16 @@ export interface Loupe {
 }
 
 /** An update of the screen: recordings of the changed layers. */
-export interface Picture {
+export interface PictureUpdate {
   readonly size: Size;
   readonly news: News;
-  readonly layers: Partial<Record<LayerName, Float64Array>>;
+  readonly layers: Partial<Record<CanvasLayer, Float64Array>>;
   readonly shift: Shift;
   readonly loupe: Loupe | null;
 }
 
 /** Recording of a layer, with the player that has its vocabulary. */
-interface Layer {
+interface LayerRecording {
   readonly player: Player;
   readonly ops: Float64Array;
 }
@@ -63,16 +63,16 @@ export class Easel {
   /** The painted map with its margin. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
-  #agents: Layer = { player: this.#player, ops: new Float64Array() };
+  #agents: LayerRecording = { player: this.#player, ops: new Float64Array() };
   #overlay = this.#agents;
   /** Everything below the overlay, for frames in which only the overlay changes; null until the first such frame. */
-  #below: Surface | null = null;
+  #below: CanvasSurface | null = null;
   #belowIsOld = true;
   /** The area covered by the overlay: elsewhere the picture is the same without it. */
-  #covered: Part | null = null;
+  #covered: PixelBox | null = null;
   /** The next picture to paint. */
-  #next: Pick<Picture, 'size' | 'shift' | 'loupe'> | null = null;
-  #layers: Partial<Record<LayerName, Layer>> = {};
+  #next: Pick<PictureUpdate, 'size' | 'shift' | 'loupe'> | null = null;
+  #layers: Partial<Record<CanvasLayer, LayerRecording>> = {};
 
   constructor(private readonly canvases: Canvases) {
     this.#picture = opaquePen(canvases.picture);
@@ -80,7 +80,7 @@ export class Easel {
   }
 
   /** Takes a picture to paint; layers that it does not renew stay. */
-  take({ news, layers, ...picture }: Picture): void {
+  take({ news, layers, ...picture }: PictureUpdate): void {
     // Older layers are still played by the player that has their vocabulary.
     if (news.afresh) this.#player = new Player();
     this.#player.learn(news);
@@ -114,13 +114,13 @@ export class Easel {
   }
 
   /** The smaller the painted area, the less the browser copies to the screen. */
-  #uncover({ left, top, right, bottom }: Part): void {
+  #uncover({ left, top, right, bottom }: PixelBox): void {
     const w = right - left,
       h = bottom - top;
     if (w > 0 && h > 0) this.#picture.drawImage(this.#freshBelow(), left, top, w, h, left, top, w, h);
   }
 
-  #freshBelow(): Surface {
+  #freshBelow(): CanvasSurface {
     const { width, height } = this.canvases.picture;
     this.#below ??= surface(width, height);
     if (this.#belowIsOld) this.#paintBelow(opaquePen(this.#below));
@@ -133,7 +133,7 @@ export class Easel {
     this.#play(g, this.#agents);
   }
 
-  #play(g: Canvas2D, { player, ops }: Layer): void {
+  #play(g: Canvas2D, { player, ops }: LayerRecording): void {
     const { dpr } = this.#size!;
     g.save();
     g.setTransform(dpr, 0, 0, dpr, 0, 0);

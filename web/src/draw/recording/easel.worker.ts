@@ -1,17 +1,17 @@
 // Runs in a worker: paints the page's recordings, so that the page's thread stays free for input.
 import latin from '@fontsource-variable/inter/files/inter-latin-wght-normal.woff2?url';
 import latinExt from '@fontsource-variable/inter/files/inter-latin-ext-wght-normal.woff2?url';
-import { Easel, type Canvases, type Picture } from './easel';
+import { Easel, type Canvases, type PictureUpdate } from './easel';
 import type { FromEasel, ToEasel } from './screen';
 
 /** The used part of a worker's global scope, which the page's types lack. */
-interface Scope {
+interface WorkerScope {
   onmessage: ((e: MessageEvent<ToEasel>) => void) | null;
   postMessage(message: FromEasel): void;
   requestAnimationFrame?(paint: () => void): number;
   readonly fonts: FontFaceSet;
 }
-const scope = self as unknown as Scope;
+const scope = self as unknown as WorkerScope;
 
 let easel: Easel | null = null;
 /** Pictures received and not painted yet. */
@@ -40,7 +40,7 @@ function start(canvases: Canvases): void {
 }
 
 /** Once for each frame of the screen: of two pictures within one frame the first would be invisible. */
-function take(picture: Picture): void {
+function take(picture: PictureUpdate): void {
   easel?.take(picture);
   if (waiting++) return;
   if (scope.requestAnimationFrame) scope.requestAnimationFrame(paint);

@@ -2,7 +2,7 @@
 import type { Played } from '../pen';
 
 /** Empty where `right` is not above `left`. */
-export interface Part {
+export interface PixelBox {
   readonly left: number;
   readonly top: number;
   readonly right: number;
@@ -16,7 +16,7 @@ const MITER_LIMIT = 10;
 /** Antialiased pixels at an edge. */
 const SOFT_PX = 2;
 
-interface State {
+interface ExtentState {
   a: number;
   b: number;
   c: number;
@@ -31,7 +31,7 @@ interface State {
   shadowOffsetY: number;
 }
 
-export class Bounds implements Part {
+export class Bounds implements PixelBox {
   left = Infinity;
   top = Infinity;
   right = -Infinity;
@@ -55,13 +55,13 @@ export class Bounds implements Part {
 export class Extent implements Played {
   readonly #all = new Bounds();
   #path = new Bounds();
-  #s: State;
-  readonly #saved: State[] = [];
+  #s: ExtentState;
+  readonly #saved: ExtentState[] = [];
 
   /** Starts like a canvas with this many pixels for each unit; `boundsOf` gives the bounds of an existing path. */
   constructor(
     scale: number,
-    private readonly boundsOf: (path: Path2D) => Part,
+    private readonly boundsOf: (path: Path2D) => PixelBox,
   ) {
     this.#s = {
       ...{ a: scale, b: 0, c: 0, d: scale, e: 0, f: 0 },
@@ -70,7 +70,7 @@ export class Extent implements Played {
   }
 
   /** The painted part, in whole pixels of a canvas of this size. */
-  part(width: number, height: number): Part {
+  part(width: number, height: number): PixelBox {
     const { left, top, right, bottom } = this.#all;
     return {
       left: Math.max(0, Math.floor(left)),

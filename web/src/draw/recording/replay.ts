@@ -1,26 +1,26 @@
 // Plays recordings on a 2D canvas, in a worker or on the page.
-import { Bounds, Extent, type Part } from './extent';
+import { Bounds, Extent, type PixelBox } from './extent';
 import type { Pen, Played } from '../pen';
 import { Op, Recording, Vocabulary, type News } from './recording';
 
 export type Canvas2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
-export type Surface = HTMLCanvasElement | OffscreenCanvas;
+export type CanvasSurface = HTMLCanvasElement | OffscreenCanvas;
 
 /** An invisible canvas. */
-export function surface(width: number, height: number): Surface {
+export function surface(width: number, height: number): CanvasSurface {
   if (typeof OffscreenCanvas !== 'undefined') return new OffscreenCanvas(width, height);
   return Object.assign(document.createElement('canvas'), { width, height });
 }
 
-export const pen2d = (s: Surface): Canvas2D => s.getContext('2d') as Canvas2D;
+export const pen2d = (s: CanvasSurface): Canvas2D => s.getContext('2d') as Canvas2D;
 /** The context of a fully covered canvas, so that it is copied without blending. */
-export const opaquePen = (s: Surface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
+export const opaquePen = (s: CanvasSurface): Canvas2D => s.getContext('2d', { alpha: false }) as Canvas2D;
 
 export class Player {
   #texts: string[] = [];
   #shapes: Path2D[] = [];
-  readonly #bounds = new WeakMap<Path2D, Part>();
-  #sprites: Surface[] = [];
+  readonly #bounds = new WeakMap<Path2D, PixelBox>();
+  #sprites: CanvasSurface[] = [];
 
   learn(news: News): void {
     if (news.afresh) {
@@ -42,7 +42,7 @@ export class Player {
   }
 
   /** The part of a canvas that a recording paints on, with a scale in pixels for each unit. */
-  extent(o: Float64Array, { width, height }: Surface, scale: number): Part {
+  extent(o: Float64Array, { width, height }: CanvasSurface, scale: number): PixelBox {
     const extent = new Extent(scale, (path) => this.#bounds.get(path) ?? new Bounds());
     this.play(extent, o);
     return extent.part(width, height);
@@ -193,7 +193,7 @@ export function paintOn(g: Canvas2D, paint: (pen: Pen) => void): void {
   player.play(g, recording.take());
 }
 
-function boundsOf(points: Float64Array): Part {
+function boundsOf(points: Float64Array): PixelBox {
   const bounds = new Bounds();
   for (let i = 0; i < points.length; i += 2) bounds.add(points[i], points[i + 1]);
   return bounds;

@@ -1,8 +1,8 @@
 // The visible scene: a canvas painted by a worker, or by the page where a browser has no canvas for workers.
-import { CANVASES, Easel, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
+import { CANVASES, Easel, type Canvases, type CanvasLayer, type PictureUpdate, type Size, type Shift } from './easel';
 import { Recording, Vocabulary } from './recording';
 
-export type ToEasel = { canvases: Canvases } | { picture: Picture };
+export type ToEasel = { canvases: Canvases } | { picture: PictureUpdate };
 /** Number of pictures on the canvases; or a notice that fonts have changed. */
 export type FromEasel = { shown: number } | 'fonts';
 
@@ -42,11 +42,11 @@ export class Screen {
 
   show(
     size: Size,
-    layers: Partial<Record<LayerName, Float64Array>>,
+    layers: Partial<Record<CanvasLayer, Float64Array>>,
     shift: Shift,
-    loupe: Picture['loupe'] = null,
+    loupe: PictureUpdate['loupe'] = null,
   ): void {
-    const picture: Picture = { size, layers, shift, loupe, news: this.#words.news() };
+    const picture: PictureUpdate = { size, layers, shift, loupe, news: this.#words.news() };
     if (this.#easel) {
       this.#easel.take(picture);
       this.#easel.paint();

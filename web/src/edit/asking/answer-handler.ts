@@ -53,7 +53,7 @@ const TRAILS = 3;
 const RESTS_MS = 450;
 
 export class AnswerHandler {
-  readonly #calm =
+  readonly #reducedMotion =
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   readonly #names = new FrozenNames();
 
@@ -189,7 +189,8 @@ export class AnswerHandler {
     const sent = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
     const read = keepVerdicts(last?.futures ?? null, sent);
     const f = this.#withFrozenNames(a, editor.drag.active.peek() ? this.#withoutThoseWhoAnswer(read) : read);
-    const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
+    const trails =
+      last && step > 0 && !this.#reducedMotion.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     this.#show(a, f, trails);
     return true;
   }

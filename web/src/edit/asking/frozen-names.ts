@@ -1,7 +1,7 @@
 // Names of futures during a drag: an idea keeps its name until rest, unless the basis of the name is gone and another
 // relation has held for a while.
 import { ideas, type Future, type Futures } from '../../model/document/futures';
-import { nameAll, nameRest, type Named, type Naming } from '../../model/words/future-names';
+import { nameAll, nameRest, type FutureName, type Naming } from '../../model/words/future-names';
 
 /** A new relation must hold for this long before it changes a name, in milliseconds. */
 const HOLDS_MS = 400;
@@ -35,7 +35,7 @@ export class FrozenNames {
   }
 
   /** The future on screen, if its name is kept. */
-  #kept(key: string, old: Future | undefined, next: Future, fresh: Named, now: number): Future | null {
+  #kept(key: string, old: Future | undefined, next: Future, fresh: FutureName, now: number): Future | null {
     if (!old?.basis) return null;
     if (fresh.basis === old.basis || stillHolds(old.basis, next)) {
       this.#pending.delete(key);

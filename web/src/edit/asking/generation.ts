@@ -15,7 +15,7 @@ import { rejudged } from './merge-answer';
 import { followed, scoreOf } from './scoring';
 import type { Step } from '../document/step';
 import type { Editor } from '../session/editor';
-import type { Part } from '../session/part';
+import type { SessionPart } from '../session/part';
 import { ReactionPreview, type Known } from './reaction-preview';
 import { RequestBuilder, type Wanted } from './request-builder';
 import { AnswerHandler } from './answer-handler';
@@ -28,7 +28,7 @@ import { TEXTS } from '../../texts/editing/generation';
 /** Key repeats send one request, this long after the last one. */
 const REST_MS = 80;
 
-export class Generation implements Part {
+export class Generation implements SessionPart {
   readonly #requests: RequestBuilder;
   readonly #handler: AnswerHandler;
   readonly #connection: Connection;

@@ -29,7 +29,7 @@ export interface Known {
   readonly ms: number;
 }
 
-interface Running {
+interface RunningPreview {
   readonly scene: Scene;
   readonly key: string;
   readonly old: ReturnType<typeof setTimeout>;
@@ -44,7 +44,7 @@ export class ReactionPreview {
   #endWait: (() => void) | null = null;
   /** Has a request of the drag's own shown a result since the last preview request? The drag's own futures go first. */
   #free = false;
-  #running: Running | null = null;
+  #running: RunningPreview | null = null;
   #gap: ReturnType<typeof setTimeout> | undefined;
   readonly #rest = new RestTimer(REST_MS);
   #known: Known | null = null;
@@ -132,7 +132,7 @@ export class ReactionPreview {
     });
     if (!question) return;
     const old = setTimeout(() => this.#drop(), OLDEST_MS);
-    const running: Running = { scene, key, old, end: this.asking.begin(), awaited: null };
+    const running: RunningPreview = { scene, key, old, end: this.asking.begin(), awaited: null };
     this.#running = running;
     this.#free = false;
     this.#pause(GAP_MS);
@@ -147,7 +147,7 @@ export class ReactionPreview {
     }, ms);
   }
 
-  #answered(running: Running, known: Known): void {
+  #answered(running: RunningPreview, known: Known): void {
     if (this.#running !== running) return;
     this.#over(running);
     // If previews take long, at least half of the time is left to the drag's own requests.
@@ -161,7 +161,7 @@ export class ReactionPreview {
     this.#next();
   }
 
-  #failed(running: Running): void {
+  #failed(running: RunningPreview): void {
     if (this.#running !== running) return;
     this.#over(running);
     running.awaited?.(null);
@@ -175,7 +175,7 @@ export class ReactionPreview {
     this.#next();
   }
 
-  #over(running: Running): void {
+  #over(running: RunningPreview): void {
     clearTimeout(running.old);
     running.end();
     if (this.#running === running) this.#running = null;

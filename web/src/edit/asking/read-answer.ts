@@ -1,7 +1,7 @@
 // Verdicts, scores and warnings of an answer, in the editor's own types.
 import type { FinalEvent, Resolved, ScoreReply } from '../../net/types';
 import type { Message } from '../../model/document/message';
-import type { Reach, Score, Stretch } from '../../model/document/futures';
+import type { Reach, Score, LastingFault } from '../../model/document/futures';
 
 export function readReach(r: Resolved | undefined): Reach | null {
   if (!r) return null;
@@ -83,7 +83,7 @@ const petsOf = ({ agents }: Partial<ScoreReply>): ReadonlyMap<string, number> =>
 
 type SentStretch = ScoreReply['scene']['off_road'][number];
 
-const stretches = (what: Stretch['what'], sent: readonly SentStretch[] | undefined): Stretch[] =>
+const stretches = (what: LastingFault['what'], sent: readonly SentStretch[] | undefined): LastingFault[] =>
   (sent ?? []).map((s) => ({
     what,
     agent: s.agent,

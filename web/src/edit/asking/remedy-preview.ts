@@ -4,12 +4,12 @@ import type { Command } from '../../model/document/commands';
 import { findChanges } from '../../model/words/change-words';
 import type { MotionSet } from '../../model/document/futures';
 import type { Editor } from '../session/editor';
-import type { Beside } from '../session/view-settings';
+import type { SceneBeside } from '../session/view-settings';
 import { triedChange, type WhatIf, type TriedChange } from './what-if';
 
 export class RemedyPreview {
   /** The preview shown from here; another owner's preview is not removed. */
-  #shown: Beside | null = null;
+  #shown: SceneBeside | null = null;
 
   get asking(): ReadonlySignal<boolean> {
     return this.whatIf.asking;
@@ -35,7 +35,7 @@ export class RemedyPreview {
     const tried = triedChange(scene, command);
     if (!tried) return;
     const before = editor.answers.motion.peek();
-    this.#show({ scene: tried.scene, set: before, parted: tried.changed, tried: true });
+    this.#show({ scene: tried.scene, set: before, diverging: tried.changed, tried: true });
     this.whatIf.ask(tried, (set) => set && this.#answered(tried, before, set));
   }
 
@@ -48,10 +48,10 @@ export class RemedyPreview {
 
   #answered({ scene, changed }: TriedChange, before: MotionSet, set: MotionSet): void {
     const others = findChanges(scene, before, set, new Set(changed)).map((c) => c.id);
-    this.#show({ scene, set, parted: [...changed, ...others], tried: true });
+    this.#show({ scene, set, diverging: [...changed, ...others], tried: true });
   }
 
-  #show(beside: Beside): void {
+  #show(beside: SceneBeside): void {
     this.#shown = beside;
     this.editor.view.showBeside(beside);
   }

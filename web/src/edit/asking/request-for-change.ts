@@ -9,14 +9,14 @@ import type { Editor } from '../session/editor';
 import type { Wanted } from './request-builder';
 
 /** `nothing`: no conditions remain. `known`: the motions are known and need only a score. */
-export type Asked = Wanted | 'nothing' | 'known';
+export type ChangeRequest = Wanted | 'nothing' | 'known';
 
 export function requestForChange(
   editor: Pick<Editor, 'answers'>,
   scene: Scene,
   step: Step,
   set: MotionSet = editor.answers.motion.peek(),
-): Asked {
+): ChangeRequest {
   const asked = whatIsAsked(scene, step, set);
   if (typeof asked === 'string' || asked.agents === 'all') return asked;
   return { ...asked, anew: thoseWhoAnswer(scene, set, [...asked.agents, ...changedBy(step)]) };
@@ -25,7 +25,7 @@ export function requestForChange(
 /** Road users that a step changes. */
 export const changedBy = (step: Step): Iterable<string> => (step.agent ? [step.agent] : (step.several ?? []));
 
-function whatIsAsked(scene: Scene, step: Step, set: MotionSet): Asked {
+function whatIsAsked(scene: Scene, step: Step, set: MotionSet): ChangeRequest {
   const known = set.futures;
   if (step.everybody) return everybodyAnew(scene, step, known);
   const mine = touchedIn(scene);
@@ -94,7 +94,7 @@ function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<st
 }
 
 /** The others replay or hold still: only conditioned road users are computed. */
-function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): Asked {
+function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): ChangeRequest {
   const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   const kept = new Set(mine.filter((id) => !open.includes(id)));
   if (open.length) return { agents: open, react: false, step, kept };
@@ -102,7 +102,7 @@ function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['
 }
 
 /** Draws all again except road users with a taken pinned future: these keep it, and the others react to it. */
-function everybodyAnew(scene: Scene, step: Step, known: MotionSet['futures']): Asked {
+function everybodyAnew(scene: Scene, step: Step, known: MotionSet['futures']): ChangeRequest {
   const held = heldIn(scene, known);
   if (!held.size) return { agents: 'all', react: false, step };
   const agents = [...scene.agents.values()].filter((a) => canChange(a) && !held.has(a.id)).map((a) => a.id);

@@ -2,7 +2,14 @@
 // is never part of the committed scene; while one is open, no other commit is possible.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
-import { History, type Camera, type Committed, type HistoryStep, type KeptHistory } from '../../model/document/history';
+import {
+  History,
+  type ReadonlyHistory,
+  type Camera,
+  type Committed,
+  type HistoryStep,
+  type KeptHistory,
+} from '../../model/document/history';
 import type { Scene } from '../../model/document/scene';
 
 /** Why the document is read-only, and the way out. */
@@ -64,8 +71,8 @@ export class Document {
   /** Returns the camera; stored with every step. */
   camera: () => Camera | null = () => null;
 
-  /** The history of the open scene, read-only. */
-  get history(): History | null {
+  /** The history of the open scene. */
+  get history(): ReadonlyHistory | null {
     return this.#history;
   }
 

@@ -8,6 +8,7 @@ import {
   type Committed,
   type HistoryChange,
   type KeptHistory,
+  type ReadonlyHistory,
 } from '../../model/document/history';
 import { isComplete, stateOf, withState, type SceneState } from '../../model/document/scene-diff';
 import { sceneKey, shortFor, type Scene } from '../../model/document/scene';
@@ -94,7 +95,7 @@ function standingOf(
 
 export class Journal {
   readonly #keeping = signal<Keeping>('kept');
-  #history: History | null = null;
+  #history: ReadonlyHistory | null = null;
   #unfollow: (() => void) | null = null;
   #scene = '';
   /** The document before the first step, where the file has changed since. */
@@ -125,7 +126,7 @@ export class Journal {
    * Stores the steps of this history from now on; for an own scene also the document they start from. `kept`: what was
    * stored before, null to discard it.
    */
-  follow(history: History, scene: string, kept: KeptScene | null, own: boolean): void {
+  follow(history: ReadonlyHistory, scene: string, kept: KeptScene | null, own: boolean): void {
     this.#history = history;
     this.#scene = scene;
     this.#synced = kept?.place.synced ?? null;

@@ -17,7 +17,7 @@ export interface ShownAt {
   readonly camera: Camera;
 }
 
-export interface Shared {
+export interface SharedScene {
   readonly scene: SceneJson;
   readonly at: ShownAt | null;
 }
@@ -25,13 +25,13 @@ export interface Shared {
 export class LinkError extends Error {}
 
 /** The fragment of the link, and its size in bytes. */
-export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: number }> {
+export async function writeLink(shared: SharedScene): Promise<{ hash: string; bytes: number }> {
   const text = JSON.stringify({ v: VERSION, at: shared.at, scene: pack(shared.scene) });
   const bytes = await through(new Blob([text]).stream(), new CompressionStream('deflate-raw'), MOST_TEXT_BYTES);
   return { hash: MARK + toBase64(bytes), bytes: bytes.length };
 }
 
-export async function readLink(hash: string): Promise<Shared> {
+export async function readLink(hash: string): Promise<SharedScene> {
   const coded = hash.slice(MARK.length);
   if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError(TEXTS.linkTooLong);
   try {

@@ -12,7 +12,7 @@ import { isShareLink } from './share-mark';
 import { TEXTS } from '../../texts/editing/keeping';
 
 /** Parts of a scene that a link contains. */
-export interface Parts {
+export interface SharedParts {
   /** Goals, and the followed future of each. */
   readonly futures: boolean;
   /** Texts by users: name, tags, notes. */
@@ -46,7 +46,7 @@ export class Sharing {
     this.#error.value = null;
   }
 
-  async link(parts: Parts, at: ShownAt): Promise<Link> {
+  async link(parts: SharedParts, at: ShownAt): Promise<Link> {
     const whole = this.file.complete();
     if (!whole) return { url: null, bytes: 0 };
     const { MOST_LINK_BYTES, writeLink } = await import('./share-link');
@@ -90,7 +90,7 @@ export class Sharing {
 }
 
 /** The scene without the parts that stay out of the link; of six futures only the followed one. */
-export function reduced(scene: SceneJson, parts: Parts): SceneJson {
+export function reduced(scene: SceneJson, parts: SharedParts): SceneJson {
   const { generated } = scene;
   const sample = generated?.samples[generated.chosen_sample ?? 0];
   const followed =

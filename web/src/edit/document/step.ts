@@ -1,5 +1,5 @@
 // A committed change of the document, as parts of the page need it: its kind, and the changed road users.
-import type { Way } from '../../model/document/scene-diff';
+import type { HistoryDirection } from '../../model/document/scene-diff';
 import { profileOf, type Agent, type Scene } from '../../model/document/scene';
 import type { Commit } from './document';
 
@@ -25,7 +25,11 @@ export interface Step {
 }
 
 /** `way`: direction in the history; null for a new step. `counting`: as in `Step`. */
-export function stepOf({ before, after, name }: Commit, way: Way | 'there' | null, counting: boolean): Step {
+export function stepOf(
+  { before, after, name }: Commit,
+  way: HistoryDirection | 'there' | null,
+  counting: boolean,
+): Step {
   const undo = way !== null;
   const changed = changedAgents(before, after);
   const agent = changed.length === 1 ? changed[0] : null;

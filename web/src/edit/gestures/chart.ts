@@ -154,7 +154,7 @@ export interface ChartParts {
   hitAt(p: Point, touch: boolean): Hit;
   agentsAt(p: Point): string[];
   /** Is reduced motion preferred? */
-  calm(): boolean;
+  reducedMotion(): boolean;
   /** A menu is requested at a place of the picture. */
   menu(at: Point, on: MenuOn, future: number | null): void;
   /** Number of fingers tapped at once: two or three. */

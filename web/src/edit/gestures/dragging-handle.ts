@@ -118,7 +118,7 @@ export class DraggingHandle implements State {
     const v = chart.surface.view;
     const dx = pull(chart.at.x, v.w);
     const dy = pull(chart.at.y, v.h);
-    if ((!dx && !dy) || chart.parts.calm()) return false;
+    if ((!dx && !dy) || chart.parts.reducedMotion()) return false;
     const { x0, x1, y0, y1 } = chart.editor.scene.peek()!.map.box;
     const there = { x0: x0 - BEYOND_M, x1: x1 + BEYOND_M, y0: y0 - BEYOND_M, y1: y1 + BEYOND_M };
     if (!v.panWithin(dx * EDGE_SPEED * seconds, dy * EDGE_SPEED * seconds, there)) return false;

@@ -12,7 +12,7 @@ import {
   alongLane,
   lanesAhead,
   lanesFor,
-  laneWords,
+  laneNameAt,
   snapHeading,
   snapToLane,
   softStop,
@@ -146,11 +146,11 @@ export class HandleMove implements Move {
     const stop = held && softStop(scene, held, a, project(held.line, s.x, s.y).s, this.view.z);
     const at = stop ? { x: stop.x, y: stop.y, laneHeading: stop.heading } : s;
     this.#lane = s.lane?.id ?? null;
-    const laneName = laneWords(scene.map, a, at.x, at.y, at.laneHeading);
+    const lane = laneNameAt(scene.map, a, at.x, at.y, at.laneHeading);
     // The pointer holds the flag, not its foot.
     const from: Vec = [wx + at.x - wanted[0], wy + at.y - wanted[1]];
     const lag = this.held ? { from, to: [wx, wy] as const, touch: this.#touch } : null;
-    editor.drag.over({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
+    editor.drag.over({ laneId: this.#lane, lane, stop: stop ?? null, lag });
 
     const pos = Object.freeze([at.x, at.y] as const);
     const leave = this.#leave([at.x, at.y], mods);

@@ -67,7 +67,7 @@ export class Gestures {
     previews: Previews,
     private readonly tools: readonly PointerTools[],
   ) {
-    const calm = matchMedia('(prefers-reduced-motion: reduce)');
+    const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
     this.chart = new Chart({
       surface: stage,
       editor,
@@ -77,7 +77,7 @@ export class Gestures {
       twoFingers,
       hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
       agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
-      calm: () => calm.matches,
+      reducedMotion: () => reducedMotion.matches,
       ticks: () => {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);

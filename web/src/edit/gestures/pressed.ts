@@ -26,7 +26,7 @@ export class Pressed implements State {
     if (!this.press.touch) return false;
     this.#held += seconds;
     if (this.#held >= ASKS_AFTER_S) {
-      this.chart.go(new Asked(this.chart));
+      this.chart.go(new MenuOpened(this.chart));
       ask(this.chart, this.press);
     }
     // A resting finger sends no moves, and without a frame time does not advance.
@@ -49,7 +49,7 @@ export class Pressed implements State {
 }
 
 /** A menu is open; the finger that opened it is still down. */
-class Asked implements State {
+class MenuOpened implements State {
   readonly name = 'asked';
   constructor(private readonly chart: Chart) {}
 

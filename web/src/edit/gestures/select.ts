@@ -62,7 +62,7 @@ function drag(chart: Chart, press: Press): State {
     if (editor.selected.peek().length > 1) return several(chart, press, 'move');
   }
   const grip = body !== null ? START_BODY : hit.kind === 'grip' ? hit.grip : null;
-  if (grip && editor.agent.peek()?.locked) return new Refused(chart);
+  if (grip && editor.agent.peek()?.locked) return new LockedPress(chart);
   const move = grip && handleMove(chart, press, grip);
   if (move) return new DraggingHandle(chart, press, move);
   return press.touch ? new Panning(chart, press) : new Sweeping('marquee', chart, press, rectangle);
@@ -72,7 +72,7 @@ const START_BODY: Grip = { part: 'start', handle: 'body' };
 
 function several(chart: Chart, press: Press, what: FrameHandle): State {
   const free = freeOnes(chart.editor);
-  return free.length ? new DraggingSeveral(chart, press, free, what) : new Refused(chart, false);
+  return free.length ? new DraggingSeveral(chart, press, free, what) : new LockedPress(chart, false);
 }
 
 /**
@@ -87,7 +87,7 @@ function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
 }
 
 /** A locked road user does not move; a notice explains why. */
-class Refused implements State {
+class LockedPress implements State {
   readonly name = 'refused';
   constructor(
     private readonly chart: Chart,

@@ -5,7 +5,7 @@ import type { Agent } from '../../model/document/scene';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
 import type { Grip } from '../session/drag';
-import { laneWords, snapToLane } from '../moves/snap';
+import { laneNameAt, snapToLane } from '../moves/snap';
 import { moveVia, widenVia } from '../moves/vias';
 import { inHalves } from '../../model/base/units';
 import type { Modifiers, Press } from './chart';
@@ -53,8 +53,8 @@ export class ViaMove implements Move {
     const s = mods.alt ? null : snapToLane(map, agent, x, y, null, this.view.z, null);
     const [px, py] = s ? [s.x, s.y] : [x, y];
     const lane = s?.lane ?? null;
-    const laneName = laneWords(map, agent, px, py, s?.laneHeading ?? null);
-    editor.drag.over({ laneId: lane?.id ?? null, laneName, stop: null, lag: null });
+    const name = laneNameAt(map, agent, px, py, s?.laneHeading ?? null);
+    editor.drag.over({ laneId: lane?.id ?? null, lane: name, stop: null, lag: null });
     const round = (v: number): number => Math.round(v * 100) / 100;
     return [round(px), round(py)];
   }

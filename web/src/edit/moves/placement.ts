@@ -4,10 +4,10 @@ import { wrapAngle, type Vec } from '../../model/base/geometry';
 import type { PlacedKind } from '../../model/base/kinds';
 import type { Scene } from '../../model/document/scene';
 import type { Commit } from '../document/document';
-import type { Part } from '../session/part';
+import type { SessionPart } from '../session/part';
 import { firstChoice, ghostAt, ghostsFor, placeWords, type Ghosts, type PlacingChoice } from './placing';
 
-export class Placement implements Part {
+export class Placement implements SessionPart {
   readonly #choices = signal<Readonly<Partial<Record<PlacedKind, PlacingChoice>>>>({});
   readonly #ghosts = signal<Ghosts | null>(null);
   /** A heading set by the user stays for the next ones. */

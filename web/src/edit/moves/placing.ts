@@ -107,7 +107,7 @@ function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: numb
   return v;
 }
 
-interface Wish {
+interface GhostOptions {
   readonly zoom: number;
   /** Set by the user. */
   readonly heading?: number | null;
@@ -120,7 +120,7 @@ export function ghostAt(
   scene: Scene,
   choice: PlacingChoice,
   [x, y]: Vec,
-  wish: Wish,
+  wish: GhostOptions,
 ): Newcomer & { lane: Lane | null } {
   const raw: Pose = { x, y, heading: wish.heading ?? 0, speed: 0 };
   const plain = { ...raw, lane: null as Lane | null };

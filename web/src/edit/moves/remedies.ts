@@ -87,7 +87,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   if (bend && a.goal.heading !== null)
     out.push({
       label: TEXTS.leaveTheHeading,
-      note: TEXTS.widerGoal,
+      note: TEXTS.anyHeading,
       icon: 'lock',
       primary: false,
       command: withField(a, 'goal', { heading: null }),

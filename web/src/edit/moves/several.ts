@@ -178,14 +178,14 @@ export function spreadAll(
 
 // -------------------------------------------------------------- values
 
-export type Part = 'start' | 'goal';
+export type StartOrGoal = 'start' | 'goal';
 /** A field of the shared inspector. */
 export type SharedField = 'heading' | 'speed' | 'time' | 'length' | 'width';
 
 /** A value for all of them, each derived from its own. */
 export function setAll(
   all: readonly Agent[],
-  part: Part,
+  part: StartOrGoal,
   field: SharedField,
   value: (a: Agent) => number | null,
   what: string,
@@ -207,7 +207,7 @@ export function setAll(
 /** Fixes a field of all at its current value; where all are fixed already, frees it. */
 export function fixAll(
   all: readonly Agent[],
-  part: Part,
+  part: StartOrGoal,
   field: 'heading' | 'speed',
   shown: (a: Agent) => number | null,
 ): Command | null {

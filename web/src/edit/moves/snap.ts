@@ -1,8 +1,10 @@
 // Snapping to lanes and angles, with a visible sign; Alt disables it.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from '../../model/base/geometry';
-import { armWords } from '../../model/words/arm-names';
+import { armLane, namedLane, namedPlace, type LaneName } from '../../model/words/arm-names';
 import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
+import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from '../../model/physics/stop-gaps';
+import { JUDGING } from '../../model/base/domain';
 import { TEXTS } from '../../texts/editing/picture';
 
 export interface Snapped {
@@ -92,20 +94,24 @@ export interface SoftStop {
 }
 
 const CAPTURE_PX = 8;
-const QUEUE_GAP_M = 2;
 
 export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom: number): SoftStop | null {
   const places: number[] = [];
   const stops =
     scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) ||
-    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
-  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
+    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < SIGN_M);
+  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - BEFORE_LINE_M);
   for (const b of scene.agents.values()) {
-    if (b.id === a.id || b.type !== 'vehicle' || Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > 0.5) continue;
+    if (
+      b.id === a.id ||
+      b.type !== 'vehicle' ||
+      Math.abs(b.start.speed ?? b.logStart?.speed ?? 0) > JUDGING.standing_mps
+    )
+      continue;
     const p = startPose(b);
     if (!p) continue;
     const on = project(lane.line, p.x, p.y);
-    if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
+    if (on.d < IN_WAY_M) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
   }
   const s = places
     .filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX)
@@ -151,41 +157,50 @@ export function snapHeading(
 }
 
 /** Cached words for places of a map: several parts of the page need the same few. */
-const said = new WeakMap<LaneMap, Map<string, string>>();
+const said = new WeakMap<LaneMap, Map<string, LaneName>>();
 const MOST_SAID = 64;
 
 /** Words for the lane under a point. */
-export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+export const laneWords = (...at: Parameters<typeof laneNameAt>): string => laneNameAt(...at).name;
+
+/** The same with and without a preposition. */
+export function laneNameAt(
+  map: LaneMap,
+  a: Pick<Agent, 'type'>,
+  x: number,
+  y: number,
+  heading: number | null,
+): LaneName {
   let known = said.get(map);
   if (!known || known.size >= MOST_SAID) said.set(map, (known = new Map()));
   const key = `${a.type} ${x} ${y} ${heading}`;
   let words = known.get(key);
-  if (words === undefined) known.set(key, (words = wordsAt(map, a, x, y, heading)));
+  if (words === undefined) known.set(key, (words = nameAt(map, a, x, y, heading)));
   return words;
 }
 
-function wordsAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
-  if (a.type === 'pedestrian') return onFoot(map, x, y);
+function nameAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): LaneName {
+  if (a.type === 'pedestrian') return namedPlace(onFoot(map, x, y));
   const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
-  if (!hit) return TEXTS.offTheLanes;
-  if (hit.lane.kind === 'walk') return TEXTS.besideTheRoad;
-  const arm = armWords(map, hit.lane);
+  if (!hit) return namedPlace(TEXTS.offTheLanes);
+  if (hit.lane.kind === 'walk') return namedPlace(TEXTS.besideTheRoad);
+  const arm = armLane(map, hit.lane);
   if (arm) return arm;
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
-  const what =
-    hit.lane.kind === 'bike'
-      ? TEXTS.bikeLane
-      : junction
-        ? TEXTS.insideTheJunction
-        : hit.lane.type === 'freeway'
-          ? TEXTS.motorwayLane
-          : hit.lane.type === 'bus_lane'
-            ? TEXTS.busLane
-            : TEXTS.lane;
-  return junction ? TEXTS.bound(what, way) : TEXTS.wayBound(way, what);
+  if (junction) {
+    // A bike lane through the junction keeps its name.
+    if (hit.lane.kind === 'bike') return namedLane(TEXTS.bound(TEXTS.bikeLane, way));
+    return namedPlace(TEXTS.bound(TEXTS.insideTheJunction, way));
+  }
+  return namedLane(TEXTS.wayBound(way, kindWords(hit.lane)));
+}
+
+function kindWords({ kind, type }: Lane): string {
+  if (kind === 'bike') return TEXTS.bikeLane;
+  return type === 'freeway' ? TEXTS.motorwayLane : type === 'bus_lane' ? TEXTS.busLane : TEXTS.lane;
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {

@@ -10,7 +10,7 @@ import { colourKey, stamp } from '../../draw/sprites';
 import { traceLine, trail } from '../../draw/strokes';
 import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
-import type { Beside, Tries } from '../session/view-settings';
+import type { SceneBeside, Tries } from '../session/view-settings';
 
 const WAY_DASH = [6, 5];
 const BOX_DASH = [4, 3];
@@ -34,9 +34,9 @@ export function paintTries(g: Pen, v: View, tries: Tries): void {
   g.globalAlpha = 1;
 }
 
-export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, time: number): void {
+export function paintBeside(g: Pen, v: View, { scene, set, diverging }: SceneBeside, time: number): void {
   const c = colours();
-  const all = parted.flatMap((id) => scene.agents.get(id) ?? []);
+  const all = diverging.flatMap((id) => scene.agents.get(id) ?? []);
   for (const a of all)
     trail(g, v, motionOf(scene, set, a), { colour: c['ink-2'], width: 1.5, alpha: 0.8, dash: WAY_DASH, cap: 'butt' });
   for (const a of all) {
@@ -46,7 +46,13 @@ export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, tim
 }
 
 /** The pointed-out moment: rings around its road users, and its words at the place. */
-export function paintMeeting(g: Pen, v: View, labels: Labels, { scene, set, meeting }: Beside, time: number): void {
+export function paintMeeting(
+  g: Pen,
+  v: View,
+  labels: Labels,
+  { scene, set, meeting }: SceneBeside,
+  time: number,
+): void {
   if (!meeting) return;
   const c = colours();
   // Road users of the moment are drawn in full with their whole path; all others of the case are dashed.
@@ -79,12 +85,12 @@ export function paintTried(
   g: Pen,
   v: View,
   labels: Labels,
-  { scene, set, parted }: Beside,
+  { scene, set, diverging }: SceneBeside,
   now: Scene,
   unitOf: (a: Agent) => SpeedUnit,
 ): void {
   const c = colours();
-  for (const id of parted) {
+  for (const id of diverging) {
     const [a, was] = [scene.agents.get(id), now.agents.get(id)];
     if (!a || !was || a === was) continue;
     trail(g, v, motionOf(scene, set, a), { colour: c.goal, width: 3, dash: TRIED_DASH, halo: true, dots: true });

@@ -18,7 +18,7 @@ const OVER_ITSELF = 0.6;
 
 export class GhostOverlay {
   private readonly fades = new Fades<Change>();
-  private readonly calm =
+  private readonly reducedMotion =
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   private shown: Faded<Change>[] = [];
 
@@ -39,8 +39,8 @@ export class GhostOverlay {
   /** Paths, real boxes and ghosts, the most affected on top. */
   paint(g: Pen, v: View): void {
     const { editor: e } = this;
-    const foreseen = e.view.showPreviewed.value ? (e.answers.previewed.value ?? []) : [];
-    this.shown = this.fades.next(foreseen, performance.now(), this.calm.matches);
+    const previewed = e.view.showPreviewed.value ? (e.answers.previewed.value ?? []) : [];
+    this.shown = this.fades.next(previewed, performance.now(), this.reducedMotion.matches);
     const t = e.playhead.time.value;
     for (const { ghost: c, alpha, here } of [...this.shown].reverse()) {
       const a = this.agentOf(c);

@@ -223,8 +223,8 @@ export class GoalOverlay {
     if (!p) return;
     const [x, y] = v.to(p.x, p.y);
     const r = this.editor.reading.localReach.value;
-    if (d.laneName)
-      tag(g, this.labels, [x, y], TEXTS.on(d.laneName), {
+    if (d.lane)
+      tag(g, this.labels, [x, y], d.lane.place, {
         tries: [
           [34, -46],
           [-150, -46],

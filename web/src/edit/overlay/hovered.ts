@@ -19,7 +19,7 @@ export function replayed(seconds: number, end: number): number {
 }
 
 export class HoveredOverlay {
-  private readonly calm =
+  private readonly reducedMotion =
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   private of: { readonly motion: Motion; readonly since: number } | null = null;
 
@@ -27,7 +27,7 @@ export class HoveredOverlay {
 
   /** Does a box run? Then the overlay needs another frame. */
   get running(): boolean {
-    return this.of !== null && !this.calm.matches;
+    return this.of !== null && !this.reducedMotion.matches;
   }
 
   paint(g: Pen, v: View, a: Agent): void {
@@ -43,7 +43,7 @@ export class HoveredOverlay {
     }
     if (this.of?.motion !== motion) this.of = { motion, since: performance.now() };
     const end = lastStep(motion) * STEP_S;
-    const t = this.calm.matches ? end : replayed((performance.now() - this.of.since) / 1000, end);
+    const t = this.reducedMotion.matches ? end : replayed((performance.now() - this.of.since) / 1000, end);
     const p = poseAt(motion, t) ?? endPose(motion);
     const c = colours();
     paintGhost(g, v, a, p, c.halo, null, [], 5);

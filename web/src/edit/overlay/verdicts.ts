@@ -6,7 +6,7 @@ import { LETTERS, type Futures } from '../../model/document/futures';
 import type { Vec } from '../../model/base/geometry';
 import { nameIn, type Agent } from '../../model/document/scene';
 import { placeWord } from '../../model/words/verdict-words';
-import { paintBroken, paintGround, type Stretch } from '../../draw/broken';
+import { paintBroken, paintGround, type MotionStretch } from '../../draw/broken';
 import { blockFlag, paintFlag, paintGhost } from '../../draw/handles';
 import { pill, type Labels, type PillStyle, type Rect } from '../../draw/labels';
 import { modeStyle, polyline } from '../../draw/strokes';
@@ -137,13 +137,13 @@ function pillStyle({ mark }: FaultPlace): PillStyle {
 
 const lettersOf = (futures: readonly number[]): string => futures.map((i) => LETTERS[i]).join(', ');
 
-const stretchOf = (f: Futures, i: number, fault: Fault): Stretch => ({
+const stretchOf = (f: Futures, i: number, fault: Fault): MotionStretch => ({
   motion: f.modes[i].motion,
   from: fault.time,
   to: fault.until,
 });
 
-const stretchesOf = (f: Futures, visible: readonly number[], want: (fault: Fault) => boolean): Stretch[] =>
+const stretchesOf = (f: Futures, visible: readonly number[], want: (fault: Fault) => boolean): MotionStretch[] =>
   visible.flatMap((i) => (f.modes[i].about?.faults ?? []).filter(want).map((fault) => stretchOf(f, i, fault)));
 
 /** Small boxes along the paths, which labels avoid. */

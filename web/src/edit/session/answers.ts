@@ -13,7 +13,7 @@ import {
 import { withTaken } from '../../model/document/pins';
 import { sceneKey, type Scene } from '../../model/document/scene';
 import type { SpeedUnit } from '../../model/base/units';
-import type { Way } from '../../model/document/scene-diff';
+import type { HistoryDirection } from '../../model/document/scene-diff';
 import type { Commit } from '../document/document';
 import { onlyPicked, type Step } from '../document/step';
 
@@ -34,7 +34,7 @@ export interface Draft {
   readonly earlier: readonly Futures[];
 }
 
-export interface Away {
+export interface Outage {
   /** Seconds until the next try. */
   readonly retryIn: number;
   /** Changes that wait for the generator. */
@@ -62,7 +62,7 @@ export class Answers {
   readonly #liveReach = signal<LiveReach | null>(null);
   readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
-  readonly #away = signal<Away | null>(null);
+  readonly #away = signal<Outage | null>(null);
   readonly #cache = new ByDocument<MotionSet>();
   /** Reactions to the step that led to a document. */
   readonly #told = new ByDocument<{ readonly key: string; readonly changes: readonly Change[] }>();
@@ -80,7 +80,7 @@ export class Answers {
   readonly remark: ReadonlySignal<Remark | null> = this.#remark;
   readonly status: ReadonlySignal<Status> = this.#status;
   /** Null while the generator answers. */
-  readonly away: ReadonlySignal<Away | null> = this.#away;
+  readonly away: ReadonlySignal<Outage | null> = this.#away;
 
   open(scene: Scene, saved: MotionSet | null): void {
     batch(() => {
@@ -130,7 +130,7 @@ export class Answers {
     });
   }
 
-  followed(commit: Commit, step: Step, way: Way | 'there' | null): void {
+  followed(commit: Commit, step: Step, way: HistoryDirection | 'there' | null): void {
     if (step.counting) this.#countsOtherwise(commit.after);
     else {
       const fresh = step.agent && onlyPicked(commit, step.agent) ? step.agent : null;
@@ -263,7 +263,7 @@ export class Answers {
     this.#status.value = status;
   }
 
-  missing(away: Away): void {
+  missing(away: Outage): void {
     this.#away.value = away;
   }
 

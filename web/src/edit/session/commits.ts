@@ -2,19 +2,19 @@
 import { batch } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { Scene } from '../../model/document/scene';
-import type { Way } from '../../model/document/scene-diff';
+import type { HistoryDirection } from '../../model/document/scene-diff';
 import type { Commit, Document, Lock, Travel } from '../document/document';
 import { stepOf } from '../document/step';
 import { TEXTS } from '../../texts/editing/generation';
 import type { Notices } from './notices';
-import type { Part } from './part';
+import type { SessionPart } from './part';
 
 export class Commits {
   constructor(
     private readonly document: Document,
     private readonly notices: Notices,
     /** Parts that follow, in this order. */
-    private readonly parts: readonly Part[],
+    private readonly parts: readonly SessionPart[],
     /** Do the answers belong to the document? */
     private readonly isAnswered: () => boolean,
   ) {}
@@ -62,7 +62,7 @@ export class Commits {
     return lock !== null;
   }
 
-  #travel(way: Way, move: () => Travel | null): void {
+  #travel(way: HistoryDirection, move: () => Travel | null): void {
     const travel = this.#commit(way, move);
     if (!travel) return;
     for (const part of this.parts) part.travelled?.(travel.step, way);
@@ -75,7 +75,7 @@ export class Commits {
    * `way`: direction in the history; null for a new step. A running drag is released before `move`, so that its change
    * is kept.
    */
-  #commit<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
+  #commit<C extends Commit>(way: HistoryDirection | 'there' | null, move: () => C | null): C | null {
     if (!this.document.scene.peek() || this.refused()) return null;
     const trial = this.document.trial.peek();
     if (trial) this.release(trial.command);
@@ -83,7 +83,7 @@ export class Commits {
   }
 
   /** All parts follow a commit in one batch. */
-  #follow<C extends Commit>(way: Way | 'there' | null, move: () => C | null): C | null {
+  #follow<C extends Commit>(way: HistoryDirection | 'there' | null, move: () => C | null): C | null {
     const done = batch(() => {
       const commit = move();
       if (!commit) return null;

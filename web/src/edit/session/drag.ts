@@ -1,4 +1,5 @@
 // A handle drag: previews the resulting document; the release is one step.
+import type { LaneName } from '../../model/words/arm-names';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Command } from '../../model/document/commands';
 import type { Agent } from '../../model/document/scene';
@@ -28,9 +29,9 @@ export interface Lag {
   readonly touch: boolean;
 }
 
-/** The lane under the dragged handle, in words and by id, the stop line it snaps to, and the lag at a kerb. */
+/** The lane under the dragged handle, by name and id, the stop line it snaps to, and the lag at a kerb. */
 export interface DragPlace {
-  readonly laneName: string | null;
+  readonly lane: LaneName | null;
   readonly laneId: string | null;
   readonly stop: OnLine | null;
   readonly lag: Lag | null;
@@ -75,7 +76,7 @@ export class Drag {
       playhead.pause();
       this.of.takeGrip(grip);
       document.begin();
-      this.#info.value = { grip, laneName: null, laneId: null, stop: null, lag: null };
+      this.#info.value = { grip, lane: null, laneId: null, stop: null, lag: null };
       answers.dragBegan();
       notices.hide();
     });
@@ -91,9 +92,9 @@ export class Drag {
   over(place: DragPlace): void {
     const old = this.info.peek();
     if (!old) return;
-    const { laneId, laneName, stop, lag } = place;
-    const lane = old.laneId !== laneId || old.laneName !== laneName;
-    if (lane || (old.stop === null) !== (stop === null) || old.lag !== lag)
+    const { laneId, lane, stop, lag } = place;
+    const moved = old.laneId !== laneId || old.lane?.name !== lane?.name;
+    if (moved || (old.stop === null) !== (stop === null) || old.lag !== lag)
       this.#info.value = { grip: old.grip, ...place };
   }
 

@@ -12,7 +12,7 @@ import { Answers } from './answers';
 import { Commits } from './commits';
 import { Drag, type Grip, type HandlePart } from './drag';
 import { Notices } from './notices';
-import type { Part } from './part';
+import type { SessionPart } from './part';
 import { Playhead } from './playhead';
 import { Reading } from './reading';
 import { ViewSettings } from './view-settings';
@@ -38,7 +38,7 @@ export interface MeasuredLine {
 }
 
 /** Outline of a marquee or a lasso, in metres, and the ids inside. */
-export interface Sweep {
+export interface AreaSelection {
   readonly outline: readonly Vec[];
   readonly ids: readonly string[];
 }
@@ -56,7 +56,7 @@ export class Editor {
   readonly #lastField = signal<{ part: HandlePart; field: Field }>({ part: 'goal', field: 'speed' });
   readonly #tool = signal('select');
   readonly #measure = signal<MeasuredLine | null>(null);
-  readonly #sweep = signal<Sweep | null>(null);
+  readonly #sweep = signal<AreaSelection | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
 
   readonly document = new Document();
@@ -95,7 +95,7 @@ export class Editor {
   readonly tool: ReadonlySignal<string> = this.#tool;
   /** Ends of the measuring line, in metres. */
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
-  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
+  readonly sweep: ReadonlySignal<AreaSelection | null> = this.#sweep;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
 
   readonly answers = new Answers();
@@ -103,13 +103,13 @@ export class Editor {
   readonly view = new ViewSettings();
   readonly playhead = new Playhead(() => this.scene.peek()?.duration ?? null);
   /** The parts that follow the session, in this order. */
-  readonly #parts: Part[] = [{ followed: ({ before, after }) => this.#follow(before, after) }, this.answers];
+  readonly #parts: SessionPart[] = [{ followed: ({ before, after }) => this.#follow(before, after) }, this.answers];
   readonly commits = new Commits(this.document, this.notices, this.#parts, () => !this.answers.motion.peek().stale);
   readonly drag = new Drag(this);
   readonly reading = new Reading(this);
 
   /** A part follows the session from now on. */
-  join(part: Part): void {
+  join(part: SessionPart): void {
     this.#parts.push(part);
   }
 
@@ -249,7 +249,7 @@ export class Editor {
     this.#measure.value = line;
   }
 
-  sweepOver(sweep: Sweep | null): void {
+  sweepOver(sweep: AreaSelection | null): void {
     this.#sweep.value = sweep;
   }
 }

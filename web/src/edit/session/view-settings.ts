@@ -8,9 +8,9 @@ import { keep, recall } from '../../net/storage';
 
 export const LAYER_NAMES = ['futures', 'log', 'lanes', 'labels', 'signals', 'limits', 'reach', 'conflicts'] as const;
 export type LayerName = (typeof LAYER_NAMES)[number];
-export type Shown = Readonly<Record<LayerName, boolean>>;
+export type ShownLayers = Readonly<Record<LayerName, boolean>>;
 
-const AT_FIRST: Shown = {
+const AT_FIRST: ShownLayers = {
   futures: true,
   log: false,
   lanes: false,
@@ -23,20 +23,20 @@ const AT_FIRST: Shown = {
 
 const STORED = 'layers';
 
-function remembered(): Shown {
-  const kept = recall<Partial<Shown>>(STORED);
+function remembered(): ShownLayers {
+  const kept = recall<Partial<ShownLayers>>(STORED);
   const of = (name: LayerName): boolean => {
     const was = kept?.[name];
     return typeof was === 'boolean' ? was : AT_FIRST[name];
   };
-  return Object.fromEntries(LAYER_NAMES.map((name) => [name, of(name)])) as Shown;
+  return Object.fromEntries(LAYER_NAMES.map((name) => [name, of(name)])) as ShownLayers;
 }
 
 /** A document with the motions of all road users, and the ids with another motion than the shown one. */
-export interface Beside {
+export interface SceneBeside {
   readonly scene: Scene;
   readonly set: MotionSet;
-  readonly parted: readonly string[];
+  readonly diverging: readonly string[];
   /** A tried change: painted before the selected road user's own display. */
   readonly tried?: true;
   /** A pointed-out moment in it: its road users, place, time, and words. */
@@ -65,22 +65,22 @@ export interface MapDraft {
 const NO_MAP: MapDraft = { isOpen: signal(false), scene: signal(null) };
 
 export class ViewSettings {
-  readonly #layers = signal<Shown>(remembered());
+  readonly #layers = signal<ShownLayers>(remembered());
   readonly #showBefore = signal(true);
   readonly #showPreviewed = signal(true);
   readonly #speedUnit = signal<SpeedUnit>(toldIn(recall<SpeedUnit>('speed-unit') ?? 'km/h'));
-  readonly #beside = signal<Beside | null>(null);
+  readonly #beside = signal<SceneBeside | null>(null);
   readonly #tries = signal<Tries>(NO_TRIES);
   readonly #mapDraft = signal(NO_MAP);
 
-  readonly layers: ReadonlySignal<Shown> = this.#layers;
+  readonly layers: ReadonlySignal<ShownLayers> = this.#layers;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
   /** Are the others' reactions shown on the picture during a drag? */
   readonly showPreviewed: ReadonlySignal<boolean> = this.#showPreviewed;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
   /** An alternative motion of the scene, dashed beside the shown one. */
-  readonly beside: ReadonlySignal<Beside | null> = this.#beside;
+  readonly beside: ReadonlySignal<SceneBeside | null> = this.#beside;
   /** Paths that a search has tried so far, pale on the picture. */
   readonly tries: ReadonlySignal<Tries> = this.#tries;
 
@@ -113,7 +113,7 @@ export class ViewSettings {
     this.#showPreviewed.value = !this.#showPreviewed.peek();
   }
 
-  showBeside(beside: Beside | null): void {
+  showBeside(beside: SceneBeside | null): void {
     this.#beside.value = beside;
   }
 

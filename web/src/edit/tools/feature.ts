@@ -25,7 +25,7 @@ export interface Supplies {
 }
 
 /** The parts of a feature. Those that follow the session have joined it themselves. */
-export interface Made extends PointerTools {
+export interface FeatureParts extends PointerTools {
   /** Its parts, by the names that actions and panels use. */
   readonly named: object;
   readonly overlay?: ToolOverlay;
@@ -33,5 +33,5 @@ export interface Made extends PointerTools {
 
 export interface Feature {
   readonly rail?: readonly RailEntry[];
-  make(of: Supplies): Made;
+  make(of: Supplies): FeatureParts;
 }

@@ -2,7 +2,7 @@
 // palette entries, shortcut lines, overlay and pointer behaviour follow from that.
 import type { RailEntry } from '../gestures/chart';
 import { CASES } from './cases/feature';
-import type { Made, Supplies } from './feature';
+import type { FeatureParts, Supplies } from './feature';
 import { FILLING } from './filling/feature';
 import { LAYOUTS } from './layouts/feature';
 import { PLACING } from './placing/feature';
@@ -16,12 +16,12 @@ const FEATURES = [POINTING, PLACING, FILLING, LAYOUTS, SPEED_CURVE, ROUNDS, VARI
 
 export const RAIL: readonly RailEntry[] = FEATURES.flatMap((f): readonly RailEntry[] => ('rail' in f ? f.rail : []));
 
-type Named<F> = F extends { make(...of: never[]): { named: infer N } } ? (named: N) => void : never;
+type NamedParts<F> = F extends { make(...of: never[]): { named: infer N } } ? (named: N) => void : never;
 
 /** All parts of features by their names. */
-export type Tools = Named<(typeof FEATURES)[number]> extends (named: infer All) => void ? All : never;
+export type Tools = NamedParts<(typeof FEATURES)[number]> extends (named: infer All) => void ? All : never;
 
-export function makeTools(of: Supplies): { readonly named: Tools; readonly made: readonly Made[] } {
-  const made: readonly Made[] = FEATURES.map((f) => f.make(of));
+export function makeTools(of: Supplies): { readonly named: Tools; readonly made: readonly FeatureParts[] } {
+  const made: readonly FeatureParts[] = FEATURES.map((f) => f.make(of));
   return { named: Object.assign({}, ...made.map((m) => m.named)) as Tools, made };
 }

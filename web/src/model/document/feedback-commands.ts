@@ -1,13 +1,11 @@
 // Commands on feedback: a card is kept or rejected, a preference is added or forgotten, the next round begins.
-import type { components } from '../base/api';
+import type { Schemas } from '../base/schemas';
 import { patchAgents, patchScene, type Command } from './commands';
 import { answerTo, following, MOST_ANSWERS, MOST_WISHES, NO_FEEDBACK, SAME_M, sameTrait, traitOf } from './feedback';
-import type { Answer, Asked, Feedback, Places, Trait, Verdict, Wish } from './feedback';
+import type { CardVerdict, RoundInputs, Feedback, Places, Trait, Verdict, Wish } from './feedback';
 import type { Agent, Scene } from './scene';
 import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/scene/feedback';
-
-type Schemas = components['schemas'];
 
 /** Limit for whole scenes, which is lower: each answer holds the positions of all. */
 const MOST_ANSWERS_OF_SCENE = 60;
@@ -53,18 +51,24 @@ function shortPlaces(all: Places): Places {
   return Object.fromEntries(Object.entries(all).flatMap(([id, p]) => (p.length ? [[id, short(p)]] : [])));
 }
 
-const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): Command =>
+const put = (name: string, a: Subject, asked: RoundInputs, patch: Partial<Feedback>): Command =>
   a.say(name, Object.freeze({ ...(a.feedback ?? NO_FEEDBACK), asked, ...patch }));
 
 /** Keeps or rejects a card; null clears the verdict. */
-export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
+export function judge(
+  a: Subject,
+  asked: RoundInputs,
+  of: Judged,
+  verdict: Verdict | null,
+  why: Wish | null = null,
+): Command {
   const was = answerTo(a.feedback, asked, of.card);
   const answers = a.feedback?.answers ?? [];
   const { letter, name } = of;
   const { features } = of.card;
   const places = a.id === null ? shortPlaces(of.card.places) : of.card.places;
   const most = a.id === null ? MOST_ANSWERS_OF_SCENE : MOST_ANSWERS;
-  const said: Answer | null = verdict && {
+  const said: CardVerdict | null = verdict && {
     ...{ features, places: was?.places ?? places, verdict, why, letter, name },
     round: asked.round,
   };
@@ -78,7 +82,7 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
 }
 
 /** Adds a preference; it replaces another one about the same trait. */
-export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
+export function addWish(a: Subject, asked: RoundInputs, wish: Wish, words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
   const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
   return put(TEXTS.wishedFor(words, a.name), a, asked, {
@@ -88,7 +92,7 @@ export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Co
 }
 
 /** Ignores a trait, whatever the verdicts show. `words`: the name of the trait. */
-export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words: string): Command {
+export function forget(a: Subject, asked: RoundInputs, traits: readonly Trait[], words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NO_FEEDBACK;
   const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
   const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
@@ -99,7 +103,7 @@ export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words
 }
 
 /** Cards from the feedback so far. */
-export function nextRound(a: Subject, asked: Asked): Command {
+export function nextRound(a: Subject, asked: RoundInputs): Command {
   const next = following(a.feedback, asked);
   return put(TEXTS.roundOf(next.round, a.name), a, next, {});
 }

@@ -1,9 +1,8 @@
 // Feedback on futures of a road user, or of the whole scene, round by round: kept and rejected cards with reasons, and
 // plain preferences. It is part of the document, and so are the inputs of the current cards: undo shows the earlier
 // ones again.
-import type { components } from '../base/api';
+import type { Schemas } from '../base/schemas';
 
-type Schemas = components['schemas'];
 export type Features = Schemas['Features'];
 export type Trait = Schemas['Trait'];
 export type Wish = Schemas['Wish'];
@@ -12,7 +11,7 @@ export type Verdict = 'keep' | 'reject';
 export type Places = Readonly<Record<string, readonly (readonly number[])[]>>;
 
 /** A card that was kept or rejected. */
-export interface Answer {
+export interface CardVerdict {
   readonly features: Features;
   readonly places: Places;
   readonly verdict: Verdict;
@@ -25,7 +24,7 @@ export interface Answer {
 }
 
 /** Inputs of a round's cards, beside the verdicts of earlier rounds. */
-export interface Asked {
+export interface RoundInputs {
   readonly round: number;
   /** Key of the document that the cards belong to. */
   readonly key: string;
@@ -34,12 +33,12 @@ export interface Asked {
 }
 
 export interface Feedback {
-  readonly answers: readonly Answer[];
+  readonly answers: readonly CardVerdict[];
   /** Stated explicitly. */
   readonly wishes: readonly Wish[];
   /** Traits to ignore, whatever the verdicts show. */
   readonly forgotten: readonly Trait[];
-  readonly asked: Asked | null;
+  readonly asked: RoundInputs | null;
 }
 
 /** Maximum number in a request. */
@@ -52,18 +51,18 @@ const PLAIN_TRAITS = 5;
 export const NO_FEEDBACK: Feedback = Object.freeze({ answers: [], wishes: [], forgotten: [], asked: null });
 
 /** The round to show: the last requested one while the document is the same, else the next one. */
-export function presentRound(f: Feedback | null, key: string): Asked {
+export function presentRound(f: Feedback | null, key: string): RoundInputs {
   if (f?.asked?.key === key) return f.asked;
   const last = Math.max(0, ...(f?.answers ?? []).map((a) => a.round));
   return { round: last + 1, key, wishes: f?.wishes ?? [], forgotten: f?.forgotten ?? [] };
 }
 
 /** Verdicts that the cards of a round are based on, in the order of sending. */
-export const earlierAnswers = (f: Feedback | null, asked: Asked): readonly Answer[] =>
+export const earlierAnswers = (f: Feedback | null, asked: RoundInputs): readonly CardVerdict[] =>
   (f?.answers ?? []).filter((a) => a.round < asked.round);
 
 /** The feedback of a request. */
-export function docOf(f: Feedback | null, asked: Asked): Schemas['FeedbackDoc'] {
+export function docOf(f: Feedback | null, asked: RoundInputs): Schemas['FeedbackDoc'] {
   const earlier = earlierAnswers(f, asked);
   const lean = leanFeatures(
     earlier.map((a) => a.features),
@@ -123,11 +122,11 @@ function leanFeatures(all: readonly Features[], room: number): readonly Features
 }
 
 /** The next round. */
-export const following = (f: Feedback | null, { round, key }: Asked): Asked =>
+export const following = (f: Feedback | null, { round, key }: RoundInputs): RoundInputs =>
   Object.freeze({ round: round + 1, key, wishes: f?.wishes ?? [], forgotten: f?.forgotten ?? [] });
 
 /** Would the next round have other cards than this one? */
-export const hasNews = (f: Feedback | null, asked: Asked): boolean =>
+export const hasNews = (f: Feedback | null, asked: RoundInputs): boolean =>
   JSON.stringify(docOf(f, following(f, asked))) !== JSON.stringify(docOf(f, asked));
 
 export function traitKey(t: Trait): string {
@@ -157,8 +156,11 @@ function samePlaces(a: Places, b: Places): boolean {
 }
 
 /** The verdict on a card of this round. */
-export const answerTo = (f: Feedback | null, asked: Asked, card: { readonly places: Places }): Answer | null =>
-  f?.answers.find((a) => a.round === asked.round && samePlaces(a.places, card.places)) ?? null;
+export const answerTo = (
+  f: Feedback | null,
+  asked: RoundInputs,
+  card: { readonly places: Places },
+): CardVerdict | null => f?.answers.find((a) => a.round === asked.round && samePlaces(a.places, card.places)) ?? null;
 
 // -------------------------------------------------------------- from a file
 
@@ -179,13 +181,13 @@ export function readFeedback(v: unknown): Feedback | null {
     : null;
 }
 
-function readAsked(v: unknown): Asked | null {
+function readAsked(v: unknown): RoundInputs | null {
   if (!isObject(v) || !Number.isSafeInteger(v.round) || (v.round as number) < 1 || !isText(v.key)) return null;
   const [wishes, forgotten] = [listOf(v.wishes, MOST_WISHES, readWish), listOf(v.forgotten, MOST_WISHES, readTrait)];
   return Object.freeze({ round: v.round as number, key: v.key, wishes, forgotten });
 }
 
-function readAnswer(v: unknown): Answer | null {
+function readAnswer(v: unknown): CardVerdict | null {
   if (!isObject(v) || (v.verdict !== 'keep' && v.verdict !== 'reject')) return null;
   const [features, places] = [readFeatures(v.features), readPlaces(v.places)];
   if (!features || !places || !Number.isSafeInteger(v.round) || (v.round as number) < 1) return null;

@@ -74,9 +74,9 @@ export function unnamedFutures(
  */
 export type KeepOrder = 'rank' | { readonly like: Futures | null | undefined; readonly always: boolean };
 
-type Sent = HasAnchor & { readonly probability: number };
+type SentMode = HasAnchor & { readonly probability: number };
 
-function placesOf(sent: readonly Sent[], keep: KeepOrder | undefined): number[] {
+function placesOf(sent: readonly SentMode[], keep: KeepOrder | undefined): number[] {
   const asSent = sent.map((_, i) => i);
   if (keep === 'rank') return asSent.sort((a, b) => sent[b].probability - sent[a].probability || a - b);
   return keep?.like ? placesLike(keep.like.modes, sent, keep.always) : asSent;
@@ -162,7 +162,7 @@ export interface NearMiss extends Collision {
   ttc: number | null;
 }
 /** A fault of one road user that lasts for a while. */
-export interface Stretch {
+export interface LastingFault {
   readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
   readonly agent: string;
   readonly time: number;
@@ -173,7 +173,7 @@ export interface Stretch {
 export interface Score {
   readonly collisions: readonly Collision[];
   readonly nearMisses: readonly NearMiss[];
-  readonly stretches?: readonly Stretch[];
+  readonly stretches?: readonly LastingFault[];
   readonly minTtc: number | null;
   /** Least time between one road user leaving a place and another arriving there, seconds. */
   readonly pet?: number | null;

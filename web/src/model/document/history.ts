@@ -73,6 +73,14 @@ const FOLD_MS = 600;
 export const MOST_STEPS = 500;
 const SLACK = 50;
 
+/** A history without the methods that change it. */
+export type ReadonlyHistory = Readonly<
+  Pick<
+    History,
+    'committed' | 'scene' | 'ref' | 'undoName' | 'redoName' | 'depth' | 'head' | 'step' | 'kept' | 'line' | 'first'
+  >
+> & { readonly changed: Pick<History['changed'], 'listen'> };
+
 export class History {
   readonly #steps = new Map<number, HistoryStep>();
   readonly #ahead = new Map<number | null, number>();

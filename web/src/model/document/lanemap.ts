@@ -1,5 +1,5 @@
 // The lane map as the editor uses it: lines with running lengths, a search grid, and routes.
-import type { AreaJson, LineJson, MapJson, Point } from './scene-json';
+import type { AreaJson, LineJson, MapJson, PointJson } from './scene-json';
 import {
   boxOf,
   emptyBox,
@@ -54,7 +54,7 @@ export const placesAlong = ({ box }: LaneMap, axis: 0 | 1): readonly [number, nu
   axis ? [box.y0 - BEYOND_M, box.y1 + BEYOND_M] : [box.x0 - BEYOND_M, box.x1 + BEYOND_M];
 
 const WIDTH: Record<LaneKind, number> = { road: 3.5, bike: 1.8, walk: 2, other: 3 };
-const flat = (pts: readonly Point[] | undefined): Vec[] => (pts ?? []).map((p): Vec => [p[0], p[1]]);
+const flat = (pts: readonly PointJson[] | undefined): Vec[] => (pts ?? []).map((p): Vec => [p[0], p[1]]);
 
 function laneKind(type: string | undefined): LaneKind {
   switch (type) {

@@ -1,9 +1,9 @@
 // Map templates in display order, and the ranges of their parameters.
 import domain from '../../../../assets/domain.json';
-import type { components } from '../base/api';
+import type { Schemas } from '../base/schemas';
 import { TEXTS } from '../../texts/panels/layouts';
 
-export type TemplateName = components['schemas']['Template'];
+export type TemplateName = Schemas['Template'];
 
 export const TEMPLATE_TITLES: Readonly<Record<TemplateName, string>> = {
   'three-arms': TEXTS.threeArms,
@@ -36,11 +36,11 @@ export function rangeOf(template: TemplateName, place: string): readonly [number
   return [least, most];
 }
 
-export type Connection = components['schemas']['Connection'];
+export type LaneConnection = Schemas['Connection'];
 
 export interface Connections {
-  readonly added: readonly Connection[];
-  readonly removed: readonly Connection[];
+  readonly added: readonly LaneConnection[];
+  readonly removed: readonly LaneConnection[];
 }
 
 /** A lane of an arm, both counted from 0; lanes from the middle of the road to the kerb. */
@@ -48,7 +48,7 @@ export type LaneOfArm = readonly [arm: number, lane: number];
 
 export const NO_CONNECTIONS: Connections = { added: [], removed: [] };
 
-export function connectionOf(from: LaneOfArm, to: LaneOfArm): Connection {
+export function connectionOf(from: LaneOfArm, to: LaneOfArm): LaneConnection {
   return { from: `arm${from[0] + 1}.in${from[1] + 1}`, to: `arm${to[0] + 1}.out${to[1] + 1}` };
 }
 
@@ -57,7 +57,7 @@ export function laneOf(id: string): LaneOfArm {
   return [Number(arm) - 1, Number(lane) - 1];
 }
 
-export const sameWay = (a: Connection, b: Connection): boolean => a.from === b.from && a.to === b.to;
+export const sameWay = (a: LaneConnection, b: LaneConnection): boolean => a.from === b.from && a.to === b.to;
 
 /** Connections that still have lanes; `gone` is the index of a removed arm. */
 export function fitting(
@@ -66,7 +66,7 @@ export function fitting(
   gone: number | null = null,
 ): Connections {
   const moved = ([arm, lane]: LaneOfArm): LaneOfArm => [gone !== null && arm > gone ? arm - 1 : arm, lane];
-  const kept = (list: readonly Connection[]): readonly Connection[] =>
+  const kept = (list: readonly LaneConnection[]): readonly LaneConnection[] =>
     list.flatMap((c) => {
       const [from, to] = [laneOf(c.from), laneOf(c.to)];
       if (from[0] === gone || to[0] === gone) return [];

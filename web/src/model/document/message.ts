@@ -1,4 +1,4 @@
 // A message of the server as data: `model/words/message-text.ts` writes it out.
-import type { components } from '../base/api';
+import type { Schemas } from '../base/schemas';
 
-export type Message = components['schemas']['Message'];
+export type Message = Schemas['Message'];

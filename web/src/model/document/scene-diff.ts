@@ -3,13 +3,13 @@
 import { withCast, type Agent, type Scene } from './scene';
 
 /** Changed members of a road user; all of them when it is added or removed; null where it is absent. */
-type Side = Partial<Agent> | null;
-export type Way = 'back' | 'forth';
+type AgentChange = Partial<Agent> | null;
+export type HistoryDirection = 'back' | 'forth';
 
 interface AgentDiff {
   readonly id: string;
-  readonly back: Side;
-  readonly forth: Side;
+  readonly back: AgentChange;
+  readonly forth: AgentChange;
 }
 
 type Fields = Partial<Omit<Scene, 'agents' | 'castKey' | 'map' | 'signals' | 'id'>>;
@@ -19,7 +19,7 @@ export interface SceneDiff {
   readonly back: Fields;
   readonly forth: Fields;
   /** All ids in order, where road users are added or removed. */
-  readonly order?: Readonly<Record<Way, readonly string[]>>;
+  readonly order?: Readonly<Record<HistoryDirection, readonly string[]>>;
 }
 
 /** Never part of a step: another map is another scene, and `castKey` follows from the agents. */
@@ -63,7 +63,7 @@ export function diffOf(before: Scene, after: Scene): SceneDiff {
 
 export const isEmptyDiff = (d: SceneDiff): boolean => !d.agents.length && !Object.keys(d.forth).length && !d.order;
 
-export function applyDiff(scene: Scene, diff: SceneDiff, way: Way): Scene {
+export function applyDiff(scene: Scene, diff: SceneDiff, way: HistoryDirection): Scene {
   const agents = new Map(scene.agents);
   for (const d of diff.agents) {
     const side = d[way];

@@ -1,9 +1,7 @@
 // The scene document as sent and stored (`dragtraffic.scene`, version 1), and the futures of answers. Members of a
 // document that may be missing are optional: the reader is tolerant, the writer is not.
 import type { Feedback } from './feedback';
-import type { components } from '../base/api';
-
-type Schemas = components['schemas'];
+import type { Schemas } from '../base/schemas';
 
 /** A string where the schema lists words: the reader accepts unknown words. */
 type Open<T> = T extends string ? string : T;
@@ -12,11 +10,11 @@ type Read<T, Needed extends keyof T = never, Own = unknown> = {
   [K in Exclude<keyof T, keyof Own>]?: Open<T[K]>;
 } & { [K in Exclude<Needed, keyof Own>]: Open<T[K]> } & Own;
 
-export type Point = [number, number] | [number, number, number];
-type HasPoints = { points_m: Point[] };
+export type PointJson = [number, number] | [number, number, number];
+type HasPoints = { points_m: PointJson[] };
 export type LaneJson = Read<Schemas['LaneDoc'], 'id', HasPoints>;
 export type LineJson = Read<Schemas['RoadLineDoc'], never, HasPoints>;
-export type AreaJson = { id?: string; polygon_m: Point[]; holes_m?: Point[][] };
+export type AreaJson = { id?: string; polygon_m: PointJson[]; holes_m?: PointJson[][] };
 /** Lists of the schema with the parts that the page reads. */
 export interface MapJson {
   lanes?: LaneJson[];
@@ -25,11 +23,11 @@ export interface MapJson {
   crosswalks?: AreaJson[];
   speed_bumps?: AreaJson[];
   driveways?: AreaJson[];
-  stop_signs?: Read<Schemas['StopSignDoc'], never, { position_m: Point }>[];
+  stop_signs?: Read<Schemas['StopSignDoc'], never, { position_m: PointJson }>[];
   drivable?: AreaJson[];
 }
 export type MapRef = Schemas['MapRef'];
-export type SignalJson = Read<Schemas['SignalDoc'], 'lane', { stop_m?: Point | null; states: [number, string][] }>;
+export type SignalJson = Read<Schemas['SignalDoc'], 'lane', { stop_m?: PointJson | null; states: [number, string][] }>;
 export type TrackJson = Read<
   Schemas['TrackDoc'],
   'x_m' | 'y_m' | 'heading_rad',

@@ -35,7 +35,7 @@ import {
   type Pin,
   type Scene,
   type StartSpec,
-  type Asked,
+  type AgentConditions,
   type Variant,
   type VariantState,
 } from './scene';
@@ -291,7 +291,7 @@ function readVariants(json: unknown, agents: ReadonlyMap<string, Agent>): Pick<S
       replan: readReplan(v.replan_s),
       drawn: whole(v.drawn, 0, 1e6) ? v.drawn : 0,
       subject: typeof v.subject === 'string' && agents.has(v.subject) ? v.subject : null,
-      roster: v.roster,
+      castKey: v.roster,
       asked: readAsked(v, agents),
     });
   }
@@ -299,7 +299,7 @@ function readVariants(json: unknown, agents: ReadonlyMap<string, Agent>): Pick<S
 }
 
 function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>): VariantState['asked'] {
-  const asked: Record<string, Asked> = {};
+  const asked: Record<string, AgentConditions> = {};
   for (const [id, c] of Object.entries(v.conditions ?? {})) {
     const a = agents.get(id);
     if (!a?.source || !c || typeof c !== 'object') continue;

@@ -200,7 +200,7 @@ export const thresholdsOf = (s: Scene): { thresholds?: Record<string, number> } 
 /** Variants in file form. */
 export const variantsJson = (scene: Scene): VariantJson[] =>
   scene.variants.map((v) => {
-    const { seed, diversity, others, length, replan, drawn, subject, roster, asked } = scene.variantStates[v.id];
+    const { seed, diversity, others, length, replan, drawn, subject, castKey, asked } = scene.variantStates[v.id];
     const all = Object.entries(asked).flatMap(([id, patch]) => {
       const a = scene.agents.get(id);
       return a ? [{ ...a, ...patch }] : [];
@@ -218,7 +218,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       replan_s: replan,
       ...(drawn ? { drawn } : {}),
       ...(subject === null ? {} : { subject }),
-      roster,
+      roster: castKey,
       conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
       ...(picked ? { picked } : {}),
       ...(dealt ? { dealt } : {}),

@@ -108,12 +108,12 @@ export interface VariantState {
   /** Subject of its set of variants; null for all road users. */
   readonly subject: string | null;
   /** Road users of the scene, as in `Scene.castKey`. */
-  readonly roster: string;
+  readonly castKey: string;
   /** Conditions by id; road users not listed have none. */
-  readonly asked: Readonly<Record<string, Asked>>;
+  readonly asked: Readonly<Record<string, AgentConditions>>;
 }
 
-export type Asked = Pick<
+export type AgentConditions = Pick<
   Agent,
   'start' | 'goal' | 'chosen' | 'dealt' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'
 >;
@@ -301,10 +301,13 @@ export const isRecorded = (source: string): boolean => !MADE.includes(source);
 export const staysAway = (s: Scene, a: Agent): boolean =>
   doing(s, a) === 'still' && a.type !== 'other' && a.logStart === null;
 
+/** The name of a road user by its id; null for an unknown one. */
+export type NameOf = (id: string) => string | null;
+
 /** Names of road users by id; null for an absent one. */
 export const nameIn =
-  (s: Scene) =>
-  (id: string): string | null =>
+  (s: Scene): NameOf =>
+  (id) =>
     s.agents.get(id)?.name ?? null;
 
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;

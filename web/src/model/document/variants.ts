@@ -2,7 +2,7 @@
 // computed from these and not part of the document.
 import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
 import {
-  type Asked,
+  type AgentConditions,
   type Variant,
   type VariantState,
   durationOf,
@@ -19,7 +19,7 @@ export const MOST_VARIANTS = 30;
 
 /** The current document, as a variant. */
 export function stateOfVariant(scene: Scene, subject: string | null): VariantState {
-  const { seed, diversity, others, length, replan, drawn, castKey: roster } = scene;
+  const { seed, diversity, others, length, replan, drawn, castKey } = scene;
   const asked = [...scene.agents.values()].filter((a) => touched(a) || a.does !== null);
   return Object.freeze({
     seed,
@@ -29,7 +29,7 @@ export function stateOfVariant(scene: Scene, subject: string | null): VariantSta
     replan,
     drawn,
     subject,
-    roster,
+    castKey,
     asked: Object.freeze(Object.fromEntries(asked.map((a) => [a.id, askedOf(a)]))),
   });
 }
@@ -46,10 +46,11 @@ export const askedOf = ({
   kind,
   subtype,
   does,
-}: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
+}: Agent): AgentConditions =>
+  Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
 
 /** Has the scene the road users of the variant? */
-export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.castKey;
+export const sameCast = (scene: Scene, state: VariantState): boolean => state.castKey === scene.castKey;
 
 const NOTHING = { does: null } as const;
 

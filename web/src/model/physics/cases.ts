@@ -1,6 +1,7 @@
 // A searched case: the event and its road users, whether a motion contains it, and how near it comes.
 import { compareMarks } from '../document/future-facts';
 import { motionOf } from './playback';
+import { lightAt } from './signals';
 import { closestTo, timeGapOf, type Closest, type Moving } from './proximity';
 import { eventsIn, type SceneEvent } from './events';
 import type { MotionSet } from '../document/futures';
@@ -39,7 +40,7 @@ export const KINDS: Readonly<
 };
 
 /** Side of the other party, seen from the varied road user. */
-export type Side = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
+export type PartySide = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
 
 /** The moment of a case in a motion. */
 export interface Moment {
@@ -49,7 +50,7 @@ export interface Moment {
   readonly time: number;
   readonly at: Vec;
   readonly other: string | null;
-  readonly side: Side | null;
+  readonly side: PartySide | null;
   readonly found: boolean;
   /** Distance from the target, smaller is nearer; below that of others where it is met. */
   readonly miss: number;
@@ -116,7 +117,7 @@ function eventsBetween(scene: Scene, set: MotionSet, { who, other }: Sought): Sc
     .sort((p, q) => compareMarks(p.kind, q.kind) || p.time - q.time);
 }
 
-interface Found {
+interface MeasuredValue {
   readonly value: number;
   readonly time: number;
   readonly found: boolean;
@@ -124,7 +125,7 @@ interface Found {
 }
 
 /** With place and side at that time. */
-function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Found): Moment | null {
+function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: MeasuredValue): Moment | null {
   const p = poseAt(one[1], m.time);
   const other = others.find(([a]) => a === b);
   const q = other ? poseAt(other[1], m.time) : null;
@@ -137,7 +138,7 @@ function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Fo
   };
 }
 
-const sideOf = (bearing: number): Side =>
+const sideOf = (bearing: number): PartySide =>
   Math.abs(bearing) < Math.PI / 4
     ? 'in-front'
     : Math.abs(bearing) > (3 * Math.PI) / 4
@@ -226,11 +227,12 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     return { value, time: run.time, at: run.at, other: null, side: null, found: true, miss: -value };
   }
   let best: { d: number; time: number } | null = null;
-  for (const { lane, stop, states } of scene.signals) {
+  for (const signal of scene.signals) {
+    const { lane, stop } = signal;
     const line = scene.map.lanes.get(lane)?.line;
     const into = line ? pointAt(line, 0).heading : null;
     for (let step = 0; stop && step * STEP_S <= scene.duration; step++) {
-      const p = isRed(states, step) ? poseAtStep(one[1], step) : null;
+      const p = lightAt(signal, step * STEP_S) === 'stop' ? poseAtStep(one[1], step) : null;
       // Signals for other approaches do not apply.
       const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < OWN_RAD);
       const d = own ? Math.hypot(stop[0] - p.x, stop[1] - p.y) : Infinity;
@@ -238,13 +240,6 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     }
   }
   return best && momentAt(one, null, [], { value: best.d, time: best.time, found: false, miss: best.d + BESIDE_M });
-}
-
-/** A state holds from its step until the next one. */
-function isRed(states: Scene['signals'][number]['states'], step: number): boolean {
-  let now = '';
-  for (const [from, state] of states) if (from <= step) now = state;
-  return /stop/.test(now);
 }
 
 /** Cases closer than this in time and value, on the same side, are the same. */

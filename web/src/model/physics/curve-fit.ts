@@ -14,7 +14,7 @@ const BESIDE_M = 3;
 const TICK_S = 0.1;
 const STEP_MPS = 0.25;
 
-export interface Asked {
+export interface CurveRequest {
   readonly profile: Profile;
   readonly limits: Limits;
   /** Of the scene, seconds. */
@@ -25,7 +25,7 @@ export interface Asked {
   readonly goal: { readonly at: Vec; readonly time: number } | null;
 }
 
-export type Way = { readonly points: readonly SpeedPoint[]; readonly goalTime?: number } &
+export type CurveRemedy = { readonly points: readonly SpeedPoint[]; readonly goalTime?: number } &
   /** Later by this many seconds. */
   (
     | { readonly kind: 'later'; readonly by: number }
@@ -35,7 +35,7 @@ export type Way = { readonly points: readonly SpeedPoint[]; readonly goalTime?: 
     | { readonly kind: 'shorter'; readonly hold: number }
   );
 
-export type Misfit = { readonly ways: readonly Way[] } &
+export type Misfit = { readonly ways: readonly CurveRemedy[] } &
   /** A point whose speed is not reached in time by possible braking or acceleration. */
   (
     | { readonly what: 'braking' | 'gathering'; readonly point: SpeedPoint; readonly reached: number }
@@ -44,14 +44,14 @@ export type Misfit = { readonly ways: readonly Way[] } &
   );
 
 /** The first infeasible part; null where all is feasible. */
-export function misfitOf(asked: Asked): Misfit | null {
+export function misfitOf(asked: CurveRequest): Misfit | null {
   const { points } = asked.profile;
   const m = motionWith(asked, points);
   const i = missed(m, points);
   return i < 0 ? goalMisfit(asked, m) : pointMisfit(asked, m, i);
 }
 
-const motionWith = ({ profile, limits, duration }: Asked, points: readonly SpeedPoint[]): Motion =>
+const motionWith = ({ profile, limits, duration }: CurveRequest, points: readonly SpeedPoint[]): Motion =>
   motionOf({ path: profile.path, points }, limits, duration);
 
 /** Excess speed at a point, m/s; negative where it is too slow. */
@@ -64,7 +64,7 @@ function missedBy(m: Motion, points: readonly SpeedPoint[], i: number): number {
 const missed = (m: Motion, points: readonly SpeedPoint[]): number =>
   points.findIndex((_, k) => Math.abs(missedBy(m, points, k)) > SLACK_MPS);
 
-function pointMisfit(asked: Asked, m: Motion, i: number): Misfit {
+function pointMisfit(asked: CurveRequest, m: Motion, i: number): Misfit {
   const { points } = asked.profile;
   const excess = missedBy(m, points, i);
   const reached = points[i].v + excess;
@@ -77,7 +77,7 @@ function pointMisfit(asked: Asked, m: Motion, i: number): Misfit {
 type Fits = (points: readonly SpeedPoint[]) => boolean;
 
 /** The same point delayed as far as needed. */
-function later({ profile: { points }, duration }: Asked, i: number, fits: Fits): Way | null {
+function later({ profile: { points }, duration }: CurveRequest, i: number, fits: Fits): CurveRemedy | null {
   const next = i + 1 < points.length ? points[i + 1].t - points[i].hold - APART_S : duration;
   for (let n = 1; points[i].t + n * TICK_S <= next + 1e-6; n++) {
     const moved = movedPoint(points, i, { t: points[i].t + n * TICK_S }, duration);
@@ -87,7 +87,7 @@ function later({ profile: { points }, duration }: Asked, i: number, fits: Fits):
 }
 
 /** A stop shortened as far as needed, if any of it is left. */
-function shorter(points: readonly SpeedPoint[], i: number, fits: Fits): Way | null {
+function shorter(points: readonly SpeedPoint[], i: number, fits: Fits): CurveRemedy | null {
   const hold = points[i]?.hold ?? 0;
   for (let n = 1; hold - n * TICK_S > TICK_S; n++) {
     const left = Math.round((hold - n * TICK_S) * 10) / 10;
@@ -98,7 +98,7 @@ function shorter(points: readonly SpeedPoint[], i: number, fits: Fits): Way | nu
 }
 
 /** The speed nearest to the requested one that is reached in time: a curve is steeper halfway than on average. */
-function otherSpeed(points: readonly SpeedPoint[], i: number, reached: number, fits: Fits): Way | null {
+function otherSpeed(points: readonly SpeedPoint[], i: number, reached: number, fits: Fits): CurveRemedy | null {
   const away = Math.sign(reached - points[i].v) * STEP_MPS;
   for (let v = reached; v >= 0 && Math.abs(v - reached) < Math.abs(points[i - 1].v - reached); v += away) {
     const taken = points.map((p, k) => (k === i ? { ...p, v } : p));
@@ -109,7 +109,7 @@ function otherSpeed(points: readonly SpeedPoint[], i: number, reached: number, f
 
 // -------------------------------------------------------------- the goal
 
-function goalMisfit(asked: Asked, m: Motion): Misfit | null {
+function goalMisfit(asked: CurveRequest, m: Motion): Misfit | null {
   const { goal, profile, duration } = asked;
   const way = goal && wayTo(asked, goal.at);
   if (!goal || way === null) return null;
@@ -128,7 +128,7 @@ function goalMisfit(asked: Asked, m: Motion): Misfit | null {
 }
 
 /** Metres from the start to a goal along the path; null where it is not on the path. */
-function wayTo({ profile: { path } }: Asked, [gx, gy]: Vec): number | null {
+function wayTo({ profile: { path } }: CurveRequest, [gx, gy]: Vec): number | null {
   const along = alongOf(path);
   const off = path.x.map((x, i) => Math.hypot(x - gx, path.y[i] - gy));
   const i = off.indexOf(Math.min(...off));
@@ -144,7 +144,7 @@ function gone(m: Motion, time: number): number {
 }
 
 /** The arrival time of the unchanged curve. */
-function arriving({ goal, profile }: Asked, m: Motion, way: number, duration: number): Way | null {
+function arriving({ goal, profile }: CurveRequest, m: Motion, way: number, duration: number): CurveRemedy | null {
   for (let time = goal!.time + TICK_S; time <= duration + 1e-6; time += TICK_S)
     if (way - gone(m, time) <= AT_GOAL_M)
       return { kind: 'later', by: time - goal!.time, goalTime: Math.round(time * 10) / 10, points: profile.points };
@@ -152,7 +152,7 @@ function arriving({ goal, profile }: Asked, m: Motion, way: number, duration: nu
 }
 
 /** Faster at the end, by the least sufficient amount. */
-function faster({ profile: { points }, top, goal }: Asked, there: (time: number) => Fits): Way | null {
+function faster({ profile: { points }, top, goal }: CurveRequest, there: (time: number) => Fits): CurveRemedy | null {
   const last = points.length - 1;
   for (let v = Math.ceil(points[last].v); v < top; v++) {
     const taken = points.map((p, i) => (i === last ? { ...p, v: clamp(v + 1, 0, top) } : p));

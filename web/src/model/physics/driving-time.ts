@@ -3,16 +3,19 @@
 import { limitsOf, THRESHOLDS, type Typed } from '../base/domain';
 import { radii, type Route } from '../document/lanemap';
 
-/** Of what counts as running. */
+// View only: the time that a remedy offers, before the server has tried it. Limits, manners and the speed of running
+// are the server's.
+
+/** The share of what counts as running at which somebody walks fast. */
 const BRISK = 0.8;
 /** Moving off takes a moment even for a road user that has almost no way to go, m/s. */
 const LEAST_MPS = 0.5;
 
 /** A route along lanes, or a plain curve without any. */
-export type Way = Pick<Route, 'line' | 'lanes' | 'ends'>;
+export type DrivenRoute = Pick<Route, 'line' | 'lanes' | 'ends'>;
 
 /** Seconds from speed `v` (m/s), ending at most at speed `end`. */
-export function drivingTime(a: Typed, { line, lanes, ends }: Way, v: number, end = Infinity): number {
+export function drivingTime(a: Typed, { line, lanes, ends }: DrivenRoute, v: number, end = Infinity): number {
   const { speed_mps, hurried: manner } = limitsOf(a);
   const onFoot = a.type === 'pedestrian';
   const own = onFoot ? BRISK * THRESHOLDS.running_mps.usual : speed_mps;

@@ -3,7 +3,7 @@
 import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '../document/future-facts';
 import { JUDGING } from '../base/domain';
 import { motionOf } from './playback';
-import type { Futures, MotionSet, Score, Stretch } from '../document/futures';
+import type { Futures, MotionSet, Score, LastingFault } from '../document/futures';
 import { poseAt, STEP_S } from '../base/motion';
 import { touched, type Agent, type Scene } from '../document/scene';
 import type { Pose, Vec } from '../base/geometry';
@@ -112,7 +112,7 @@ function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
     extent: c.distance,
     inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
   }));
-  const one = (score.stretches ?? []).map((s: Stretch): Raw => ({
+  const one = (score.stretches ?? []).map((s: LastingFault): Raw => ({
     ...none,
     what: s.what,
     time: s.time,

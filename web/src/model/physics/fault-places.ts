@@ -15,7 +15,7 @@ export interface FaultPlace {
   readonly futures: readonly number[];
 }
 
-interface Found {
+interface FaultOfFuture {
   readonly index: number;
   readonly fault: Fault;
   /** Points along the stretch, in metres. */
@@ -40,7 +40,7 @@ function placesAlong(m: Motion, fault: Fault): Vec[] {
  * shown one: where the others end is visible.
  */
 export function faultPlaces(f: Futures, visible: readonly number[], chosen: number): FaultPlace[] {
-  const clusters: Found[][] = [];
+  const clusters: FaultOfFuture[][] = [];
   for (const index of visible)
     for (const fault of f.modes[index]?.about?.faults ?? []) {
       if ((fault.kind === 'goal_missed' || fault.kind === 'via_missed') && index !== chosen) continue;
@@ -56,12 +56,12 @@ export function faultPlaces(f: Futures, visible: readonly number[], chosen: numb
     .sort((a, b) => shows(b) - shows(a) || compareMarks(a.mark, b.mark) || b.futures.length - a.futures.length);
 }
 
-const together = (a: Found, b: Found): boolean =>
+const together = (a: FaultOfFuture, b: FaultOfFuture): boolean =>
   a.fault.kind === b.fault.kind &&
   a.fault.with === b.fault.with &&
   a.along.some(([x, y]) => b.along.some((p) => Math.hypot(p[0] - x, p[1] - y) <= TOGETHER_M));
 
-function placeOf(found: readonly Found[], chosen: number): FaultPlace {
+function placeOf(found: readonly FaultOfFuture[], chosen: number): FaultPlace {
   const ofShown = found.filter((o) => o.index === chosen);
   const told = (ofShown.length ? ofShown : found).map((o) => o.fault);
   const fault = told.reduce((a, b) => (worse(b, a) ? b : a));

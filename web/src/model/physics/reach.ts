@@ -10,7 +10,7 @@ import {
   type Pose,
   type Vec,
 } from '../base/geometry';
-import type { Way } from './driving-time';
+import type { DrivenRoute } from './driving-time';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
 import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
 import type { Agent, GoalSpec } from '../document/scene';
@@ -44,6 +44,23 @@ export interface GoalReach {
   readonly speed: number | null;
 }
 
+// View only, down to BEND_SHARE: a check while a goal is dragged, before the server's verdict arrives. The limits of
+// motion are the server's; these numbers decide which path it measures.
+
+/** Lanes under the start and under the goal are looked for within this distance, metres, and so many of them. */
+const ON_LANE_M = 3;
+const MOST_STARTS = 4;
+const MOST_ENDS = 2;
+/** Longer routes are detours: a share of the straight line, and metres. */
+const DETOUR_SHARE = 1.9;
+const DETOUR_M = 12;
+/** A path along lanes may be shorter than the driven one by this, metres. */
+const SLACK_M = 1;
+/** Nobody brakes on a shorter path, metres. */
+const SHORTEST_M = 0.5;
+/** In a bend it drives at this share of its mean speed. */
+const BEND_SHARE = 0.6;
+
 const fitsAgent =
   (a: Pick<Agent, 'type'>) =>
   (l: Lane): boolean =>
@@ -55,16 +72,16 @@ export function pathTo(
   a: Pick<Agent, 'type'>,
   start: Pose,
   goal: { x: number; y: number; heading: number },
-): Way {
+): DrivenRoute {
   if (a.type !== 'pedestrian') {
     const fit = fitsAgent(a);
-    const from = nearestLanes(map, start.x, start.y, start.heading, 3, fit).slice(0, 4);
-    const to = nearestLanes(map, goal.x, goal.y, goal.heading, 3, fit).slice(0, 2);
+    const apart = Math.hypot(goal.x - start.x, goal.y - start.y);
+    const from = nearestLanes(map, start.x, start.y, start.heading, ON_LANE_M, fit).slice(0, MOST_STARTS);
+    const to = nearestLanes(map, goal.x, goal.y, goal.heading, ON_LANE_M, fit).slice(0, MOST_ENDS);
     for (const b of to)
       for (const f of from) {
         const r = findRoute(map, f, b);
-        if (r && r.line.pts.length > 1 && r.length < 1.9 * Math.hypot(goal.x - start.x, goal.y - start.y) + 12)
-          return r;
+        if (r && r.line.pts.length > 1 && r.length < DETOUR_SHARE * apart + DETOUR_M) return r;
       }
   }
   const straight: Vec[] = [
@@ -98,7 +115,7 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec): 
       speed: speedFor(l, t, along),
     };
   }
-  if (along < min - 1 && along > 0.5) {
+  if (along < min - SLACK_M && along > SHORTEST_M) {
     return {
       ...base,
       kind: 'near',
@@ -112,7 +129,7 @@ export function goalReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec): 
     };
   }
   const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
-  const needed = Math.max(0, (along / t) * 0.6);
+  const needed = Math.max(0, (along / t) * BEND_SHARE);
   if (radius < Infinity && needed * needed > l.lateral_mps2 * radius) {
     const ok = Math.sqrt(l.lateral_mps2 * radius);
     return {
@@ -149,10 +166,12 @@ function speedFor(l: Limits, t: number, d: number): number | null {
 // -------------------------------------------------------------- reachable lanes
 
 /** A stretch of lane, with the lane's width in metres. */
-export interface Stretch {
+export interface LaneStretch {
   readonly pts: readonly Vec[];
   readonly width: number;
 }
+
+// View only: which lanes are tinted. The server finds the way itself and may use others.
 
 /** A road user this near to a lane can enter it, metres and radians. */
 const TAKES_M = 5;
@@ -167,7 +186,7 @@ export const reachBetween = (a: Agent, start: Pose, t: number): readonly [number
 ];
 
 /** Reachable stretches at a time, along the lanes under or beside it; none for pedestrians. */
-export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): Stretch[] {
+export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): LaneStretch[] {
   if (a.type === 'pedestrian') return [];
   const [least, most] = reachBetween(a, start, t);
   const turned = (heading: number): number => Math.abs(wrapAngle(heading - start.heading));
@@ -175,7 +194,7 @@ export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): S
     .filter((h) => turned(h.heading) < TAKES_RAD)
     .map((h) => ({ lane: h.lane, at: -h.s }));
   const seen = new Set<string>();
-  const out: Stretch[] = [];
+  const out: LaneStretch[] = [];
   // The shortest way to a lane comes first, so a lane met again adds nothing.
   for (let n = 0; open.length && n < MOST_LANES; n++) {
     open.sort((p, q) => q.at - p.at);

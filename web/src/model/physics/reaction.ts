@@ -1,5 +1,6 @@
 // The reaction of one road user to another: what it does, its cause and its place.
 import { wrapAngle, type Pose } from '../base/geometry';
+import { JUDGING } from '../base/domain';
 import type { ReactionKind } from '../document/scene-json';
 import { poseAt, STEP_S, type Motion } from '../base/motion';
 import type { Agent } from '../document/scene';
@@ -27,6 +28,9 @@ export interface Answered {
   readonly asked: boolean;
 }
 
+// View only, down to ASKED_SHARE: which words describe a change that the server gave no reason for, as after a speed
+// curve. A reaction of the server comes with its kind and cause.
+
 /** Ahead within this many metres, with at most this lateral offset and a similar heading. */
 const AHEAD_M = 40;
 const ASIDE_M = 2.5;
@@ -44,9 +48,15 @@ export function answersAhead(mine: Motion, other: Motion, t: number): boolean {
   return ahead > 0 && ahead < AHEAD_M && aside < ASIDE_M;
 }
 
-/** Standing means slower than this, m/s; shorter stops than this, in seconds, are no waits. */
-const STANDS = { walking: 0.2, driving: 0.6 };
+/** Standing longer by less than this is no wait, seconds. */
 const WAITS_S = 0.8;
+/** An arrival that differs by less is neither later nor earlier, seconds. */
+const SAME_ARRIVAL_S = 0.3;
+/** Motions nearer than this are the same, metres. */
+const SAME_PLACE_M = 0.1;
+/** Causes are looked for from this long before a change until this long after it, seconds. */
+const BEFORE_S = 2;
+const AFTER_S = 5;
 /** A road user further away than this is no cause, in metres. */
 const NEAR_M = 25;
 /** A conditioned road user is the cause unless another one comes nearer than this share. */
@@ -61,7 +71,7 @@ export function guessReaction(
   causes: readonly Answered[],
   lost: number,
 ): Reaction | null {
-  const { kind, time } = kindOf(a, before, after, duration, lost);
+  const { kind, time } = kindOf(before, after, duration, lost);
   const place = poseAt(after, time);
   const cause = place && nearestCause(a.id, before, after, time, causes);
   if (!cause) return null;
@@ -70,20 +80,13 @@ export function guessReaction(
   return { kind, cause: { id, name }, delay: lost > 0 ? lost : null, time, place, ahead };
 }
 
-function kindOf(
-  a: Agent,
-  before: Motion,
-  after: Motion,
-  duration: number,
-  lost: number,
-): { kind: ReactionKind; time: number } {
-  const still = a.type === 'pedestrian' ? STANDS.walking : STANDS.driving;
+function kindOf(before: Motion, after: Motion, duration: number, lost: number): { kind: ReactionKind; time: number } {
   const part = partWhereApart(before, after, duration);
-  const stop = longestStop(after, still, part.from);
-  if (lost > 0 && stop.seconds > longestStop(before, still, part.from).seconds + WAITS_S)
+  const stop = longestStop(after, part.from);
+  if (lost > 0 && stop.seconds > longestStop(before, part.from).seconds + WAITS_S)
     return { kind: 'waits', time: stop.from };
-  if (lost > 0.3) return { kind: 'slows', time: slowest(after, part.from, part.widest) };
-  if (lost < -0.3) return { kind: 'speeds_up', time: part.widest };
+  if (lost > SAME_ARRIVAL_S) return { kind: 'slows', time: slowest(after, part.from, part.widest) };
+  if (lost < -SAME_ARRIVAL_S) return { kind: 'speeds_up', time: part.widest };
   return { kind: 'keeps_clear', time: part.widest };
 }
 
@@ -97,7 +100,7 @@ function partWhereApart(a: Motion, b: Motion, duration: number): { from: number;
       q = poseAt(b, t);
     if (!p || !q) continue;
     const d = Math.hypot(p.x - q.x, p.y - q.y);
-    if (from < 0 && d > 0.1) from = t;
+    if (from < 0 && d > SAME_PLACE_M) from = t;
     if (d > most) {
       most = d;
       widest = t;
@@ -118,12 +121,12 @@ function slowest(m: Motion, from: number, to: number): number {
   return at;
 }
 
-function longestStop(m: Motion, below: number, from: number): { seconds: number; from: number } {
+function longestStop(m: Motion, from: number): { seconds: number; from: number } {
   let best = { seconds: 0, from },
     since = -1;
   const first = Math.max(0, Math.round(from / STEP_S) - m.first);
   for (let i = first; i <= m.speed.length; i++) {
-    const still = i < m.speed.length && Math.abs(m.speed[i]) < below;
+    const still = i < m.speed.length && Math.abs(m.speed[i]) < JUDGING.standing_mps;
     if (still && since < 0) since = i;
     if (still || since < 0) continue;
     const seconds = (i - since) * STEP_S;
@@ -157,7 +160,7 @@ function nearestCause(
 /** Least distance of two motions around a time. */
 function closest(a: Motion, b: Motion, time: number): number {
   let least = Infinity;
-  for (let t = Math.max(0, time - 2); t <= time + 5; t += 2 * STEP_S) {
+  for (let t = Math.max(0, time - BEFORE_S); t <= time + AFTER_S; t += 2 * STEP_S) {
     const p = poseAt(a, t),
       q = poseAt(b, t);
     if (p && q) least = Math.min(least, Math.hypot(p.x - q.x, p.y - q.y));

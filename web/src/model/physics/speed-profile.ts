@@ -167,7 +167,7 @@ export function stopsOf(m: Motion, points: readonly SpeedPoint[] = []): Stop[] {
 
 // -------------------------------------------------------------- changes
 
-type Range = readonly [number, number];
+type SpeedBounds = readonly [number, number];
 
 /** Possible time of a curve's point, and possible hold at `t`, seconds: it passes no other point. */
 export function roomOf(
@@ -175,7 +175,7 @@ export function roomOf(
   i: number,
   end: number,
   t = points[i].t,
-): { t: Range; hold: Range } {
+): { t: SpeedBounds; hold: SpeedBounds } {
   const before = i ? points[i - 1].t + points[i - 1].hold + APART_S : 0;
   const after = i + 1 < points.length ? points[i + 1].t - APART_S : end;
   return { t: i ? [before, Math.max(before, after)] : [0, 0], hold: [0, Math.max(0, after - t)] };

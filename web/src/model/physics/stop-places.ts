@@ -1,7 +1,9 @@
 // Stop places on a path: at a stop line, before a crosswalk, behind a standing road user.
+import { JUDGING } from '../base/domain';
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
 import { alongOf, lineOf } from './speed-profile';
 import type { Path } from '../document/profile';
+import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from './stop-gaps';
 import { TEXTS } from '../../texts/scene/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 
@@ -11,14 +13,9 @@ export interface StopPlace {
   readonly words: string;
 }
 
-/** Distance of the front before a line, and behind a standing road user, metres. */
-const BEFORE_LINE_M = 0.3;
-const GAP_M = 2;
-/** A stop line belongs to the path when its lane ends this near and has its direction, metres and radians. */
+/** View only: a stop line belongs to the path when its lane ends this near, metres, with its direction, radians. */
 const ON_WAY_M = 1.5;
 const ALONG_RAD = 0.5;
-/** A standing road user blocks the path when its centre is this near, metres. */
-const IN_WAY_M = 1.2;
 /** Places closer than this are one: the line before the crosswalk counts. */
 const APART_M = 1;
 
@@ -34,7 +31,7 @@ function stopLines({ map, signals }: Scene, path: Path): StopPlace[] {
   const out: StopPlace[] = [];
   for (const lane of map.lanes.values()) {
     const end = pointAt(lane.line, lane.line.length);
-    const signed = map.stopSigns.some(([x, y]) => Math.hypot(x - end.x, y - end.y) < 4);
+    const signed = map.stopSigns.some(([x, y]) => Math.hypot(x - end.x, y - end.y) < SIGN_M);
     if (lane.inside || !(signed || lit.has(lane.id) || lane.next.some((id) => lit.has(id)))) continue;
     const on = project(line, end.x, end.y);
     const along = Math.abs(wrapAngle(pointAt(line, on.s).heading - end.heading)) < ALONG_RAD;
@@ -72,9 +69,10 @@ function queueEnds(scene: Scene, a: Agent, path: Path): StopPlace[] {
   const out: StopPlace[] = [];
   for (const b of scene.agents.values()) {
     const p = b.id === a.id || b.type === 'pedestrian' ? null : startPose(b);
-    if (!p || b.parked || Math.abs(p.speed) > 0.5) continue;
+    if (!p || b.parked || Math.abs(p.speed) > JUDGING.standing_mps) continue;
     const on = project(line, p.x, p.y);
-    if (on.d < IN_WAY_M && on.s > a.length) out.push({ s: on.s - b.length / 2 - GAP_M, words: TEXTS.behind(b.name) });
+    if (on.d < IN_WAY_M && on.s > a.length)
+      out.push({ s: on.s - b.length / 2 - QUEUE_GAP_M, words: TEXTS.behind(b.name) });
   }
   return out;
 }

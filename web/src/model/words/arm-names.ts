@@ -16,18 +16,32 @@ const OUT_M = 20;
 /** Lanes within this many steps of the junction are its arms. */
 const FAR_LANES = 4;
 
-const known = new WeakMap<LaneMap, { readonly centre: Vec | null; readonly names: Map<string, string | null> }>();
+const known = new WeakMap<LaneMap, { readonly centre: Vec | null; readonly names: Map<string, LaneName | null> }>();
+
+/** A place by its name and with a preposition. */
+export interface LaneName {
+  /** `W arm, left-turn lane` or `off the lanes`. */
+  readonly name: string;
+  /** `on W arm, left-turn lane` or `off the lanes`. */
+  readonly place: string;
+}
+
+export const namedLane = (name: string): LaneName => ({ name, place: TEXTS.on(name) });
+
+/** Of a place whose words have a preposition. */
+export const namedPlace = (name: string): LaneName => ({ name, place: name });
 
 /** `W arm, left-turn lane`; null where compass directions are used. */
-export function armWords(map: LaneMap, lane: Lane): string | null {
+export function armLane(map: LaneMap, lane: Lane): LaneName | null {
   let of = known.get(map);
   if (!of) known.set(map, (of = { centre: mainJunction(map), names: new Map() }));
   if (!of.centre) return null;
   const name = of.names.get(lane.id);
   if (name !== undefined) return name;
   const words = lane.inside ? across(lane, of.centre) : named(map, lane, of.centre);
-  of.names.set(lane.id, words);
-  return words;
+  const given = words === null ? null : lane.inside ? namedPlace(words) : namedLane(words);
+  of.names.set(lane.id, given);
+  return given;
 }
 
 const middle = (l: Lane): Vec => {
@@ -113,13 +127,8 @@ function reach(map: LaneMap, lane: Lane, way: 'next' | 'prev'): Lane[] {
   return [];
 }
 
-const ARMS = TEXTS.arms;
 const COMPASS = [TEXTS.e, TEXTS.ne, TEXTS.n, TEXTS.nw, TEXTS.w, TEXTS.sw, TEXTS.s, TEXTS.se] as const;
 
 function compass(angle: number): string {
   return COMPASS[((Math.round((angle * 4) / Math.PI) % 8) + 8) % 8];
 }
-
-/** The server's name of an arm, `North-west 2`, in the language of the page. */
-export const armTitle = (english: string): string =>
-  english.replace(/^[a-z]+(?:-[a-z]+)?/i, (way) => ARMS[way.toLowerCase() as keyof typeof ARMS] ?? way);

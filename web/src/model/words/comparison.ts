@@ -10,9 +10,9 @@ import { poseAt, STEP_S, type Motion } from '../base/motion';
 import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from '../document/scene';
 import { metres, num, seconds } from '../base/units';
-import { TEXTS } from '../../texts/scene/parting';
+import { TEXTS } from '../../texts/scene/comparison';
 
-export interface Side {
+export interface ComparedVariant {
   /** Its number, as the name in a sentence. */
   readonly label: string;
   readonly scene: Scene;
@@ -21,13 +21,13 @@ export interface Side {
 }
 
 /** A moment when they diverge, in a sentence. */
-export interface Moment {
+export interface DivergingMoment {
   readonly time: number;
   readonly words: string;
   readonly at: Vec;
 }
 
-export interface Row {
+export interface ComparisonRow {
   readonly what: string;
   readonly left: string;
   readonly right: string;
@@ -47,9 +47,9 @@ export interface Diverging {
 
 export interface Comparison {
   /** The largest distance first. */
-  readonly parted: readonly Diverging[];
-  readonly rows: readonly Row[];
-  readonly moments: readonly Moment[];
+  readonly diverging: readonly Diverging[];
+  readonly rows: readonly ComparisonRow[];
+  readonly moments: readonly DivergingMoment[];
   /** Number of road users with equal motions. */
   readonly same: number;
   readonly all: number;
@@ -63,19 +63,19 @@ const MOST_ROWS = 5;
 const SOON_S = 4;
 const SLOWS_MPS = 1;
 
-export function comparisonOf(left: Side, right: Side): Comparison {
+export function comparisonOf(left: ComparedVariant, right: ComparedVariant): Comparison {
   const all = [...left.scene.agents.values()].filter((a) => a.type !== 'other');
-  const parted = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
+  const diverging = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
   return {
-    parted,
-    rows: rowsOf(left, right, parted),
-    moments: momentsOf(left, right, parted),
-    same: all.length - parted.length,
+    diverging,
+    rows: rowsOf(left, right, diverging),
+    moments: momentsOf(left, right, diverging),
+    same: all.length - diverging.length,
     all: all.length,
   };
 }
 
-function partedOf(left: Side, right: Side, agent: Agent): Diverging | null {
+function partedOf(left: ComparedVariant, right: ComparedVariant, agent: Agent): Diverging | null {
   const other = right.scene.agents.get(agent.id);
   if (!other) return null;
   const m = motionOf(left.scene, left.set, agent),
@@ -96,22 +96,27 @@ function partedOf(left: Side, right: Side, agent: Agent): Diverging | null {
 
 // -------------------------------------------------------------- the table
 
-const row = (what: string, left: string, right: string): Row => ({ what, left, right, differs: left !== right });
+const row = (what: string, left: string, right: string): ComparisonRow => ({
+  what,
+  left,
+  right,
+  differs: left !== right,
+});
 
-function rowsOf(left: Side, right: Side, parted: readonly Diverging[]): Row[] {
-  const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
-  const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
-  const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
+function rowsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): ComparisonRow[] {
+  const gap = ({ set }: ComparedVariant): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
+  const events = (s: ComparedVariant): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
+  const closing = ({ set }: ComparedVariant): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
   return [
     row(TEXTS.events, events(left), events(right)),
-    ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
+    ...diverging.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
     row(TEXTS.minPet, gap(left), gap(right)),
     row(TEXTS.minTtc, closing(left), closing(right)),
     ...goals(left, right),
   ];
 }
 
-function deeds(scene: Scene, { agent, left, right }: Diverging): Row {
+function deeds(scene: Scene, { agent, left, right }: Diverging): ComparisonRow {
   const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
   const [p, q] = [deedWords(a), deedWords(b)];
   return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
@@ -124,8 +129,8 @@ function deedWords(d: Deed): string {
   return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TURNS[d.turn];
 }
 
-function goals(left: Side, right: Side): Row[] {
-  const words = (s: Side, id: string): string => {
+function goals(left: ComparedVariant, right: ComparedVariant): ComparisonRow[] {
+  const words = (s: ComparedVariant, id: string): string => {
     const a = s.scene.agents.get(id);
     const met = a ? meetsGoal(s.set, a) : null;
     return met === null ? TEXTS.unknown : met ? TEXTS.reached : TEXTS.missed;
@@ -138,7 +143,7 @@ function goals(left: Side, right: Side): Row[] {
 
 // -------------------------------------------------------------- the moments
 
-function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Moment[] {
+function momentsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): DivergingMoment[] {
   const said = (e: TrafficEvent): string =>
     e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
   // If there are too many the worst are listed, and of these the earliest, on either side.
@@ -147,8 +152,8 @@ function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Momen
     .sort((p, q) => compareMarks(p.e.kind, q.e.kind) || p.e.time - q.e.time);
   // An event in both, with a slightly different gap, is no difference.
   const alone = events.filter((m) => !events.some((o) => o !== m && sameMeeting(o.e, m.e)));
-  const own = alone.map(({ e, words }): Moment => ({ time: e.time, words, at: e.at }));
-  const ways = parted.map((p) => wayOf(left, right, p));
+  const own = alone.map(({ e, words }): DivergingMoment => ({ time: e.time, words, at: e.at }));
+  const ways = diverging.map((p) => wayOf(left, right, p));
   return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
 }
 
@@ -156,12 +161,16 @@ function momentsOf(left: Side, right: Side, parted: readonly Diverging[]): Momen
 const sameMeeting = (p: TrafficEvent, q: TrafficEvent): boolean =>
   p.what === q.what && p.a.id === q.a.id && p.b?.id === q.b?.id && Math.abs(p.time - q.time) < 0.5;
 
-function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Diverging): Moment {
+function wayOf(
+  left: ComparedVariant,
+  right: ComparedVariant,
+  { agent, left: m, right: n, since: t }: Diverging,
+): DivergingMoment {
   const p = poseAt(m, t)!,
     q = poseAt(n, t)!;
   const at: Vec = [(p.x + q.x) / 2, (p.y + q.y) / 2];
   const [along, aside] = toLocal(p, q.x, q.y);
-  const say = (words: string): Moment => ({ time: t, words: `${agent.name} ${words}`, at });
+  const say = (words: string): DivergingMoment => ({ time: t, words: `${agent.name} ${words}`, at });
   if (Math.abs(aside) > Math.abs(along))
     return say(aside > 0 ? TEXTS.keepsFurther(right.label) : TEXTS.keepsFurtherRight(right.label));
   // The one behind has slowed, or the other one continues.

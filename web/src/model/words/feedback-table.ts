@@ -1,9 +1,8 @@
 // Feedback on futures as a table: one row for each answer, one column for each feature.
-import type { Answer, Feedback } from '../document/feedback';
+import type { NameOf } from '../document/scene';
+import type { CardVerdict, Feedback } from '../document/feedback';
 import { whyWords } from './feedback-words';
 import { TEXTS } from '../../texts/scene/feedback';
-
-type NameOf = (id: string) => string | null;
 
 /** A spreadsheet would read a text with such a start as a formula. */
 const FORMULA = /^[=+\-@\t\r]/;
@@ -16,9 +15,9 @@ function cell(v: string | number | boolean | null | undefined): string {
 
 /** Comma-separated values; speeds in m/s, the rest in the unit at the end of the heading. */
 export function feedbackTable(id: string | null, f: Feedback, nameOf: NameOf): string {
-  const rowOf = (a: Answer) => (id === null ? undefined : a.features.first?.[id]);
+  const rowOf = (a: CardVerdict) => (id === null ? undefined : a.features.first?.[id]);
   const met = [...new Set(f.answers.flatMap((a) => Object.keys(rowOf(a) ?? {})))];
-  const columns: readonly (readonly [string, (a: Answer) => string | number | boolean | null | undefined])[] = [
+  const columns: readonly (readonly [string, (a: CardVerdict) => string | number | boolean | null | undefined])[] = [
     ['round', (a) => a.round],
     ['letter', (a) => a.letter],
     ['name', (a) => a.name],
@@ -30,7 +29,7 @@ export function feedbackTable(id: string | null, f: Feedback, nameOf: NameOf): s
     ['standing_s', (a) => a.features.standing_s],
     ['from_log_m', (a) => a.features.from_log_m],
     ['manoeuvre', (a) => (id === null ? undefined : a.features.manoeuvres?.[id])],
-    ...met.map((other) => [TEXTS.before(nameOf(other) ?? other), (a: Answer) => rowOf(a)?.[other]] as const),
+    ...met.map((other) => [TEXTS.before(nameOf(other) ?? other), (a: CardVerdict) => rowOf(a)?.[other]] as const),
   ];
   const lines = [columns.map(([title]) => cell(title)), ...f.answers.map((a) => columns.map(([, of]) => cell(of(a))))];
   return `${lines.map((l) => l.join(',')).join('\r\n')}\r\n`;

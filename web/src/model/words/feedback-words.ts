@@ -1,5 +1,6 @@
 // Preferences, their evidence, and reasons of verdicts, in plain words.
-import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from '../document/feedback';
+import type { NameOf } from '../document/scene';
+import { traitKey, type CardVerdict, type Features, type Trait, type Verdict, type Wish } from '../document/feedback';
 import type { LearnedWishJson } from '../document/scene-json';
 import {
   acceleration,
@@ -14,7 +15,6 @@ import {
 import { TEXTS } from '../../texts/scene/feedback';
 import { inSentence } from '../../texts/language';
 
-type NameOf = (id: string) => string | null;
 export interface Speaking {
   readonly nameOf: NameOf;
   readonly unit: SpeedUnit;
@@ -54,10 +54,10 @@ export function wishWords(w: Wish, nameOf: NameOf, kept?: readonly [number, numb
   return PLAIN[w.trait][w.wants];
 }
 
-type Range = readonly [number, number];
+type TraitRange = readonly [number, number];
 
 /** `Waiting time: kept 0 to 1.2, rejected 3 to 4 s.` */
-export function restsOn(w: LearnedWishJson, answers: readonly Answer[], { unit }: Speaking): string {
+export function restsOn(w: LearnedWishJson, answers: readonly CardVerdict[], { unit }: Speaking): string {
   const sentence = w.trait === 'first' || w.trait === 'does' ? shares(w, answers) : ranges(w, unit);
   return [w.said ? TEXTS.setByYou : '', sentence].filter(Boolean).join(' ');
 }
@@ -72,17 +72,17 @@ function ranges(w: LearnedWishJson, speeds: SpeedUnit): string {
   return rejected ? TEXTS.rejectedAlone(what, value(rejected), unit) : '';
 }
 
-interface Saying {
+interface TraitWords {
   readonly what: string;
   /** After a value, with the space between. */
   readonly unit: string;
-  value(r: Range): string;
+  value(r: TraitRange): string;
 }
 
-const between = (r: Range, text: (v: number) => string): string =>
+const between = (r: TraitRange, text: (v: number) => string): string =>
   text(r[0]) === text(r[1]) ? text(r[0]) : TEXTS.to(text(r[0]), text(r[1]));
 
-function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | null {
+function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): TraitWords | null {
   const one = (v: number) => num(v, 1);
   switch (trait) {
     case 'pace':
@@ -123,7 +123,7 @@ function shows(f: Features, w: Wish): boolean | null {
   return is === undefined ? null : is === (w.wants === 'more');
 }
 
-function shares(w: Wish, answers: readonly Answer[]): string {
+function shares(w: Wish, answers: readonly CardVerdict[]): string {
   const of = (verdict: Verdict) => {
     const known = answers.filter((a) => a.verdict === verdict).map((a) => shows(a.features, w));
     const all = known.filter((v) => v !== null);
@@ -135,7 +135,7 @@ function shares(w: Wish, answers: readonly Answer[]): string {
 }
 
 /** Verdicts that contradict a preference: `A of round 1, “After Car 12”, was kept.` */
-export const againstWords = (a: Answer): string =>
+export const againstWords = (a: CardVerdict): string =>
   a.name
     ? a.verdict === 'keep'
       ? TEXTS.ofRoundWasKept(a.letter, a.round, a.name)
@@ -157,10 +157,10 @@ export const wishKey = (w: Wish): string => `${w.wants} ${traitKey(w)}`;
 
 const choice = (wish: Wish, words: string): Choice => ({ key: wishKey(wish), words, wish });
 
-type Plain = Exclude<Trait['trait'], 'first' | 'does'>;
-type Row = readonly [Plain, 'more' | 'less', fault: string, liked: string];
+type PlainTrait = Exclude<Trait['trait'], 'first' | 'does'>;
+type ReasonRow = readonly [PlainTrait, 'more' | 'less', fault: string, liked: string];
 
-const REASONS: readonly Row[] = [
+const REASONS: readonly ReasonRow[] = [
   ['pace', 'more', TEXTS.tooSlow, TEXTS.brisk],
   ['pace', 'less', TEXTS.tooFast, TEXTS.calm],
   ['gap', 'more', TEXTS.tooClose, TEXTS.keepsClear],
@@ -203,7 +203,7 @@ export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf
 /** All possible preferences for the current cards. */
 export function wishes(id: string | null, cards: readonly Features[], nameOf: NameOf): Choice[] {
   const logged = cards.some((f) => f.from_log_m != null);
-  const plain = (Object.keys(PLAIN) as Plain[])
+  const plain = (Object.keys(PLAIN) as PlainTrait[])
     .filter((t) => t !== 'from_log' || logged)
     .flatMap((trait) => (['less', 'more'] as const).map((wants): Wish => ({ trait, wants })));
   const met = new Map(cards.flatMap((f) => orders(id, f)).map(([who, other]) => [`${who}|${other}`, [who, other]]));
@@ -219,7 +219,7 @@ export function wishes(id: string | null, cards: readonly Features[], nameOf: Na
 const firstWords = (w: Wish, nameOf: NameOf): string | null =>
   w.trait === 'first' && w.wants === 'more' ? TEXTS.calledBefore(called(nameOf, w.who), called(nameOf, w.with)) : null;
 
-export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string => {
+export const whyWords = (id: string | null, a: CardVerdict, nameOf: NameOf): string => {
   const key = a.why && wishKey(a.why);
   return key ? (reasons(id, a.features, a.verdict, nameOf).find((c) => c.key === key)?.words ?? '') : '';
 };

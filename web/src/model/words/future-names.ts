@@ -1,5 +1,6 @@
 // Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones, in seconds
 // or metres where it has one. Futures that look the same have the same name.
+import { JUDGING } from '../base/domain';
 import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
 import { wrapAngle } from '../base/geometry';
 import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
@@ -22,7 +23,7 @@ export interface Naming {
 }
 
 /** A name and its basis: `after:12`, or a manner such as `Turns left`. */
-export interface Named {
+export interface FutureName {
   readonly name: string;
   readonly basis: string;
 }
@@ -46,7 +47,7 @@ const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
 const nameless: Naming['nameOf'] = () => null;
 
 /** A name for each. A property shared by all is not used. */
-export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): Named[] =>
+export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): FutureName[] =>
   nameRest(
     modes,
     who,
@@ -54,7 +55,7 @@ export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: fals
   );
 
 /** Names for those without one, distinct from the others, which keep theirs. */
-export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (Named | null)[]): Named[] {
+export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (FutureName | null)[]): FutureName[] {
   const list = new NameList(modes, kept);
   const said = candidates(modes, who);
   // The most informative property first; one that it does not distinguish is named by another.
@@ -75,11 +76,11 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
 
 /** The names given so far. */
 class NameList {
-  readonly #names: (Named | null)[];
+  readonly #names: (FutureName | null)[];
 
   constructor(
     private readonly modes: readonly Nameable[],
-    kept: readonly (Named | null)[],
+    kept: readonly (FutureName | null)[],
   ) {
     this.#names = [...kept];
   }
@@ -88,12 +89,12 @@ class NameList {
     return this.#names.flatMap((n, i) => (n ? [] : [i]));
   }
 
-  get names(): Named[] {
+  get names(): FutureName[] {
     return this.#names.map((n) => n!);
   }
 
   #give(i: number, c: Candidate, end: string): boolean {
-    const said = (o: Named | null): boolean => !!end && o?.basis === c.basis && o.name.endsWith(`, ${end}`);
+    const said = (o: FutureName | null): boolean => !!end && o?.basis === c.basis && o.name.endsWith(`, ${end}`);
     if (this.#names.some(said)) return false;
     const taken = (n: string): boolean => this.#names.some((o) => o?.name === n);
     const names = c.forms.map((f) => (end ? `${f}, ${end}` : f));
@@ -227,7 +228,7 @@ const CRAWLS_M_S = 1.4;
 
 /** Has it stood or crept by a scene time? */
 function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
-  const slow = onFoot ? STANDING_M_S : CRAWLS_M_S;
+  const slow = onFoot ? JUDGING.standing_mps : CRAWLS_M_S;
   return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
 }
 
@@ -239,9 +240,6 @@ const SHORT = [
   [KINDS.cyclist, TEXTS.cycl],
 ] as const;
 
-/** Slower than this is standing, m/s. */
-const STANDING_M_S = 0.25;
-const standing = (onFoot: boolean): number => (onFoot ? STANDING_M_S : 0.5);
 /** Shorter paths count as no movement, metres. */
 const STAYS_M = 1.5;
 /** Smaller movements are invisible, metres. */
@@ -250,9 +248,7 @@ const CREEPS_M = 0.4;
 function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
   const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
   if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
-  // One that rolls into the other lane has not stopped in this one.
-  const changesLane = manoeuvre === 'lane_left' || manoeuvre === 'lane_right';
-  return Math.abs(endPose(m).speed) < (changesLane ? STANDING_M_S : standing(onFoot));
+  return Math.abs(endPose(m).speed) < JUDGING.standing_mps;
 }
 
 function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
@@ -324,7 +320,7 @@ function shiftsFirst(m: Motion): boolean {
 // -------------------------------------------------------------- differences
 
 /** A visible property of each of a group. */
-interface Trait {
+interface VisibleTrait {
   readonly values: ReadonlyMap<number, number>;
   /** Smaller differences are invisible. */
   readonly least: number;
@@ -338,7 +334,7 @@ interface Trait {
   readonly none?: { readonly below: number; readonly word: string };
 }
 
-const lessOf = ({ values, less, none }: Trait, i: number): string =>
+const lessOf = ({ values, less, none }: VisibleTrait, i: number): string =>
   none && values.get(i)! < none.below ? none.word : less;
 
 interface Claim {
@@ -349,7 +345,7 @@ interface Claim {
 }
 
 /** The largest and smallest of a trait: each beyond all of the others. */
-function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
+function extremesOf(trait: VisibleTrait, all: readonly number[]): Claim[] {
   const { values, least, more } = trait;
   const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
   const gap = (a: number, b: number): number => (values.get(order[a])! - values.get(order[b])!) / least;
@@ -361,7 +357,7 @@ function extremesOf(trait: Trait, all: readonly number[]): Claim[] {
 }
 
 /** More and less of a trait than the first has, level by level. */
-function scaleOf({ values, least, more, less, amount }: Trait, all: readonly number[]): Claim[] {
+function scaleOf({ values, least, more, less, amount }: VisibleTrait, all: readonly number[]): Claim[] {
   const [first] = all;
   const out: Claim[] = [];
   for (const [sign, word] of [
@@ -383,7 +379,7 @@ function scaleOf({ values, least, more, less, amount }: Trait, all: readonly num
 const BRAKES_MPS2 = 0.4;
 
 /** Time of the hardest braking, seconds; unused if one of them hardly brakes. */
-function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trait {
+function brakingTime(modes: readonly Nameable[], group: readonly number[]): VisibleTrait {
   const at = (m: Motion): number => {
     let most = 1,
       when = NaN;
@@ -399,9 +395,9 @@ function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trai
 
 interface Traits {
   /** The pace first. */
-  readonly traits: readonly Trait[];
+  readonly traits: readonly VisibleTrait[];
   /** Progress at half time. */
-  readonly halfway: Trait;
+  readonly halfway: VisibleTrait;
 }
 
 /** Differences of slower ones are not converted to seconds by their own speed, m/s. */
@@ -412,7 +408,7 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const motion = (i: number): Motion => modes[i].motion;
   const gone = new Map(group.map((i) => [i, distances(motion(i))]));
   const n = Math.min(...[...gone.values()].map((d) => d.length)) - 1;
-  const trait = (of: (i: number) => number, least: number, more: string, less: string): Trait => ({
+  const trait = (of: (i: number) => number, least: number, more: string, less: string): VisibleTrait => ({
     values: new Map(group.map((i) => [i, of(i)])),
     least,
     more,
@@ -423,13 +419,13 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const far = Math.max(1, 0.03 * Math.max(...ends));
   const together = Math.max(...ends) - Math.min(...ends) < far;
   const speed = Math.max(LEAST_PACE_MPS, distances(motion(group[0]))[n] / (n * STEP_S));
-  const halfway: Trait = {
+  const halfway: VisibleTrait = {
     ...trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later),
     amount: (by) => (by > 0 ? TEXTS.earlierBy : TEXTS.laterBy)(seconds(Math.max(0.1, Math.abs(by) / speed))),
   };
   const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
   // With a goal all get equally far, so progress is compared on the way.
-  const pace: Trait = together
+  const pace: VisibleTrait = together
     ? halfway
     : {
         ...trait(at(1), far, more, less),
@@ -441,7 +437,7 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   // Positive outwards in a turn, else to the left.
   const side = new Map(group.map((i) => [i, (turns ? -Math.sign(turn) : 1) * sideOf(motion(first), motion(i), n)]));
   const offset = (i: number): number => side.get(i)!;
-  const traits: Trait[] = [
+  const traits: VisibleTrait[] = [
     pace,
     trait(at(0.25), 0.8, TEXTS.fasterStart, TEXTS.slowerStart),
     trait((i) => Math.abs(motion(i).speed[n]), 1.5, TEXTS.fasterEnd, TEXTS.slowerEnd),

@@ -5,10 +5,10 @@ import type { Agent, GoalSpec } from '../document/scene';
 import type { Pose, Vec } from '../base/geometry';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
-import { messageText } from './message-text';
+import { messageParts, messageText } from './message-text';
 import { TEXTS } from '../../texts/scene/reach';
 
-/** The generator's verdict as a title and the rest: its first sentence names the reason. */
+/** The generator's verdict as a title, which names the reason, and the rest. */
 export function reachWords(
   r: Reach,
   goal: { readonly pos: Vec | null; readonly time: number },
@@ -19,13 +19,10 @@ export function reachWords(
     const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
     return { title: TEXTS.isInTheWay(who), words: TEXTS.stopsShort(metres(short, 0)) };
   }
-  const text = r.message ? messageText(r.message) : '';
-  const cut = /[.!?](?=\s|$)/.exec(text);
-  const title = cut ? text.slice(0, cut.index) : text;
-  const rest = cut ? text.slice(cut.index + 1).trim() : '';
+  const parts = r.message && messageParts(r.message);
   return {
-    title: title || TEXTS.outOfReachIn(num(goal.time, 1)),
-    words: rest || TEXTS.theNearestReachable,
+    title: parts?.title ?? TEXTS.outOfReachIn(num(goal.time, 1)),
+    words: parts?.rest || (r.message && !parts ? messageText(r.message) : TEXTS.theNearestReachable),
   };
 }
 

@@ -39,14 +39,21 @@ export interface Deed {
   readonly turn: 'left' | 'right' | 'straight';
 }
 
-interface Said {
+interface WeightedWords {
   readonly words: string;
   readonly weight: number;
 }
 
-/** A name for each, no two alike. `unitOf`: unit for speed conditions of a road user. */
-export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit = () => 'km/h'): string[] {
-  const said = all.map(() => [] as Said[]);
+/**
+ * A name for each, no two alike. `unitOf`: unit for speed conditions of a road user; `numbered`: the name of one that
+ * differs in nothing, by its id.
+ */
+export function nameVariants(
+  all: readonly Nameless[],
+  unitOf: (a: Agent) => SpeedUnit = () => 'km/h',
+  numbered: (id: number) => string = TEXTS.variant,
+): string[] {
+  const said = all.map(() => [] as WeightedWords[]);
   all.forEach((v, i) => said[i].push(...ofNumbers(v, all, unitOf), ...ofSubject(v), ...ofEvents(v)));
   const known = all.flatMap((v, i) => (v.scene && v.set ? [{ i, scene: v.scene, set: v.set }] : []));
   const ids = new Set(known.flatMap((k) => [...k.set.driving]));
@@ -61,7 +68,7 @@ export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => Spe
   const taken = new Set<string>();
   return said.map((list, i) => {
     const first = list.sort((p, q) => q.weight - p.weight).find((s) => !taken.has(s.words));
-    const name = first?.words ?? TEXTS.variant(all[i].id);
+    const name = first?.words ?? numbered(all[i].id);
     taken.add(name);
     return name;
   });
@@ -70,7 +77,7 @@ export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => Spe
 const NUMBERS: readonly Over[] = ['start', 'goal', 'time'];
 
 /** Conditions of the subject with values that no other variant of it has. */
-function ofNumbers(v: Nameless, all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit): Said[] {
+function ofNumbers(v: Nameless, all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit): WeightedWords[] {
   const a = subjectOf(v);
   if (!a) return [];
   const alike = all.flatMap((o) => (o !== v && o.state.subject === v.state.subject ? (subjectOf(o) ?? []) : []));
@@ -87,7 +94,7 @@ const subjectOf = ({ state, scene }: Nameless): Agent | undefined =>
   state.subject === null ? undefined : scene?.agents.get(state.subject);
 
 /** The picked future of the subject. */
-function ofSubject(v: Nameless): Said[] {
+function ofSubject(v: Nameless): WeightedWords[] {
   const a = subjectOf(v);
   const f = a && v.set?.futures.get(a.id);
   const name = f && f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)]?.name;
@@ -97,7 +104,7 @@ function ofSubject(v: Nameless): Said[] {
 /** Weight of an event in metres, by its mark. */
 const EVENT_SAYS = { collision: 60, rule: 12, near: 8, short: 6 } as const;
 
-function ofEvents({ events = [] }: Nameless): Said[] {
+function ofEvents({ events = [] }: Nameless): WeightedWords[] {
   return counted(events).map((e) => {
     const { a, b, short } = e;
     const words = !b
@@ -143,8 +150,8 @@ const TURNS: Record<Deed['turn'], string> = {
   straight: TEXTS.goesStraight,
 };
 
-function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
-  const out: Said[] = [];
+function unlike(a: Agent, d: Deed, usual: Deed): WeightedWords[] {
+  const out: WeightedWords[] = [];
   const say = (words: string, weight: number) => out.push({ words: `${a.name} ${words}`, weight });
   const longer = d.waits - usual.waits;
   // Pedestrians turn all the time.

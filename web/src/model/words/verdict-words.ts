@@ -12,6 +12,7 @@ import {
 import { THRESHOLDS } from '../base/domain';
 import { LETTERS, rankOf, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
+import type { NameOf } from '../document/scene';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
 import { acceleration, degrees, metres, seconds, speedInUse } from '../base/units';
@@ -20,8 +21,6 @@ import { TEXTS } from '../../texts/scene/verdicts';
 
 /** A gap that rounds to 0.0 m is not written as that. */
 const TOUCH_M = 0.05;
-
-export type NameOf = (id: string) => string | null;
 
 const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.aRoadUser;
 
@@ -146,7 +145,7 @@ function openWords(f: Futures, open: readonly number[]): string {
 const and = (list: readonly string[]): string =>
   list.length < 2 ? list.join('') : TEXTS.and(list.slice(0, -1).join(', '), list.at(-1));
 
-interface Group {
+interface FaultGroup {
   readonly key: string;
   readonly letters: string[];
   /** `cross the median` and `crosses the median`. */
@@ -158,7 +157,7 @@ interface Group {
 function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker): string {
   const named = f.modes[chosen].about?.faults[0]?.kind ?? null;
   const offRoad = f.modes.some((m) => m.about?.faults.some(leavesRoad));
-  const groups = new Map<string, Group>();
+  const groups = new Map<string, FaultGroup>();
   f.modes.forEach((m, i) => {
     const g = groupOf(f, i, m.about ?? null, { named, offRoad, hasGoal, who });
     if (!g) return;
@@ -174,7 +173,7 @@ function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker):
   return list.map((g) => `${and(g.letters)} ${g.letters.length > 1 ? g.many : g.one}.`).join(' ');
 }
 
-interface Said {
+interface VerdictContext {
   /** The kind that the headline names already. */
   readonly named: FaultKind | null;
   readonly offRoad: boolean;
@@ -182,9 +181,9 @@ interface Said {
   readonly who: Walker;
 }
 
-const group = (key: string, many: string, one: string): Group => ({ key, letters: [], many, one });
+const group = (key: string, many: string, one: string): FaultGroup => ({ key, letters: [], many, one });
 
-function groupOf(f: Futures, i: number, about: FutureFacts | null, said: Said): Group | null {
+function groupOf(f: Futures, i: number, about: FutureFacts | null, said: VerdictContext): FaultGroup | null {
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {

@@ -9,7 +9,7 @@ export const TEXTS = table('empty', {
   toStartOver: 'to start over',
   forAllActions: 'for all actions',
   newMap: 'New map',
-  startWithACrossing: 'Start with a crossing',
+  startWithACrossing: 'Start with a junction',
   importAScene: 'Import a scene',
   dropSceneFiles: 'Drop scene files anywhere',
   scenarioRecords: 'Scenario records, lane maps or saved scenes · or ',

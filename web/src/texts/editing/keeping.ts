@@ -19,7 +19,7 @@ export const TEXTS = table('keeping', {
   theSceneCould: 'The scene could not be loaded. The server is not answering.',
   changedElsewhere: 'Changed elsewhere',
   discard: 'Discard',
-  lastSessionRestored: 'Restored the changes of your last session.',
+  lastSessionRestored: 'The changes of your last session are restored.',
   thisSceneIsOpen: 'This scene is open in another tab and read-only here.',
   editHere: 'Edit here',
   theOtherVersion: 'Other version loaded',

@@ -25,7 +25,7 @@ export const TEXTS = table('moves', {
   useNearestReachable: 'Use nearest reachable',
   goalOfMovedTo: (name: string) => `Goal of ${name} moved to the nearest reachable point`,
   leaveTheHeading: 'Leave the heading free',
-  widerGoal: 'wider goal',
+  anyHeading: 'any heading at the goal',
   allowMoreTime: 'Allow more time',
   sceneOf: (time: string, length: number) => `${time}, scene ${length} s`,
   startFaster: 'Start faster',

@@ -1,4 +1,3 @@
-import { SAYS_WHERE } from '../language';
 import { table } from '../table';
 
 export const TEXTS = table('picture', {
@@ -19,8 +18,6 @@ export const TEXTS = table('picture', {
   beyondReach: (beyond: string) => `${beyond} beyond reach`,
   holdToCross: 'Hold: cross',
   altToCross: 'Alt: cross',
-  /** `on northbound lane`; some places include a preposition: `off the lanes`. */
-  on: (place: string) => (SAYS_WHERE.test(place) ? place : `on ${place}`),
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
   occupied: 'Occupied',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,
@@ -54,6 +51,6 @@ export const TEXTS = table('picture', {
   southEast: 'south-east',
   exitLane: (arm: string, lane: number) => `${arm}, lane ${lane}`,
   toExit: (exit: string) => `To ${exit}`,
-  dropOnAnExit: 'Drop on an exit',
+  dropOnAnExit: 'Drop on an outbound lane',
   lanesInOut: (into: number, out: number) => `${into} in, ${out} out`,
 });

@@ -13,4 +13,6 @@ export const TEXTS = table('rounds', {
       other: `Round ${round}: ${count} futures. A: ${name}.`,
     }),
   all: 'all',
+  /** A whole-scene card that differs from the others in nothing that has a name. */
+  sceneNumber: (n: number) => `Scene ${n}`,
 });

@@ -1,11 +1,14 @@
 import { plural, table } from '../table';
 
 export const TEXTS = table('importing', {
-  aPdf: 'a PDF',
-  aZipArchive: 'a ZIP archive',
-  aCadDrawingDwg: 'a CAD drawing (DWG)',
-  aPicture: 'a picture',
-  anOfficeDocument: 'an Office document',
+  /** Kinds of files without a scene, alone and within a sentence. */
+  foreign: {
+    pdf: { name: 'PDF', inSentence: 'a PDF' },
+    zip: { name: 'ZIP archive', inSentence: 'a ZIP archive' },
+    drawing: { name: 'CAD drawing (DWG)', inSentence: 'a CAD drawing (DWG)' },
+    picture: { name: 'picture', inSentence: 'a picture' },
+    office: { name: 'Office document', inSentence: 'an Office document' },
+  },
   savedScene: 'saved scene',
   scenarioRecord: 'scenario record',
   reading: (name: string) => `Reading ${name} …`,

@@ -35,7 +35,7 @@ export const TEXTS = table('losses', {
   gaps: 'Gaps',
   stepsNotSeen: 'steps at which a road user was not seen',
   verdicts: 'Verdicts',
-  chancesFaults: 'probabilities, faults and reactions',
+  chancesFaults: 'probabilities, events and reactions',
   someTrips: 'Some trips',
   roadUsersOff: 'road users off the lanes are only in the recording',
   someRollouts: 'Some rollouts',

@@ -40,16 +40,16 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     goal: 'Das Ziel',
     id: 'Kennung',
     ids: 'Kennungen',
-    lane: 'ein Fahrstreifen',
-    'lane or road user': 'ein Fahrstreifen oder Verkehrsteilnehmer',
+    lane: 'eine Spur',
+    'lane or road user': 'eine Spur oder ein Verkehrsteilnehmer',
     lanelets: 'Lanelets',
-    lanes: 'Fahrstreifen',
-    'lanes in one lane section': 'Fahrstreifen in einem Abschnitt',
+    lanes: 'Spuren',
+    'lanes in one lane section': 'Spuren in einem Abschnitt',
     lines: 'Linien',
-    links: 'Verknüpfungen',
-    'links of lanes': 'Verknüpfungen von Fahrstreifen',
+    links: 'Verbindungen',
+    'links of lanes': 'Verbindungen von Spuren',
     'lists, dictionaries and arrays': 'Listen, Wörterbücher und Arrays',
-    'm of lanes': 'm Fahrstreifen',
+    'm of lanes': 'm Spuren',
     'm of reference lines': 'm Referenzlinien',
     'members of a relation': 'Mitglieder einer Relation',
     'messages of one kind': 'Nachrichten einer Art',
@@ -75,8 +75,8 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     rows: 'Zeilen',
     scene: 'eine Szene',
     'scenes of 9.1 s in one scenario': 'Szenen von 9,1 s in einem Szenario',
-    signals: 'Lichtsignale',
-    'signs, lights and references': 'Schilder, Lichtsignale und Verweise',
+    signals: 'Ampeln',
+    'signs, lights and references': 'Schilder, Ampeln und Verweise',
     'speed in m/s': 'Geschwindigkeit in m/s',
     'squares of 8 m that lines pass through': 'Quadrate von 8 m, durch die Linien gehen',
     states: 'Zustände',
@@ -139,7 +139,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a scenario whose rows stand together, with a name of up to 256 bytes':
       'ein Szenario mit zusammenhängenden Zeilen und einem Namen von höchstens 256 Byte',
     'a scenario; import the sd_*.pkl files of the set, each of which is one':
-      'ein Szenario; importieren Sie die Dateien sd_*.pkl der Sammlung, jede ist eines',
+      'ein Szenario; die Dateien sd_*.pkl der Sammlung importieren, jede ist eines',
     'a scene': 'eine Szene',
     'a size in metres': 'eine Größe in Metern',
     'a speed in m/s': 'eine Geschwindigkeit in m/s',
@@ -243,27 +243,26 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'an SVG picture': 'Ein SVG-Bild',
   },
   instead: {
-    'export XML 1.x': 'exportieren Sie XML 1.x',
+    'export XML 1.x': 'XML 1.x exportieren',
     'import the OpenDRIVE map that it names; road users are placed on that':
-      'importieren Sie die OpenDRIVE-Karte, die darin genannt ist; Verkehrsteilnehmer werden darauf platziert',
+      'die OpenDRIVE-Karte importieren, die darin genannt ist; Verkehrsteilnehmer werden darauf eingesetzt',
     'run SUMO with --fcd-output, and import what it writes with the network beside it':
-      'starten Sie SUMO mit --fcd-output und importieren Sie das Ergebnis zusammen mit dem Netz',
+      'SUMO mit --fcd-output starten und das Ergebnis zusammen mit dem Netz importieren',
     'import the network that it names, or run SUMO with --fcd-output':
-      'importieren Sie das Netz, das darin genannt ist, oder starten Sie SUMO mit --fcd-output',
+      'das Netz importieren, das darin genannt ist, oder SUMO mit --fcd-output starten',
     'turn it into XML (osmium cat FILE.osm.pbf -o FILE.osm, or osmconvert FILE.osm.pbf -o=FILE.osm), and import that':
-      'wandeln Sie ihn in XML um (osmium cat DATEI.osm.pbf -o DATEI.osm oder osmconvert DATEI.osm.pbf -o=DATEI.osm) und importieren Sie das',
+      'ihn in XML umwandeln (osmium cat DATEI.osm.pbf -o DATEI.osm oder osmconvert DATEI.osm.pbf -o=DATEI.osm) und das Ergebnis importieren',
     'it has no lane graph: import the roads as OpenDRIVE, Lanelet2 or an OpenStreetMap extract, and road users as a table':
-      'sie hat keine verknüpften Fahrstreifen: importieren Sie die Straßen als OpenDRIVE, Lanelet2 oder OpenStreetMap-Auszug und Verkehrsteilnehmer als Tabelle',
+      'sie hat keine verbundenen Spuren: die Straßen als OpenDRIVE, Lanelet2 oder OpenStreetMap-Auszug importieren und die Verkehrsteilnehmer als Tabelle',
     'export the roads as OpenDRIVE or Lanelet2, and import that':
-      'exportieren Sie die Straßen als OpenDRIVE oder Lanelet2 und importieren Sie das',
-    'download the file itself': 'laden Sie die Datei selbst herunter',
+      'die Straßen als OpenDRIVE oder Lanelet2 exportieren und das Ergebnis importieren',
+    'download the file itself': 'die Datei selbst herunterladen',
     'scenes are files of data, not pictures of them': 'Szenen sind Dateien mit Daten, keine Bilder davon',
-    'unpack it, and import what is in it': 'entpacken Sie sie und importieren Sie den Inhalt',
-    'write its tracks as a table, and import that':
-      'schreiben Sie die Trajektorien als Tabelle und importieren Sie diese',
+    'unpack it, and import what is in it': 'entpacken und den Inhalt importieren',
+    'write its tracks as a table, and import that': 'die Trajektorien als Tabelle schreiben und diese importieren',
     'ScenarioNet turns nuPlan logs into scenarios (pkl) that are read':
       'ScenarioNet macht aus nuPlan-Aufzeichnungen Szenarien (pkl), die gelesen werden',
-    'import the scene from which it was made': 'importieren Sie die Szene, aus der sie entstand',
-    'write it as a table, and import that': 'schreiben Sie es als Tabelle und importieren Sie diese',
+    'import the scene from which it was made': 'die Szene importieren, aus der sie entstand',
+    'write it as a table, and import that': 'es als Tabelle schreiben und diese importieren',
   },
 };

@@ -9,23 +9,47 @@ export const SENTENCES = table('messages', {
   inLine: (line: string, sentence: string) => `Line ${line}: ${sentence}`,
   lists: { kind: { vehicle: 'this vehicle', cyclist: 'this cyclist', pedestrian: 'this pedestrian' } },
   sentences: {
-    'goal-too-far': (v: Values) =>
-      `Too far for ${v.time_s}. The goal is ${v.goal_m} away. From ${v.start_mps}, ${v.kind} covers at most ${v.most_m} in ${v.time_s}.`,
-    'goal-too-fast': (v: Values) =>
-      `Cannot accelerate that much in ${v.time_s} from ${v.start_mps}.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
-    'goal-above-top-speed': (v: Values) =>
-      `Above the top speed of ${v.kind}.${v.need_mps && ` Required: ${v.need_mps}.`}`,
-    'goal-too-near': (v: Values) =>
-      `Cannot stop that soon. Braking from ${v.start_mps} takes ${v.least_m}; the goal is ${v.goal_m} away.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
-    'goal-too-slow': (v: Values) =>
-      `Cannot brake that much in ${v.time_s}.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
-    'goal-too-tight': (v: Values) => `Too tight at this speed.${v.need_mps2 && ` Required: ${v.need_mps2} sideways.`}`,
-    'goal-turn-too-tight': (v: Values) => `The turn is too tight for ${v.kind}.`,
-    'goal-blocked': (v: Values) => `Road user ${v.agent} blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
-    'goal-blocked-by-traffic': (v: Values) =>
-      `Another road user blocks ${v.kind}, which stops ${v.short_m} short of the goal.`,
-    'goal-off-road': (v: Values) => `There is no lane within ${v.within_m} of the goal.`,
-    'goal-beyond-top-speed': (v: Values) => `${v.goal_m} in ${v.time_s} requires more than the top speed.`,
+    // Of the goal's reach: the title is the heading of the verdict.
+    'goal-too-far': {
+      title: (v: Values) => `Too far for ${v.time_s}`,
+      rest: (v: Values) =>
+        `The goal is ${v.goal_m} away. From ${v.start_mps}, ${v.kind} covers at most ${v.most_m} in ${v.time_s}.`,
+    },
+    'goal-too-fast': {
+      title: (v: Values) => `Cannot accelerate that much in ${v.time_s} from ${v.start_mps}`,
+      rest: (v: Values) => (v.need_mps2 ? `Required: ${v.need_mps2}.` : ''),
+    },
+    'goal-above-top-speed': {
+      title: (v: Values) => `Above the top speed of ${v.kind}`,
+      rest: (v: Values) => (v.need_mps ? `Required: ${v.need_mps}.` : ''),
+    },
+    'goal-too-near': {
+      title: () => 'Cannot stop that soon',
+      rest: (v: Values) =>
+        `Braking from ${v.start_mps} takes ${v.least_m}; the goal is ${v.goal_m} away.${v.need_mps2 && ` Required: ${v.need_mps2}.`}`,
+    },
+    'goal-too-slow': {
+      title: (v: Values) => `Cannot brake that much in ${v.time_s}`,
+      rest: (v: Values) => (v.need_mps2 ? `Required: ${v.need_mps2}.` : ''),
+    },
+    'goal-too-tight': {
+      title: () => 'Too tight at this speed',
+      rest: (v: Values) => (v.need_mps2 ? `Required: ${v.need_mps2} sideways.` : ''),
+    },
+    'goal-turn-too-tight': { title: (v: Values) => `The turn is too tight for ${v.kind}`, rest: '' },
+    'goal-blocked': {
+      title: (v: Values) => `Road user ${v.agent} blocks ${v.kind}`,
+      rest: (v: Values) => `It stops ${v.short_m} short of the goal.`,
+    },
+    'goal-blocked-by-traffic': {
+      title: (v: Values) => `Another road user blocks ${v.kind}`,
+      rest: (v: Values) => `It stops ${v.short_m} short of the goal.`,
+    },
+    'goal-off-road': { title: (v: Values) => `There is no lane within ${v.within_m} of the goal`, rest: '' },
+    'goal-beyond-top-speed': {
+      title: (v: Values) => `${v.goal_m} in ${v.time_s} requires more than the top speed`,
+      rest: '',
+    },
     'start-off-road': (v: Values) => `There is no lane within ${v.within_m} of the start.`,
     'start-overlaps': (v: Values) => `The start overlaps road user ${v.agent}.`,
     'via-missed': (v: Values) =>

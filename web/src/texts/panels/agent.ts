@@ -25,7 +25,6 @@ export const TEXTS = table('agent', {
   time: 'Time',
   timeAtTheGoal: 'Time at the goal in seconds',
   undo: (words: string) => `${words}: undo`,
-  on: (name: string) => `on ${name}`,
   position: 'Position',
   positionWithin: 'position',
   fixed: (word: string, label: string) => `${word} ${label} fixed`,

@@ -54,7 +54,7 @@ export const TEXTS = table('layouts', {
   turns: { left: 'left', straight: 'straight', right: 'right' },
   signals: 'Signals',
   priority: 'Priority',
-  equal: 'Equal',
+  equal: 'Uncontrolled',
   rightHand: 'Right-hand',
   leftHand: 'Left-hand',
   junction: 'Junction',

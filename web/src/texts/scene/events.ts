@@ -46,7 +46,7 @@ export const TEXTS = table('events', {
   standing: 'standing',
   brakingWithin: 'braking',
   collisions: (n: number) => plural(n, { one: `${n} collision`, other: `${n} collisions` }),
-  rulesBroken: (n: number) => plural(n, { one: `${n} rule broken`, other: `${n} rules broken` }),
+  rulesBroken: (n: number) => plural(n, { one: `${n} rule violation`, other: `${n} rule violations` }),
   nearMisses: (n: number) => plural(n, { one: `${n} near miss`, other: `${n} near misses` }),
   goalsMissed: (n: number) => plural(n, { one: `${n} goal missed`, other: `${n} goals missed` }),
   viaMissed: 'Via point missed',

@@ -18,14 +18,16 @@ export const TEXTS = table('places', {
   /** Arms by compass direction, without "arm". */
   arms: {
     east: 'East',
-    'north-east': 'North-east',
+    northEast: 'North-east',
     north: 'North',
-    'north-west': 'North-west',
+    northWest: 'North-west',
     west: 'West',
-    'south-west': 'South-west',
+    southWest: 'South-west',
     south: 'South',
-    'south-east': 'South-east',
+    southEast: 'South-east',
   },
+  /** Of a lane; places beside the lanes have their own preposition: `off the lanes`. */
+  on: (lane: string) => `on ${lane}`,
   arm: (compass: string) => `${compass} arm`,
   bikeLane: (arm: string) => `${arm}, bike lane`,
   busLane: (arm: string) => `${arm}, bus lane`,

@@ -14,7 +14,7 @@ import type { Vec } from '../../../model/base/geometry';
 import { stateOfVariant, takeVariant } from '../../../model/document/variants';
 import { Away, Refused } from '../../../net/client';
 import type { Editor } from '../../session/editor';
-import type { Beside, Tries } from '../../session/view-settings';
+import type { SceneBeside, Tries } from '../../session/view-settings';
 import { Stopped, type Maker, type Take } from '../../asking/take-maker';
 import { TEXTS } from '../../../texts/editing/cases';
 
@@ -37,7 +37,7 @@ export interface Progress {
   readonly left: number | null;
 }
 
-export type State = 'ready' | 'running' | 'paused' | 'done';
+export type SearchState = 'ready' | 'running' | 'paused' | 'done';
 
 /** Number of tries before the user must continue the search, and number of cases that end it. */
 export const MOST_TRIES = 300;
@@ -52,7 +52,7 @@ export class Cases {
   readonly #open = signal(false);
   readonly #sought = signal<Sought | null>(null);
   readonly #may = signal<MayChange>({ speed: true, time: true, seed: true, place: false });
-  readonly #state = signal<State>('ready');
+  readonly #state = signal<SearchState>('ready');
   readonly #progress = signal<Progress>(NOTHING);
   readonly #found = signal<readonly Case[]>([]);
   readonly #closest = signal<Case | null>(null);
@@ -60,7 +60,7 @@ export class Cases {
   readonly #problem = signal<string | null>(null);
   readonly #from = signal<{ readonly scene: Scene; readonly at: Date } | null>(null);
   /** The case shown from here; another owner's overlay is not removed. */
-  #beside: Beside | null = null;
+  #beside: SceneBeside | null = null;
   /** Increases with every stop. */
   #turn = 0;
   /** Total number of attempts for this target. */
@@ -69,7 +69,7 @@ export class Cases {
   readonly isOpen: ReadonlySignal<boolean> = this.#open;
   readonly sought: ReadonlySignal<Sought | null> = this.#sought;
   readonly may: ReadonlySignal<MayChange> = this.#may;
-  readonly state: ReadonlySignal<State> = this.#state;
+  readonly state: ReadonlySignal<SearchState> = this.#state;
   readonly progress: ReadonlySignal<Progress> = this.#progress;
   /** Nearest to the target first. */
   readonly found: ReadonlySignal<readonly Case[]> = this.#found;
@@ -320,7 +320,7 @@ export class Cases {
       return;
     }
     const sought = this.#sought.peek()!;
-    this.#beside = { ...c.take, parted: this.#parted(c), meeting: meetingOf(c, sought) };
+    this.#beside = { ...c.take, diverging: this.#diverging(c), meeting: meetingOf(c, sought) };
     editor.view.showBeside(this.#beside);
     editor.playhead.pause();
     editor.playhead.moveTo(c.moment.time);
@@ -335,7 +335,7 @@ export class Cases {
   }
 
   /** Road users of the moment, and all others with another motion. */
-  #parted({ take, moment }: Case): string[] {
+  #diverging({ take, moment }: Case): string[] {
     const sought = this.#sought.peek()!;
     const now = this.editor.answers.motion.peek();
     const others = findChanges(take.scene, now, take.set, new Set([sought.who])).map((c) => c.id);
@@ -377,7 +377,7 @@ export class Cases {
 const wayOf = (m: Motion): Vec[] =>
   Array.from({ length: Math.ceil(m.x.length / WAY_STEPS) }, (_, i): Vec => [m.x[i * WAY_STEPS], m.y[i * WAY_STEPS]]);
 
-const meetingOf = (c: Case, sought: Sought): NonNullable<Beside['meeting']> => ({
+const meetingOf = (c: Case, sought: Sought): NonNullable<SceneBeside['meeting']> => ({
   words: TEXTS.caseOnTag(c.id, momentWords(sought, c.moment)),
   at: c.moment.at,
   time: c.moment.time,

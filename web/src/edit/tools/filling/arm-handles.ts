@@ -1,8 +1,7 @@
 // Screen positions of the arm handles while an area is filled: further outward means more arrivals.
-import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import type { View } from '../../../draw/view';
-import type { Arm } from './filling';
+import type { EntryArm } from './filling';
 
 /** From zero to the arm's capacity, pixels. */
 const TRAVEL_PX = 110;
@@ -14,7 +13,7 @@ const EDGE_PX = 30;
 export const RATE_STEP = 20;
 
 export interface ArmHandle {
-  readonly arm: Arm;
+  readonly arm: EntryArm;
   readonly rate: number;
   /** The handle's place without traffic, and its place now, in pixels. */
   readonly base: Vec;
@@ -23,11 +22,8 @@ export interface ArmHandle {
   readonly out: Vec;
 }
 
-/** `North-west 2`. */
-export const armName = ({ id }: Pick<Arm, 'id'>): string => armTitle(id.replace(/-(\d+)$/, ' $1'));
-
 /** Handles of the arms inside the picture. */
-export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {
+export function armHandles(arms: readonly EntryArm[], rates: Readonly<Record<string, number>>, v: View): ArmHandle[] {
   return arms.flatMap((arm) => {
     if (!v.shows(...arm.at, EDGE_PX)) return [];
     const [x, y] = v.to(...arm.at);
@@ -51,7 +47,7 @@ export function armHandles(arms: readonly Arm[], rates: Readonly<Record<string, 
 const over1 = (p: number, least: number, most: number): number => Math.max(0, least - p, p - most);
 
 /** Vehicles per hour after a drag outward, pixels. */
-export function rateAfter(before: number, px: number, { most }: Arm): number {
+export function rateAfter(before: number, px: number, { most }: EntryArm): number {
   const rate = Math.round((before + (px / TRAVEL_PX) * most) / RATE_STEP) * RATE_STEP;
   return Math.min(Math.floor(most / RATE_STEP) * RATE_STEP, Math.max(0, rate));
 }

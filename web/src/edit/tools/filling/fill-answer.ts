@@ -1,16 +1,17 @@
 // Converts the server's answer to a placement: which road users would stand where, and which are shown.
-import { insidePolygon, type Vec } from '../../../model/base/geometry';
+import { deg, insidePolygon, wrapAngle, type Vec } from '../../../model/base/geometry';
 import type { AgentJson } from '../../../model/document/scene-json';
 import { PLACED_KINDS, kindOf } from '../../../model/base/kinds';
 import { isStill, motionFrom } from '../../../model/base/motion';
 import { comesLater, settle, type Newcomer } from '../../../model/document/newcomer';
 import { canMove, startPose, type Scene } from '../../../model/document/scene';
+import { armTitles } from '../../../model/words/arm-titles';
 import { castJson, wholeAgentJson } from '../../../model/document/scene-writer';
 import type { Client } from '../../../net/client';
 import type { PlaceReply } from '../../../net/types';
 import { typesOf } from './fill-mix';
 import { recast, thinned } from './fill-recast';
-import { ANY_SPEED, type Arm, type FillAnswer, type FillWish } from './filling';
+import { ANY_SPEED, type EntryArm, type FillAnswer, type FillWish } from './filling';
 import { inTheWay, standing } from '../../moves/room';
 import type { SceneFile } from '../../document/scene-file';
 import { MOST_AT_ONCE } from '../../moves/several';
@@ -21,7 +22,7 @@ const PER_KM = 10;
 /** A drawn outline may extend this far beyond the map, metres. */
 const MARGIN_M = 45;
 
-export class Answers {
+export class FillAnswers {
   /** The arms of the last requested place; their names are valid only there. */
   #known: { readonly place: string; readonly arms: readonly string[] } = { place: '', arms: [] };
 
@@ -52,7 +53,7 @@ export class Answers {
       parked: { share: wish.parked },
     };
     const { agents, unplaced, reason, arms, parking_places } = await this.client.place(body, signal);
-    const known: readonly Arm[] = arms.map(armOf);
+    const known: readonly EntryArm[] = armsOf(arms);
     this.#known = { place: placeOf(scene, wish), arms: known.map((a) => a.id) };
     const more = { replaced, arms: known, parkingPlaces: parking_places };
     const stay = standing(scene).filter((f) => !gone.has(f.agent.id));
@@ -86,14 +87,19 @@ export class Answers {
 
 const placeOf = (scene: Scene, { region }: FillWish): string => JSON.stringify([scene.id, region]);
 
-const armOf = (a: PlaceReply['arms'][number]): Arm => ({
-  id: a.id,
-  at: [a.x_m, a.y_m],
-  heading: a.heading_rad,
-  most: a.most_per_hour,
-  placed: a.placed,
-  later: a.later,
-});
+function armsOf(arms: PlaceReply['arms']): EntryArm[] {
+  // An arm lies where its traffic comes from.
+  const titles = armTitles(arms.map((a) => deg(wrapAngle(a.heading_rad + Math.PI))));
+  return arms.map((a, i) => ({
+    id: a.id,
+    title: titles[i],
+    at: [a.x_m, a.y_m],
+    heading: a.heading_rad,
+    most: a.most_per_hour,
+    placed: a.placed,
+    later: a.later,
+  }));
+}
 
 /** Road users in the area that may be replaced: neither locked nor read-only. */
 function replaceable(scene: Scene, region: readonly Vec[] | null): string[] {

@@ -10,7 +10,7 @@ import { sizeOnScreen, stamp, type Sized } from '../../../draw/sprites';
 import { traceLine } from '../../../draw/strokes';
 import { colours } from '../../../draw/theme';
 import type { View } from '../../../draw/view';
-import { armHandles, armName, type ArmHandle } from './arm-handles';
+import { armHandles, type ArmHandle } from './arm-handles';
 import type { Filling } from './filling';
 import type { Editor } from '../../session/editor';
 import { TEXTS } from '../../../texts/editing/picture';
@@ -169,7 +169,7 @@ export class FillOverlay {
 
   #paintRate(g: Pen, { arm, at, out, rate }: ArmHandle): void {
     const c = colours();
-    const words = rate > 0 ? TEXTS.armComes(armName(arm), rate, arm.placed, arm.later) : armName(arm);
+    const words = rate > 0 ? TEXTS.armComes(arm.title, rate, arm.placed, arm.later) : arm.title;
     pill(g, this.labels, at[0], at[1], words, {
       ...(rate > 0 ? { bg: c.focus, fg: c.surface } : {}),
       must: rate > 0,

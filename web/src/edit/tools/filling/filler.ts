@@ -4,7 +4,7 @@ import type { Scene } from '../../../model/document/scene';
 import { inOneStep, removeAgents } from '../../../model/document/commands';
 import { Away, Refused, type Client } from '../../../net/client';
 import type { Editor } from '../../session/editor';
-import type { Answers } from './fill-answer';
+import type { FillAnswers } from './fill-answer';
 import { NO_ANSWER, type Filling, type FillWish } from './filling';
 import type { SceneFile } from '../../document/scene-file';
 import { addThem, tooMany } from '../../moves/several';
@@ -16,7 +16,7 @@ const REST_MS = 80;
 export class Filler {
   #rest: ReturnType<typeof setTimeout> | undefined;
   #abort: AbortController | null = null;
-  #answers: Answers | null = null;
+  #answers: FillAnswers | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -49,8 +49,8 @@ export class Filler {
     this.#abort?.abort();
     const abort = (this.#abort = new AbortController());
     try {
-      const { Answers } = await import('./fill-answer');
-      this.#answers ??= new Answers(this.file, this.client);
+      const { FillAnswers } = await import('./fill-answer');
+      this.#answers ??= new FillAnswers(this.file, this.client);
       const answer = await this.#answers.to(scene, wish, abort.signal);
       if (!abort.signal.aborted) filling.settle(answer);
     } catch (e) {

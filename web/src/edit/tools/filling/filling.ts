@@ -4,7 +4,7 @@ import { boxOf, insideBox, type Vec } from '../../../model/base/geometry';
 import { topSpeed } from '../../../model/base/domain';
 import { comesLater, type Newcomer } from '../../../model/document/newcomer';
 import type { Editor } from '../../session/editor';
-import type { Part } from '../../session/part';
+import type { SessionPart } from '../../session/part';
 import { EVEN_MIX, type FillKind, type Mix } from './fill-mix';
 
 /** All settings that decide a placement. */
@@ -30,9 +30,11 @@ export interface FillWish {
 export type SpeedRange = readonly [min: number, max: number];
 
 /** An arm of the map, where a road enters. */
-export interface Arm {
+export interface EntryArm {
   /** Its compass point, with a number where several share it. */
   readonly id: string;
+  /** `North-west 2`, in the language of the page. */
+  readonly title: string;
   readonly at: Vec;
   /** Direction in which it leads, radians. */
   readonly heading: number;
@@ -50,7 +52,7 @@ export interface FillAnswer {
   readonly reason: string | null;
   /** Ids that are removed when it is added. */
   readonly replaced: readonly string[];
-  readonly arms: readonly Arm[];
+  readonly arms: readonly EntryArm[];
   /** Parking places at kerbs and in lots; null while unknown. */
   readonly parkingPlaces: number | null;
 }
@@ -83,7 +85,7 @@ const first = (seed: number): FillWish => ({
 /** Its name in the rail. */
 export const FILL_NAME = 'fill';
 
-export class Filling implements Part {
+export class Filling implements SessionPart {
   readonly #open = signal(false);
   readonly #wish = signal<FillWish>(first(0));
   readonly #drawn = signal<readonly Vec[] | null>(null);

@@ -1,44 +1,14 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../../../model/document/scene-json';
-import { Refused, type Beside, type Client } from '../../../net/client';
-import type { ImportReply, ImportWarning, Problem } from '../../../net/types';
-import type { Broken } from './broken-file';
+import { Refused, type FileCompanions, type Client } from '../../../net/client';
+import type { ImportReply, Problem } from '../../../net/types';
 import type { Editor } from '../../session/editor';
-import { foreignKind, kindByName } from './file-kinds';
+import type { FileVerdict, ImportedScene } from './file-verdict';
+import { foreignKind, kindByName, type ForeignKind } from './file-kinds';
 import type { Library } from '../../document/library';
 import { countAll, type SceneList } from '../../document/scene-list';
 import { TEXTS } from '../../../texts/files/importing';
-
-export interface ImportedScene {
-  readonly id: string;
-  readonly name: string;
-  /** Road users. */
-  readonly count: number;
-}
-
-/** The result of one file, and, if it could not be read, what is wrong, where, and what to do. */
-export interface FileVerdict {
-  readonly file: string;
-  /** `saved scene`, `scenario record`, `a PDF`. */
-  readonly kind: string;
-  readonly ok: boolean;
-  readonly scenes: readonly ImportedScene[];
-  readonly wrong?: string;
-  readonly where?: string;
-  readonly todo?: string;
-  readonly details?: string;
-  /** The broken lines of the file, and the number of the first. */
-  readonly excerpt?: Broken['excerpt'];
-  /** Parts to leave out so that the rest can be imported. */
-  readonly without?: readonly string[];
-  /** Assumptions, omissions and changes of the reader. */
-  readonly notes?: readonly ImportWarning[];
-  /** A table with unknown column names: the user assigns them. */
-  readonly columns?: readonly string[];
-  /** The server did not answer: a retry may work. */
-  readonly again?: File;
-}
 
 const READING_MS = 120_000;
 /** Larger files are not examined here. */
@@ -137,7 +107,12 @@ export class Importing {
     return this.#send(file.name, file, [], { net });
   }
 
-  async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
+  async #send(
+    name: string,
+    file: Blob,
+    without: readonly string[] = [],
+    beside: FileCompanions = {},
+  ): Promise<FileVerdict> {
     try {
       const v = await verdictOf(name, await this.client.importFile(name, file, beside));
       return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;
@@ -192,12 +167,12 @@ export function inPairs(files: readonly File[]): { readonly file: File; readonly
 
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
-function foreignVerdict(file: string, kind: string): FileVerdict {
+function foreignVerdict(file: string, { name, inSentence }: ForeignKind): FileVerdict {
   const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
-  const wrong = ending ? TEXTS.namedButItIs(ending, kind) : TEXTS.isNotASceneIt(file, kind);
+  const wrong = ending ? TEXTS.namedButItIs(ending, inSentence) : TEXTS.isNotASceneIt(file, inSentence);
   return {
     file,
-    kind: kind.replace(/^an? /, ''),
+    kind: name,
     ok: false,
     scenes: [],
     wrong,

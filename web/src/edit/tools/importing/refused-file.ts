@@ -6,7 +6,7 @@ import type { Problem } from '../../../net/types';
 import { TEXTS } from '../../../texts/files/importing';
 import { SENTENCES } from '../../../texts/messages/file-messages';
 import { SENTENCES as REFUSALS } from '../../../texts/messages/refusal-messages';
-import type { FileVerdict } from './importing';
+import type { FileVerdict } from './file-verdict';
 
 /** The fault of a file: its sentence where it comes as data. */
 export function faultIn(file: string, p: Problem): string {

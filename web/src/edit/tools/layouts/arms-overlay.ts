@@ -1,6 +1,5 @@
 // Overlay of a map being made: knobs and names of the arms, the former place of an arm, the ways of its lanes, and
 // failed checks.
-import { armTitle } from '../../../model/words/arm-names';
 import type { Vec } from '../../../model/base/geometry';
 import { metres, num } from '../../../model/base/units';
 import { pill, type Labels } from '../../../draw/labels';
@@ -10,7 +9,7 @@ import { colours } from '../../../draw/theme';
 import type { View } from '../../../draw/view';
 import { knobs } from './arms';
 import { exits, stops } from './ways';
-import type { Layouts, Made, Placed } from './layouts';
+import type { Layouts, DrawnMap, PlacedKnob } from './layouts';
 import { TEXTS } from '../../../texts/editing/picture';
 
 const KNOB_PX = 9;
@@ -44,7 +43,7 @@ export class ArmsOverlay {
   }
 
   /** Ways of the selected arm's lanes; those of the others are dashed. */
-  #paintWays(g: Pen, v: View, made: Made, inHand: number): void {
+  #paintWays(g: Pen, v: View, made: DrawnMap, inHand: number): void {
     const c = colours();
     const { layouts } = this;
     const under = layouts.under.value;
@@ -116,7 +115,7 @@ export class ArmsOverlay {
   }
 
   /** The old place of an arm that is turned, and the turn as an arc. */
-  #paintBefore(g: Pen, v: View, made: Made): void {
+  #paintBefore(g: Pen, v: View, made: DrawnMap): void {
     const turned = this.layouts.turned.value;
     const now = turned && this.layouts.arms.value[turned.index];
     const place = turned && made.arms[turned.index];
@@ -151,7 +150,7 @@ export class ArmsOverlay {
     g.stroke();
   }
 
-  #paintStem(g: Pen, v: View, made: Made, k: Extract<Placed, { kind: 'arm' }>): void {
+  #paintStem(g: Pen, v: View, made: DrawnMap, k: Extract<PlacedKnob, { kind: 'arm' }>): void {
     const [mx, my] = made.arms[k.arm].mouth_m;
     g.beginPath();
     traceLine(g, v, [[mx, my], k.at]);
@@ -160,7 +159,7 @@ export class ArmsOverlay {
     g.stroke();
   }
 
-  #paintNames(g: Pen, v: View, made: Made, all: readonly Placed[]): void {
+  #paintNames(g: Pen, v: View, made: DrawnMap, all: readonly PlacedKnob[]): void {
     const { layouts } = this;
     const c = colours();
     for (const k of all) {
@@ -170,7 +169,7 @@ export class ArmsOverlay {
         const turned = layouts.turned.value;
         const length = layouts.arms.value[k.arm]?.length_m;
         const longer = turned?.index === k.arm && length !== turned.before.length_m ? ` · ${metres(length, 0)}` : '';
-        const words = `${armTitle(made.arms[k.arm].name)} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
+        const words = `${made.arms[k.arm].title} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°${longer}`;
         const mine = k.arm === layouts.arm.value;
         pill(g, this.labels, x, y, words, {
           ...(mine ? { bg: c.ok, fg: c.surface } : {}),
@@ -207,7 +206,7 @@ export class ArmsOverlay {
   }
 
   /** Failed checks by their number in the list. */
-  #paintFaults(g: Pen, v: View, made: Made): void {
+  #paintFaults(g: Pen, v: View, made: DrawnMap): void {
     made.checks
       .filter((check) => !check.passed)
       .forEach(({ at_m }, i) => {

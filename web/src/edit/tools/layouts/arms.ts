@@ -3,7 +3,7 @@
 import { clamp, type Point, type Vec } from '../../../model/base/geometry';
 import { laneOf } from '../../../model/document/layouts';
 import type { Arm } from '../../../net/types';
-import type { Knob, Layouts, Placed } from './layouts';
+import type { Knob, Layouts, PlacedKnob } from './layouts';
 import type { View } from '../../../draw/view';
 import type { Chart, Press, State, Tool } from '../../gestures/chart';
 import { Panning } from '../../gestures/panning';
@@ -30,12 +30,12 @@ const DOUBLE_MS = 400;
 const DOUBLE_PX = 6;
 
 /** All knobs of the map being made, in metres. */
-export function knobs(layouts: Layouts): Placed[] {
+export function knobs(layouts: Layouts): PlacedKnob[] {
   const made = layouts.made.value;
   const arms = layouts.arms.value;
   if (!made || arms.length !== made.arms.length) return [];
   const inLeft = layouts.parameters.value?.traffic === 'left-hand' ? -1 : 1;
-  const all: Placed[] = made.corners.map((c, corner) => ({ kind: 'kerb', corner, at: [c.at_m[0], c.at_m[1]] }));
+  const all: PlacedKnob[] = made.corners.map((c, corner) => ({ kind: 'kerb', corner, at: [c.at_m[0], c.at_m[1]] }));
   made.arms.forEach((place, arm) => {
     const [mx, my] = place.mouth_m;
     const long = Math.hypot(place.end_m[0] - mx, place.end_m[1] - my) || 1;
@@ -62,7 +62,7 @@ const armOf = (knob: Knob | null): number | null => (knob && 'arm' in knob ? kno
 
 function knobAt(layouts: Layouts, v: View, p: Point, touch: boolean): Knob | null {
   const reach = touch ? REACH_TOUCH_PX : REACH_PX;
-  const far = (k: Placed): number => v.away(k.at, p);
+  const far = (k: PlacedKnob): number => v.away(k.at, p);
   const near = [...knobs(layouts), ...stops(layouts)].filter((k) => far(k) <= reach).sort((a, b) => far(a) - far(b));
   if (near[0]) return near[0];
   const way = wayAt(layouts, v, p, touch);

@@ -11,7 +11,7 @@ import { inWords } from '../../../net/refusal';
 import { keep, recall } from '../../../net/storage';
 import type { Layout, Parameters, TemplateName } from '../../../net/types';
 import type { Editor } from '../../session/editor';
-import type { Part } from '../../session/part';
+import type { SessionPart } from '../../session/part';
 import type { LateTools } from './late-tools';
 import type { Layouts, MapWish } from './layouts';
 import type { SceneCare } from '../../document/scene-care';
@@ -24,7 +24,7 @@ const ON_LANE_M = 2.5;
 /** An unreachable server is retried after this. */
 const AGAIN_MS = 2000;
 
-export class LayoutMaker implements Part {
+export class LayoutMaker implements SessionPart {
   /** One request under way, and the newest that waits. */
   #running = false;
   #waiting: MapWish | null = null;

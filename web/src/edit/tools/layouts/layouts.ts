@@ -1,5 +1,5 @@
 // A map being made: the template with its parameters, the drawn result, and the selected arm.
-import { armTitle } from '../../../model/words/arm-names';
+import { armTitles } from '../../../model/words/arm-titles';
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { DrivingSide } from '../../../model/physics/driving-side';
 import type { Vec } from '../../../model/base/geometry';
@@ -9,7 +9,7 @@ import {
   laneOf,
   NO_CONNECTIONS,
   sameWay,
-  type Connection,
+  type LaneConnection,
   type Connections,
   type LaneOfArm,
 } from '../../../model/document/layouts';
@@ -18,13 +18,16 @@ import type { Scene } from '../../../model/document/scene';
 import type { Arm, Layout, MapReply, Parameters, TemplateName } from '../../../net/types';
 import { TEXTS } from '../../../texts/editing/picture';
 
+/** An arm of the drawn map, with its title in the language of the page. */
+export type DrawnArm = MapReply['arms'][number] & { readonly title: string };
+
 /** The drawn map of the server. */
-export interface Made {
+export interface DrawnMap {
   readonly layout: Layout;
   readonly json: SceneJson;
   readonly scene: Scene;
   readonly checks: MapReply['checks'];
-  readonly arms: MapReply['arms'];
+  readonly arms: readonly DrawnArm[];
   readonly corners: MapReply['corners'];
   readonly ways: MapReply['ways'];
   /** Duration of the request, milliseconds. */
@@ -52,10 +55,10 @@ export type Knob =
   | { readonly kind: 'lane'; readonly arm: number; readonly side: 'in' | 'out'; readonly by: 1 | -1; readonly at: Vec }
   | { readonly kind: 'kerb'; readonly corner: number; readonly at: Vec }
   | { readonly kind: 'stop'; readonly arm: number; readonly lane: number; readonly at: Vec }
-  | { readonly kind: 'way'; readonly arm: number; readonly way: Connection };
+  | { readonly kind: 'way'; readonly arm: number; readonly way: LaneConnection };
 
 /** A knob with a place of its own. */
-export type Placed = Exclude<Knob, { kind: 'way' }>;
+export type PlacedKnob = Exclude<Knob, { kind: 'way' }>;
 
 /** A way being drawn from a stop line: to an exit, or to the pointer. */
 export interface DrawnWay {
@@ -75,12 +78,12 @@ const NO_STEPS = { past: [], next: [] };
 
 export class Layouts {
   readonly #wish = signal<MapWish | null>(null);
-  readonly #made = signal<Made | null>(null);
+  readonly #made = signal<DrawnMap | null>(null);
   readonly #fault = signal<string | null>(null);
   readonly #arm = signal(0);
   readonly #turned = signal<TurnedArm | null>(null);
   readonly #asking = signal(false);
-  readonly #way = signal<Connection | null>(null);
+  readonly #way = signal<LaneConnection | null>(null);
   readonly #drawn = signal<DrawnWay | null>(null);
   readonly #under = signal<Knob | null>(null);
   readonly #steps = signal<{ readonly past: readonly MapWish[]; readonly next: readonly MapWish[] }>(NO_STEPS);
@@ -97,7 +100,7 @@ export class Layouts {
   readonly isOpen = computed(() => this.wish.value !== null);
   /** Is it a new map, without road users? */
   readonly isNew = computed(() => this.wish.value !== null && !this.#base);
-  readonly made = computed<Made | null>(() => (this.wish.value ? this.#made.value : null));
+  readonly made = computed<DrawnMap | null>(() => (this.wish.value ? this.#made.value : null));
   /** Why the last change was refused. */
   readonly fault: ReadonlySignal<string | null> = this.#fault;
   /** Index of the selected arm. */
@@ -111,7 +114,7 @@ export class Layouts {
   readonly arms = computed<readonly Arm[]>(() => this.parameters.value?.arms ?? []);
 
   /** The selected way, of the selected arm. */
-  readonly way = computed<Connection | null>(() => {
+  readonly way = computed<LaneConnection | null>(() => {
     const way = this.#way.value;
     return way && this.ways.value.some((w) => sameWay(w, way)) ? way : null;
   });
@@ -331,11 +334,11 @@ export class Layouts {
 
   /** An exit by its arm, and by its lane where there are several. */
   exitName([arm, lane]: LaneOfArm): string {
-    const name = armTitle(this.made.value?.arms[arm]?.name ?? '');
+    const name = this.made.value?.arms[arm]?.title ?? '';
     return (this.arms.value[arm]?.lanes_out ?? 0) > 1 ? TEXTS.exitLane(name, lane + 1) : name;
   }
 
-  pickWay(way: Connection | null): void {
+  pickWay(way: LaneConnection | null): void {
     batch(() => {
       if (way) this.#arm.value = laneOf(way.from)[0];
       this.#way.value = way;
@@ -343,7 +346,7 @@ export class Layouts {
   }
 
   /** Adds a way from lane to lane; `ways`: the present ones without it. */
-  addWay(way: Connection, ways: readonly Connection[] = this.ways.peek()): void {
+  addWay(way: LaneConnection, ways: readonly LaneConnection[] = this.ways.peek()): void {
     const { added, removed } = this.connections;
     const others = removed.filter((c) => !sameWay(c, way));
     if (others.length !== removed.length) this.set(this.#kept({ added, removed: others }));
@@ -351,7 +354,7 @@ export class Layouts {
       this.set(this.#kept({ added: [...added, way], removed }));
   }
 
-  removeWay({ from, to }: Connection): void {
+  removeWay({ from, to }: LaneConnection): void {
     const way = { from, to };
     const { added, removed } = this.connections;
     const kept = added.filter((c) => !sameWay(c, way));
@@ -361,7 +364,7 @@ export class Layouts {
 
   /** Restores the ways that the turn lanes give; without a lane, for the whole arm. */
   usualWays(arm: number, lane: number | null = null): Partial<Parameters> {
-    const own = (c: Connection): boolean => {
+    const own = (c: LaneConnection): boolean => {
       const [a, l] = laneOf(c.from);
       return a === arm && (lane === null || l === lane);
     };
@@ -398,7 +401,8 @@ export class Layouts {
     // Later requests may have added steps to these; the drawn map can still be restored.
     this.#drawnFrom = { wish, past: this.#steps.peek().past };
     const json = reply.scene as unknown as SceneJson;
-    const { layout, checks, arms, corners, ways } = reply;
+    const { layout, checks, corners, ways } = reply;
+    const arms = titled(reply);
     batch(() => {
       this.#asking.value = false;
       this.#fault.value = null;
@@ -428,4 +432,11 @@ export class Layouts {
     this.#wish.value = was.wish;
     this.#steps.value = { ...this.#steps.peek(), past: was.past };
   }
+}
+
+/** The arms of a reply by the angles of its parameters, which are in the same order. */
+function titled({ layout, arms }: MapReply): DrawnArm[] {
+  const drawn = 'arms' in layout.parameters ? layout.parameters.arms : [];
+  const titles = armTitles(drawn.map((arm) => arm.angle_deg));
+  return arms.map((arm, i) => ({ ...arm, title: titles[i] ?? arm.name }));
 }

@@ -1,6 +1,6 @@
 // Ways of a map being made: drawn from a stop line to an exit, selected, removed.
 import { project, type Point, type Vec } from '../../../model/base/geometry';
-import { connectionOf, laneOf, type Connection, type LaneOfArm } from '../../../model/document/layouts';
+import { connectionOf, laneOf, type LaneConnection, type LaneOfArm } from '../../../model/document/layouts';
 import type { View } from '../../../draw/view';
 import type { Knob, Layouts } from './layouts';
 import type { Chart, State } from '../../gestures/chart';
@@ -29,7 +29,7 @@ export function exits(layouts: Layouts): { readonly lane: LaneOfArm; readonly at
 }
 
 /** The way under the pointer; those of the selected arm are on top. */
-export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): Connection | null {
+export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): LaneConnection | null {
   const lanes = layouts.made.peek()?.scene.map.lanes;
   const [x, y] = v.from(p.x, p.y);
   const near = layouts.ways.peek().flatMap((way) => {
@@ -48,7 +48,7 @@ export function wayAt(layouts: Layouts, v: View, p: Point, touch: boolean): Conn
 export class Connecting implements State {
   readonly name = 'connecting lanes';
   readonly #from: LaneOfArm;
-  readonly #ways: readonly Connection[];
+  readonly #ways: readonly LaneConnection[];
   #to: LaneOfArm | null = null;
 
   constructor(

@@ -3,9 +3,9 @@ import type { FormatInfo } from '../../../net/types';
 import { TEXTS } from '../../../texts/files/formats';
 
 /** Purpose of an exported file. */
-export type Wish = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';
+export type ExportPurpose = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';
 
-export const WISHES: readonly (readonly [Wish, string])[] = [
+export const WISHES: readonly (readonly [ExportPurpose, string])[] = [
   ['again', TEXTS.keepEditing],
   ['simulate', TEXTS.testInASimulator],
   ['table', TEXTS.analyse],
@@ -16,7 +16,7 @@ export const WISHES: readonly (readonly [Wish, string])[] = [
 
 export interface OutFormat {
   readonly id: string;
-  readonly wish: Wish;
+  readonly wish: ExportPurpose;
   readonly label: string;
   readonly icon: string;
   /** One plain sentence about its use. */

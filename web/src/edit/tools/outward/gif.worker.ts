@@ -2,7 +2,7 @@
 import { GifWriter, paletteOf } from './gif';
 
 /** A picture; `null` ends the film. */
-export interface Picture {
+export interface FilmFrame {
   readonly rgba: Uint8ClampedArray;
   readonly width: number;
   readonly height: number;
@@ -11,7 +11,7 @@ export interface Picture {
 
 let writer: GifWriter | null = null;
 
-onmessage = ({ data }: MessageEvent<Picture | null>) => {
+onmessage = ({ data }: MessageEvent<FilmFrame | null>) => {
   if (!data) {
     postMessage(writer?.end() ?? null);
     return;

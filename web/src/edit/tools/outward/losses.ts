@@ -37,10 +37,10 @@ function notes(scene: Scene): string {
   return n ? TEXTS.namesAndTags(TEXTS.notes(n)) : TEXTS.namesAndTagsAlone;
 }
 
-type Words = readonly [what: string, how: string | ((scene: Scene) => string)];
+type LossWords = readonly [what: string, how: string | ((scene: Scene) => string)];
 
 /** The server's codes of losses, the worst first. */
-const WORDS: Record<string, Words> = {
+const WORDS: Record<string, LossWords> = {
   'no-road-users': [TEXTS.roadUsers, (s) => TEXTS.roadOnly(s.agents.size)],
   'no-map': [TEXTS.road, (s) => TEXTS.kerbsCrosswalks(TEXTS.lanes(s.map.lanes.size))],
   'no-signals': [

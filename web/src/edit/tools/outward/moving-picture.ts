@@ -2,7 +2,7 @@
 import { TEXTS } from '../../../texts/files/export';
 import type { Stage } from '../../../draw/stage';
 import type { Editor } from '../../session/editor';
-import type { Picture } from './gif.worker';
+import type { FilmFrame } from './gif.worker';
 
 const EVERY_S = 0.1;
 const HUNDREDTHS = 10;
@@ -37,7 +37,7 @@ export async function movingPicture(
 }
 
 /** The shown picture, in a size fit to send. */
-function taken(stage: Stage): Picture {
+function taken(stage: Stage): FilmFrame {
   const whole = document.createElement('canvas');
   stage.paintOn(whole, ['map', 'agents', 'overlay']);
   const scale = Math.min(1, MOST_WIDTH_PX / whole.width);
@@ -49,7 +49,7 @@ function taken(stage: Stage): Picture {
   return { rgba: g.getImageData(0, 0, width, height).data, width, height, hundredths: HUNDREDTHS };
 }
 
-function answer(worker: Worker, said: Picture | null, give: Transferable[]): Promise<unknown> {
+function answer(worker: Worker, said: FilmFrame | null, give: Transferable[]): Promise<unknown> {
   return new Promise((resolve, reject) => {
     worker.onmessage = (e) => resolve(e.data);
     worker.onerror = () => reject(new Error(TEXTS.notEncoded));

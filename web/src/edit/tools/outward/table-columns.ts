@@ -11,7 +11,7 @@ interface Unit {
 }
 
 /** A quantity to find in a table. */
-export interface Asked {
+export interface ColumnQuantity {
   readonly field: string;
   readonly label: string;
   readonly says: string;
@@ -28,7 +28,7 @@ const LENGTHS: readonly Unit[] = [
   { label: TEXTS.feet, unit: 'ft' },
 ];
 
-export const ASKED: readonly Asked[] = [
+export const ASKED: readonly ColumnQuantity[] = [
   {
     field: 'agent_id',
     label: TEXTS.roadUserColumn,
@@ -117,16 +117,16 @@ export const ASKED: readonly Asked[] = [
 ];
 
 /** The user's answer: the column, and the index of its unit. */
-export interface Answer {
+export interface ColumnChoice {
   readonly column: string | null;
   readonly unit: number;
 }
-export type Answers = Readonly<Record<string, Answer>>;
+export type ColumnChoices = Readonly<Record<string, ColumnChoice>>;
 
 /** Guesses from the column names; each column is used once. */
-export function guessed(columns: readonly string[]): Answers {
+export function guessed(columns: readonly string[]): ColumnChoices {
   const left = new Set(columns);
-  const all: Record<string, Answer> = {};
+  const all: Record<string, ColumnChoice> = {};
   for (const { field, names, units } of ASKED) {
     const column = [...left].find((n) => names.test(n) || names.test(spaced(n))) ?? null;
     if (column) left.delete(column);
@@ -163,10 +163,10 @@ function unitIn(column: string, units: readonly Unit[]): number {
   );
 }
 
-export const complete = (answers: Answers): boolean => ASKED.every((a) => !a.needed || answers[a.field]?.column);
+export const complete = (answers: ColumnChoices): boolean => ASKED.every((a) => !a.needed || answers[a.field]?.column);
 
 /** The answers in the form of the server. */
-export function toldColumns(answers: Answers): Record<string, unknown> {
+export function toldColumns(answers: ColumnChoices): Record<string, unknown> {
   const told: Record<string, unknown> = {};
   for (const { field, units } of ASKED) {
     const { column, unit } = answers[field] ?? { column: null, unit: 0 };

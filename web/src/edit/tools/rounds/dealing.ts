@@ -15,7 +15,7 @@ import type { Take } from '../../asking/take-maker';
 import type { OneHand, SceneHand } from './deck';
 import { TEXTS } from '../../../texts/editing/rounds';
 
-type Made<T> = Omit<T, 'print' | 'asked' | 'round'>;
+type HandContent<T> = Omit<T, 'print' | 'asked' | 'round'>;
 
 /** The cards of an answer; null where it has none. */
 export function handOf(
@@ -23,11 +23,11 @@ export function handOf(
   now: MotionSet,
   of: Subject,
   e: FinalEvent,
-): Made<OneHand> | Made<SceneHand> | null {
+): HandContent<OneHand> | HandContent<SceneHand> | null {
   return of.id === null ? scenes(scene, now, e) : futures(scene, of.id, e);
 }
 
-function futures(scene: Scene, id: string, e: FinalEvent): Made<OneHand> | null {
+function futures(scene: Scene, id: string, e: FinalEvent): HandContent<OneHand> | null {
   const a = scene.agents.get(id);
   const json = e.samples[0]?.agents[id];
   const start = a && json && firstPose(a, json);
@@ -38,15 +38,15 @@ function futures(scene: Scene, id: string, e: FinalEvent): Made<OneHand> | null 
 }
 
 /** Each sample is a separate scene. */
-function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
+function scenes(scene: Scene, now: MotionSet, e: FinalEvent): HandContent<SceneHand> {
   const asked = { agents: 'all', react: false, step: null } as const;
   const sets = e.samples.map((sample, i) => {
     const one = { ...e, samples: [sample], scores: e.scores ? [e.scores[i]] : undefined } as FinalEvent;
     return motionAfter(now, scene, one, asked, () => 'rank');
   });
   const state = stateOfVariant(scene, null);
-  const named = nameVariants(sets.map((set, i) => ({ id: i + 1, state, scene, set, events: readEvents(scene, set) })));
-  return { id: null, sets, names: named.map((name) => name.replace(/^Variant (\d)$/, 'Way $1')) };
+  const nameless = sets.map((set, i) => ({ id: i + 1, state, scene, set, events: readEvents(scene, set) }));
+  return { id: null, sets, names: nameVariants(nameless, undefined, TEXTS.sceneNumber) };
 }
 
 /** The document of a whole-scene card: all road users are drawn again, once more for each card. */

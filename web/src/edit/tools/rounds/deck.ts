@@ -1,18 +1,18 @@
 // The preference cards: six futures of one road user, or six alternatives of the whole scene, to be judged. No road
 // user follows them yet.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { answerTo, type Answer, type Asked, type Verdict } from '../../../model/document/feedback';
+import { answerTo, type CardVerdict, type RoundInputs, type Verdict } from '../../../model/document/feedback';
 import { everybody, oneSubject, type Subject } from '../../../model/document/feedback-commands';
 import type { Scene } from '../../../model/document/scene';
 import type { Cards } from '../../session/reading';
 import type { Futures, MotionSet } from '../../../model/document/futures';
 import type { RoundJson } from '../../../model/document/scene-json';
 
-interface Dealt {
+interface DealtHand {
   /** Identifies the inputs of the draw, and the document. */
   readonly print: string;
   /** The inputs of the draw. */
-  readonly asked: Asked;
+  readonly asked: RoundInputs;
   /** Traits of each card, in the order of the cards, and what was learned before them. */
   readonly round: RoundJson;
   /** Name of each. */
@@ -20,13 +20,13 @@ interface Dealt {
 }
 
 /** Futures of one road user, without reactions. */
-export interface OneHand extends Dealt {
+export interface OneHand extends DealtHand {
   readonly id: string;
   readonly futures: Futures;
 }
 
 /** Motions of all road users, by card. */
-export interface SceneHand extends Dealt {
+export interface SceneHand extends DealtHand {
   readonly id: null;
   readonly sets: readonly MotionSet[];
 }
@@ -65,7 +65,7 @@ export class Deck implements Cards {
     return a ? oneSubject(a) : null;
   });
   /** Verdict on each card; null where it is open. */
-  readonly said = computed<readonly (Answer | null)[]>(() => {
+  readonly said = computed<readonly (CardVerdict | null)[]>(() => {
     const hand = this.hand.value;
     const of = hand && this.subject.value;
     return of ? hand.round.cards.map((card) => answerTo(of.feedback, hand.asked, card)) : NONE;

@@ -6,8 +6,8 @@ import {
   hasNews,
   presentRound,
   sameTrait,
-  type Answer,
-  type Asked,
+  type CardVerdict,
+  type RoundInputs,
   type Verdict,
   type Wish,
 } from '../../../model/document/feedback';
@@ -24,7 +24,7 @@ import type { RequestBuilder, Wanted } from '../../asking/request-builder';
 import type { Deck, Hand } from './deck';
 import { handOf, sceneTaken } from './dealing';
 import type { Take } from '../../asking/take-maker';
-import type { Dealt } from '../variants/variants';
+import type { DealtScenes } from '../variants/variants';
 import { TEXTS } from '../../../texts/editing/rounds';
 
 /** A preference, as far as it is known. */
@@ -56,9 +56,9 @@ export class Rounds {
   /** Subject of the rounds; null while they are closed. */
   readonly subject: ReadonlySignal<Subject | null>;
   /** Inputs of the current round in the document; null while rounds are closed. */
-  readonly asked: ReadonlySignal<Asked | null>;
+  readonly asked: ReadonlySignal<RoundInputs | null>;
   /** Verdict on each card; null where it is open. */
-  readonly said: ReadonlySignal<readonly (Answer | null)[]>;
+  readonly said: ReadonlySignal<readonly (CardVerdict | null)[]>;
   readonly wished: ReadonlySignal<readonly Wished[]>;
   readonly mayGoOn: ReadonlySignal<boolean>;
   readonly isOpen: ReadonlySignal<boolean>;
@@ -213,7 +213,7 @@ export class Rounds {
   }
 
   /** The kept cards, each as the document after it is taken. */
-  kept(): Dealt | readonly Take[] | null {
+  kept(): DealtScenes | readonly Take[] | null {
     const [hand, scene] = [this.deck.hand.peek(), this.editor.scene.peek()];
     if (!hand || !scene || !this.#ready()) return null;
     const which = this.said.peek().flatMap((s, i) => (s?.verdict === 'keep' ? [i] : []));
@@ -223,7 +223,7 @@ export class Rounds {
     return { id: a.id, scenes, futures: hand.futures };
   }
 
-  #run(make: (a: Subject, asked: Asked) => Command | null): void {
+  #run(make: (a: Subject, asked: RoundInputs) => Command | null): void {
     const [a, asked] = [this.subject.peek(), this.asked.peek()];
     const command = a && asked && make(a, asked);
     if (command) this.editor.commits.run(command);
@@ -257,7 +257,7 @@ export class Rounds {
     this.generator.ask(question);
   }
 
-  #deal(text: string, of: Subject, asked: Asked, e: FinalEvent): void {
+  #deal(text: string, of: Subject, asked: RoundInputs, e: FinalEvent): void {
     const { deck } = this;
     const { scene } = this.editor;
     const { motion } = this.editor.answers;

@@ -14,7 +14,7 @@ import {
   timeOfStop,
 } from '../../../model/physics/speed-profile';
 import type { Path, Profile, SpeedPoint } from '../../../model/document/profile';
-import type { Way } from '../../../model/physics/curve-fit';
+import type { CurveRemedy } from '../../../model/physics/curve-fit';
 import { pointAt, project, type Pose, type Vec } from '../../../model/base/geometry';
 import { poseAt, type Motion } from '../../../model/base/motion';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../../../model/document/scene';
@@ -29,7 +29,7 @@ const THERE_M = 0.6;
 /** Least distance of a new point from others, seconds. */
 const ROOM_S = 0.4;
 /** Largest deceleration for an added stop, m/s². */
-const CALM_MPS2 = 3;
+const COMFORTABLE_MPS2 = 3;
 
 const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? 0);
 
@@ -184,8 +184,8 @@ export class SpeedCurve {
     const widest = gaps.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
     const middle = (widest.from + widest.to - (hold ?? 0)) / 2;
     // A stop without a chosen time is placed where comfortable braking suffices, if there is room.
-    const calm = widest.from + speedAt(motion, widest.from) / CALM_MPS2 + EASING_S;
-    const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(calm, widest.to - hold - ROOM_S));
+    const comfortable = widest.from + speedAt(motion, widest.from) / COMFORTABLE_MPS2 + EASING_S;
+    const t = here ? now : hold === null ? middle : Math.max(middle, Math.min(comfortable, widest.to - hold - ROOM_S));
     const v = hold === null ? speedAt(motion, t) : 0;
     this.add(t, v, hold ?? 0);
   }
@@ -214,7 +214,7 @@ export class SpeedCurve {
   }
 
   /** Shows the curve after a remedy; null shows the curve again. */
-  try(way: Way | null): void {
+  try(way: CurveRemedy | null): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
     const f = a && this.editor.answers.motion.peek().futures.get(a.id);
@@ -231,7 +231,7 @@ export class SpeedCurve {
   }
 
   /** Takes a remedy. */
-  accept(way: Way): void {
+  accept(way: CurveRemedy): void {
     const a = this.editor.agent.peek();
     const base = this.asked.peek();
     this.#tried.value = null;

@@ -2,7 +2,7 @@
 import { counted, worstOf } from '../../../model/physics/events';
 import { readEvents, type TrafficEvent } from '../../../model/words/event-words';
 import type { MotionSet } from '../../../model/document/futures';
-import { comparisonOf, type Comparison, type Side } from '../../../model/words/comparison';
+import { comparisonOf, type Comparison, type ComparedVariant } from '../../../model/words/comparison';
 import { sceneKey, type Agent, type Scene, type Variant, type VariantState } from '../../../model/document/scene';
 import { nameVariants } from '../../../model/words/variant-names';
 import type { SpeedUnit } from '../../../model/base/units';
@@ -30,10 +30,10 @@ export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet 
 export interface Compared {
   readonly left: WholeCard;
   readonly right: WholeCard;
-  readonly parting: Comparison;
+  readonly comparison: Comparison;
 }
 
-export type Filter = 'all' | 'events' | 'starred';
+export type VariantFilter = 'all' | 'events' | 'starred';
 
 export const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
 
@@ -59,13 +59,18 @@ export function cardsOf(
 export function comparedOf(cards: readonly Card[], pair: readonly [number, number] | null): Compared | null {
   const [left, right] = (pair ?? []).map((id) => cards.find((c) => c.id === id));
   if (!isWhole(left) || !isWhole(right)) return null;
-  const side = (c: WholeCard): Side => ({ label: String(c.id), scene: c.scene, set: c.set, events: c.events });
-  return { left, right, parting: comparisonOf(side(left), side(right)) };
+  const side = (c: WholeCard): ComparedVariant => ({
+    label: String(c.id),
+    scene: c.scene,
+    set: c.set,
+    events: c.events,
+  });
+  return { left, right, comparison: comparisonOf(side(left), side(right)) };
 }
 
 export const hasEvents = (c: Pick<Card, 'events'>): boolean => worstOf(counted(c.events)) !== null;
 
-export function filtered(cards: readonly Card[], filter: Filter): readonly Card[] {
+export function filtered(cards: readonly Card[], filter: VariantFilter): readonly Card[] {
   if (filter === 'events') return cards.filter(hasEvents);
   return filter === 'starred' ? cards.filter((c) => c.variant.starred) : cards;
 }

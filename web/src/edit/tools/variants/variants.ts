@@ -2,25 +2,13 @@
 // here, and computed again where missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../../model/document/commands';
-import { counted, worstOf } from '../../../model/physics/events';
-import { readEvents } from '../../../model/words/event-words';
-import { ideas, type Futures, type MotionSet } from '../../../model/document/futures';
+import type { Futures, MotionSet } from '../../../model/document/futures';
 import { sceneKey, touchedIn, type Agent, type Scene, type Variant } from '../../../model/document/scene';
-import {
-  countOf,
-  limitsOfSweep,
-  usualSweep,
-  valueOf,
-  valuesOf,
-  withValue,
-  type Over,
-  type Sweep,
-} from '../../../model/physics/sweep';
+import { countOf, valuesOf, withValue } from '../../../model/physics/sweep';
 import {
   keepAsVariant,
   keepStates,
   MOST_NEW,
-  MOST_VARIANTS,
   patchVariant,
   removeVariant,
   replaceVariants,
@@ -28,57 +16,19 @@ import {
   stateOfVariant,
   takeVariant,
 } from '../../../model/document/variants';
-import { Away, Refused } from '../../../net/client';
 import type { Editor } from '../../session/editor';
-import type { Diverging } from '../../../model/words/comparison';
-import {
-  cardsOf,
-  comparedOf,
-  filtered,
-  isWhole,
-  type Card,
-  type Compared,
-  type Filter,
-  type Pictured,
-  type WholeCard,
-} from './cards';
+import { cardsOf, filtered, isWhole, type Card, type VariantFilter, type WholeCard } from './cards';
+import { Comparing } from './comparing';
+import { begun, likeShown, nextSeed, reasonOf, withOne, withoutPick, type Making } from './making';
+import { SweptRange } from './swept-range';
 import { Maker, Stopped, subjectOf, type Take } from '../../asking/take-maker';
 import { TEXTS } from '../../../texts/editing/variants';
 
 /** Scope of an export: the scene itself, or several variants. */
-export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
-
-/** Progress of the making, and the events so far. */
-export interface Making {
-  /** Variants made so far. */
-  readonly made: readonly Pictured[];
-  readonly of: number;
-  /** Number without events, with a near miss or a rule violation, and with a collision. */
-  readonly clear: number;
-  readonly near: number;
-  readonly hit: number;
-  /** Estimated seconds left, from the first ones; null at the start. */
-  readonly left: number | null;
-}
-
-const begun = (of: number): Making => ({ made: [], of, clear: 0, near: 0, hit: 0, left: null });
-
-function withOne(m: Making, { scene, set }: Take, subject: string | null, tookS: number): Making {
-  const events = readEvents(scene, set);
-  const worst = worstOf(counted(events));
-  const made = [...m.made, { scene, set, events, state: { subject } }];
-  return {
-    ...m,
-    made,
-    clear: m.clear + Number(worst === null),
-    hit: m.hit + Number(worst === 'collision'),
-    near: m.near + Number(worst !== null && worst !== 'collision'),
-    left: (tookS / made.length) * (m.of - made.length),
-  };
-}
+export type VariantScope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
 /** Result of making variants. */
-interface Made {
+interface MakingResult {
   readonly subject: string | null;
   readonly why: string | null;
   readonly wanted: number;
@@ -93,7 +43,7 @@ const KEPT = { card: TEXTS.cardsKept, case: TEXTS.casesKept, present: () => TEXT
 const NONE: readonly Card[] = Object.freeze([]);
 
 /** Cards of a round, each as the document after it is taken. */
-export interface Dealt {
+export interface DealtScenes {
   readonly id: string;
   readonly scenes: readonly Scene[];
   readonly futures: Futures;
@@ -102,15 +52,12 @@ export interface Dealt {
 export class Variants {
   readonly #open = signal(false);
   readonly #count = signal(USUAL_COUNT);
-  readonly #filter = signal<Filter>('all');
+  readonly #filter = signal<VariantFilter>('all');
   readonly #current = signal<number | null>(null);
   readonly #renaming = signal<number | null>(null);
-  readonly #pair = signal<readonly [number, number] | null>(null);
-  readonly #picked = signal<number | null>(null);
-  readonly #scope = signal<Scope>('present');
+  readonly #scope = signal<VariantScope>('present');
   readonly #making = signal<Making | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
-  readonly #sweep = signal<Sweep | null>(null);
   readonly #paused = signal(false);
   /** Increases with every stop. */
   #turn = 0;
@@ -119,25 +66,24 @@ export class Variants {
   readonly open: ReadonlySignal<boolean> = this.#open;
   /** Number to make at once. */
   readonly count: ReadonlySignal<number> = this.#count;
-  readonly filter: ReadonlySignal<Filter> = this.#filter;
+  readonly filter: ReadonlySignal<VariantFilter> = this.#filter;
   /** Id of the card being renamed. */
   readonly renaming: ReadonlySignal<number | null> = this.#renaming;
-  /** The two compared variants, the left one first. */
-  readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
-  /** The first of two variants to compare. */
-  readonly picked: ReadonlySignal<number | null> = this.#picked;
-  readonly scope: ReadonlySignal<Scope> = this.#scope;
+  readonly scope: ReadonlySignal<VariantScope> = this.#scope;
   readonly making: ReadonlySignal<Making | null> = this.#making;
-  /** The swept range of a number; null where new variants differ by seed. */
-  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
   /** Is the making paused? */
   readonly paused: ReadonlySignal<boolean> = this.#paused;
   /** Subject of new variants; null for all road users. */
   readonly subject: ReadonlySignal<Agent | null>;
   /** Number of requested new variants. */
-  readonly wanted = computed(() => (this.#sweep.value ? countOf(this.#sweep.value) : this.#count.value));
-  /** Why the range cannot be swept; null where it can. */
-  readonly obstacle: ReadonlySignal<string | null>;
+  readonly wanted = computed(() => {
+    const sweep = this.range.sweep.value;
+    return sweep ? countOf(sweep) : this.#count.value;
+  });
+  /** The range of a number that new variants sweep. */
+  readonly range: SweptRange;
+  /** Two variants side by side. */
+  readonly comparing: Comparing;
   /** Is a variant being computed? */
   readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
   readonly cards: ReadonlySignal<readonly Card[]>;
@@ -146,15 +92,6 @@ export class Variants {
   readonly shown: ReadonlySignal<number | null>;
   /** Id of the card that keys act on: the focused one, else the shown one. */
   readonly current: ReadonlySignal<number | null>;
-
-  readonly #followed = signal<string | null>(null);
-  /** The road user whose speeds are compared: the picked one, else the one with the largest distance. */
-  readonly followed = computed<Diverging | null>(() => {
-    const parted = this.compared.value?.parting.parted ?? [];
-    return parted.find((p) => p.agent.id === this.#followed.value) ?? parted.at(0) ?? null;
-  });
-  /** The two compared variants, and their differences. */
-  readonly compared: ReadonlySignal<Compared | null>;
 
   constructor(
     private readonly editor: Editor,
@@ -176,7 +113,7 @@ export class Variants {
       const id = subjectOf(editor);
       return id === null ? null : (editor.scene.value?.agents.get(id) ?? null);
     });
-    this.obstacle = computed(() => this.#obstacleOf(this.#sweep.value));
+    this.range = new SweptRange(editor, this.subject);
     this.filtered = computed(() => filtered(this.cards.value, this.#filter.value));
     const key = computed(() => {
       const scene = editor.drag.active.value ? null : editor.resting.value;
@@ -190,17 +127,7 @@ export class Variants {
       const id = this.#current.value;
       return id !== null && this.cards.value.some((c) => c.id === id) ? id : this.shown.value;
     });
-    this.compared = computed(() => comparedOf(this.cards.value, this.#pair.value));
-    effect(() => {
-      const now = this.compared.value;
-      const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
-      editor.view.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
-    });
-    // A change of the scene ends the comparison: the scene is none of the two any more.
-    effect(() => {
-      const left = this.#pair.value?.[0];
-      if (left !== undefined && !editor.drag.active.value && this.shown.value !== left) this.endCompare();
-    });
+    this.comparing = new Comparing(editor, this);
     let scene = '';
     effect(() => {
       const now = editor.resting.value?.id ?? '';
@@ -222,47 +149,18 @@ export class Variants {
   show(open: boolean): void {
     batch(() => {
       this.#open.value = open;
-      this.#renaming.value = this.#picked.value = null;
-      if (!open) this.endCompare();
+      this.#renaming.value = null;
+      this.comparing.unpick();
+      if (!open) this.comparing.end();
     });
     if (!open) this.stop();
-  }
-
-  follow(agent: string): void {
-    this.#followed.value = agent;
   }
 
   setCount(n: number): void {
     this.#count.value = Math.min(MOST_NEW, Math.max(1, Math.round(n)));
   }
 
-  /** New variants sweep a range of a number; null: they differ by seed. */
-  sweepOver(over: Over | null): void {
-    const scene = this.editor.scene.peek();
-    const a = this.subject.peek();
-    this.#sweep.value = over && scene && a ? usualSweep(a, scene, over, this.editor.view.unitOf(a)) : null;
-  }
-
-  setSweep(patch: Partial<Omit<Sweep, 'over'>>): void {
-    const now = this.#sweep.peek();
-    if (now) this.#sweep.value = Object.freeze({ ...now, ...patch });
-  }
-
-  #obstacleOf(sweep: Sweep | null): string | null {
-    const a = this.subject.value;
-    const scene = this.editor.scene.value;
-    if (!sweep || !scene) return null;
-    if (!a) return TEXTS.selectToVary;
-    if (sweep.over === 'time' && valueOf(a, 'time') === null) return TEXTS.hasNoGoalYet(a.name);
-    const [least, most] = limitsOfSweep(a, scene, sweep.over);
-    const beyond = (v: number): boolean => v < least - 1e-6 || v > most + 1e-6;
-    if (beyond(sweep.from) || beyond(sweep.to)) return TEXTS.exceedsLimits(a.name);
-    const room = MOST_VARIANTS - scene.variants.filter((v) => v.kept || v.starred).length;
-    const n = countOf(sweep);
-    return n > room ? TEXTS.valuesThereIs(n, room) : null;
-  }
-
-  setFilter(filter: Filter): void {
+  setFilter(filter: VariantFilter): void {
     this.#filter.value = filter;
   }
 
@@ -283,8 +181,8 @@ export class Variants {
     this.stop();
     const turn = this.#turn;
     const subject = subjectOf(editor);
-    const sweep = this.#sweep.peek();
-    const obstacle = this.obstacle.peek();
+    const sweep = this.range.sweep.peek();
+    const obstacle = this.range.obstacle.peek();
     if (sweep && obstacle) return editor.notices.show({ text: obstacle });
     const open = withoutPick(scene, subject);
     const values =
@@ -310,7 +208,7 @@ export class Variants {
     let why: string | null = null;
     const from = performance.now();
     batch(() => {
-      this.endCompare();
+      this.comparing.end();
       this.#open.value = true;
       this.#making.value = begun(of);
     });
@@ -345,7 +243,7 @@ export class Variants {
     });
   }
 
-  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: Made): void {
+  #put(takes: readonly Take[], { subject, why, wanted, stopped, ranged }: MakingResult): void {
     const { editor } = this;
     const { notices } = editor;
     const now = editor.scene.peek()!;
@@ -415,10 +313,10 @@ export class Variants {
     batch(() => {
       this.stop();
       this.#sets.value = new Map();
-      this.#pair.value = null;
-      this.#picked.value = this.#current.value = this.#renaming.value = null;
+      this.comparing.end();
+      this.#current.value = this.#renaming.value = null;
       this.#filter.value = 'all';
-      this.#sweep.value = null;
+      this.range.over(null);
     });
   }
 
@@ -466,8 +364,8 @@ export class Variants {
   }
 
   /** Variants within an export scope that have all their data. */
-  within(scope: Scope): readonly WholeCard[] {
-    const pair = this.#pair.value;
+  within(scope: VariantScope): readonly WholeCard[] {
+    const pair = this.comparing.pair.value;
     return this.cards.value.filter(isWhole).filter((c) => {
       if (scope === 'kept') return c.variant.kept;
       if (scope === 'starred') return c.variant.starred;
@@ -480,7 +378,7 @@ export class Variants {
     this.setScope(this.within('kept').length ? 'kept' : 'all');
   }
 
-  setScope(scope: Scope): void {
+  setScope(scope: VariantScope): void {
     this.#scope.value = scope;
   }
 
@@ -507,7 +405,7 @@ export class Variants {
   }
 
   /** Adds the futures of a round to the variants, kept, each with the others' reactions. */
-  async keepDealt({ id, scenes, futures }: Dealt): Promise<void> {
+  async keepDealt({ id, scenes, futures }: DealtScenes): Promise<void> {
     const { editor } = this;
     if (!scenes.length || this.#refusedLock()) return;
     this.stop();
@@ -527,7 +425,7 @@ export class Variants {
     if (!takes.length || this.#refusedLock()) return;
     batch(() => {
       this.stop();
-      this.endCompare();
+      this.comparing.end();
       this.#open.value = true;
     });
     this.#join(takes, subject, what, starred);
@@ -557,87 +455,4 @@ export class Variants {
     const { patch, name } = make(card.variant, card.name);
     this.editor.commits.run(patchVariant(scene, id, patch, name));
   }
-
-  // -------------------------------------------------------------- two variants
-
-  /**
-   * Compares with the picked variant, otherwise with the shown one; without either, this one is picked. If exactly two
-   * are kept, each is compared with the other at once.
-   */
-  compareWith(id: number): void {
-    const first = this.#picked.peek() ?? this.shown.peek();
-    const kept = this.within('kept').map((c) => c.id);
-    if (this.#picked.peek() === null && kept.length === 2 && kept.includes(id)) {
-      this.compare(kept[0], kept[1]);
-      return;
-    }
-    if (first === null || first === id) {
-      const taken = this.#picked.peek() !== id;
-      this.#picked.value = taken ? id : null;
-      if (taken) this.editor.notices.show({ text: TEXTS.selectASecond(id) });
-      return;
-    }
-    this.compare(first, id);
-  }
-
-  compare(left: number, right: number): void {
-    if (left === right || !this.card(left)?.set || !this.card(right)?.set) return;
-    this.take(left);
-    if (this.shown.peek() !== left) return;
-    batch(() => {
-      this.#picked.value = null;
-      this.#pair.value = [left, right];
-    });
-    const moment = this.compared.peek()?.parting.moments[0];
-    this.editor.notices.say(
-      moment ? TEXTS.variantsDiffer(left, right, moment.words) : TEXTS.variantsAreIdentical(left, right),
-    );
-  }
-
-  swapSides(): void {
-    const pair = this.#pair.peek();
-    if (pair) this.compare(pair[1], pair[0]);
-  }
-
-  endCompare(): void {
-    batch(() => {
-      this.#pair.value = null;
-      this.#picked.value = null;
-    });
-  }
-}
-
-/** The take that picks the shown future of the subject; -1 for none. */
-function likeShown(now: MotionSet, takes: readonly Take[], subject: string): number {
-  const picked = (set: MotionSet, index: number | null): string | undefined => {
-    const f = set.futures.get(subject);
-    return f && ideas(f.modes)[index ?? f.chosen];
-  };
-  const shown = picked(now, null);
-  return takes.findIndex((t) => picked(t.set, t.scene.agents.get(subject)?.chosen ?? null) === shown);
-}
-
-/** Clears the pick of the subject: the variants pick for it. */
-function withoutPick(scene: Scene, subject: string | null): Scene {
-  const a = subject === null ? undefined : scene.agents.get(subject);
-  if (!a || a.chosen === null) return scene;
-  const agents = new Map(scene.agents).set(a.id, Object.freeze({ ...a, chosen: null }));
-  return Object.freeze({ ...scene, agents });
-}
-
-/**
- * The seed of the first new variant. New ones continue after the seeds of present ones. With one subject the same
- * futures answer the same request, so the document's own seed is used.
- */
-function nextSeed(scene: Scene, subject: string | null): number {
-  const used = scene.variants.map((v) => scene.variantStates[v.id]).filter((s) => s.subject === subject);
-  if (!used.some((s) => s.seed === scene.seed)) return scene.seed;
-  return (Math.max(...used.map((s) => s.seed)) + 1) % Number.MAX_SAFE_INTEGER;
-}
-
-function reasonOf(e: unknown): string | null {
-  if (e instanceof Stopped) return null;
-  if (e instanceof Refused) return e.message;
-  if (e instanceof Away) return TEXTS.theGeneratorIs;
-  throw e;
 }

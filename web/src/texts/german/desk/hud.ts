@@ -9,10 +9,10 @@ export const german: Said<typeof TEXTS> = {
   copyDetails: 'Details kopieren',
   keepEditingChanges: (waiting) =>
     plural(waiting, {
-      one: `Weiterarbeiten geht: ${waiting} Änderung wartet und ist auf diesem Rechner gesichert.`,
-      other: `Weiterarbeiten geht: ${waiting} Änderungen warten und sind auf diesem Rechner gesichert.`,
+      one: `Weiterarbeiten ist möglich: ${waiting} Änderung wartet und ist auf diesem Rechner gesichert.`,
+      other: `Weiterarbeiten ist möglich: ${waiting} Änderungen warten und sind auf diesem Rechner gesichert.`,
     }),
-  keepEditingChangesWill: 'Weiterarbeiten geht: Änderungen werden auf diesem Rechner gesichert.',
+  keepEditingChangesWill: 'Weiterarbeiten ist möglich: Änderungen werden auf diesem Rechner gesichert.',
   tryingAgainIn: (changes: string) => `${changes} Neuer Versuch in`,
   theGenerator: 'Der Generator antwortet nicht. Nichts ist verloren.',
   tryNow: 'Jetzt versuchen',
@@ -22,7 +22,7 @@ export const german: Said<typeof TEXTS> = {
   openTheOther: 'Andere Version öffnen',
   thisSceneWasDeleted: 'Diese Szene wurde anderswo gelöscht.',
   itIsMadeAgain: '„Diese Version behalten“ sichert die Szene neu.',
-  youCanLookPlay: 'Ansehen, abspielen und auswählen geht.',
+  youCanLookPlay: 'Ansehen, Abspielen und Auswählen sind möglich.',
   exportTheScene: 'Die Szene exportieren oder die Schritte anderer gesicherter Szenen löschen.',
   stepsOfOther: (n) =>
     plural(n, {
@@ -81,7 +81,7 @@ export const german: Said<typeof TEXTS> = {
   firstGuess: (after: string) => `Erster Entwurf · ${after}`,
   computingFutures: 'Berechnet Zukünfte …',
   loadingTheScene: 'Lädt die Szene …',
-  youCanKeepDragging: ' Weiterziehen geht.',
+  youCanKeepDragging: ' Weiterziehen ist möglich.',
   thisTakesLonger: (s: string, keep: string) => `Das dauert länger als sonst (${s} s).${keep}`,
   generatorOfflineWaiting: (n: number) =>
     plural(n, { one: `Generator offline · ${n} Änderung wartet`, other: `Generator offline · ${n} Änderungen warten` }),

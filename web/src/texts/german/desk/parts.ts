@@ -12,10 +12,10 @@ export const german: Said<typeof TEXTS> = {
   resultCode: 'Ergebniscode',
   howFarTheSix: 'Wie verschieden die sechs Zukünfte sein dürfen',
   react: 'Reagieren',
-  replayLog: 'Wiedergabe',
+  replayLog: 'Aufzeichnung',
   continueAsNow: 'Weiter',
   holdStill: 'Stehen',
   allReactOnRelease: 'Alle reagieren beim Loslassen; gesetzte Ziele werden weiterhin erreicht.',
-  recordedReplay: 'Aufgezeichnete fahren wie aufgezeichnet; eingesetzte fahren unverändert weiter.',
+  recordedReplay: 'Aufgezeichnete folgen der Aufzeichnung; eingesetzte bewegen sich unverändert weiter.',
   othersHoldStill: 'Andere bleiben am Start stehen; niemand kommt hinzu.',
 };

@@ -23,7 +23,7 @@ export const german: Said<typeof TEXTS> = {
   lastSessionRestored: 'Die Änderungen der letzten Sitzung sind wiederhergestellt.',
   thisSceneIsOpen: 'Diese Szene ist in einem anderen Tab offen und hier schreibgeschützt.',
   editHere: 'Hier bearbeiten',
-  theOtherVersion: 'Andere Fassung geladen',
+  theOtherVersion: 'Andere Version geladen',
   mapAdded: (free) => `„${free}“: Karte angelegt. Änderungen werden automatisch gesichert.`,
   newScene: 'Neue Szene',
   noRoadUsersYet: (name: string) => `„${name}“: noch ohne Verkehrsteilnehmer. Änderungen werden automatisch gesichert.`,

@@ -15,4 +15,5 @@ export const german: Said<typeof TEXTS> = {
       other: `Runde ${round}: ${count} Zukünfte. A: ${name}.`,
     }),
   all: 'alle',
+  sceneNumber: (n) => `Szene ${n}`,
 };

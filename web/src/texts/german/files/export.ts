@@ -54,7 +54,7 @@ export const german: Said<typeof TEXTS> = {
   video: 'Video',
   videoNames: 'Film, Clip, Movie, Bildschirmaufnahme, mp4, webm, Animation',
   sAt30Fps: (duration) => `${duration} s, 30 Bilder/s`,
-  theOriginIsThat: 'Der Ursprung ist der der Szene.',
+  theOriginIsThat: 'Es gilt der Ursprung der Szene.',
   notEncoded: 'Das Bild ließ sich nicht kodieren.',
   theRecording: 'der Aufzeichnung',
   originIsAt: (x_m, y_m, crs) => `Der Ursprung liegt bei ${x_m}; ${y_m} m (${crs}).`,

@@ -3,11 +3,13 @@ import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  aPdf: 'ein PDF',
-  aZipArchive: 'ein ZIP-Archiv',
-  aCadDrawingDwg: 'eine CAD-Zeichnung (DWG)',
-  aPicture: 'ein Bild',
-  anOfficeDocument: 'ein Office-Dokument',
+  foreign: {
+    pdf: { name: 'PDF', inSentence: 'ein PDF' },
+    zip: { name: 'ZIP-Archiv', inSentence: 'ein ZIP-Archiv' },
+    drawing: { name: 'CAD-Zeichnung (DWG)', inSentence: 'eine CAD-Zeichnung (DWG)' },
+    picture: { name: 'Bild', inSentence: 'ein Bild' },
+    office: { name: 'Office-Dokument', inSentence: 'ein Office-Dokument' },
+  },
   savedScene: 'gesicherte Szene',
   scenarioRecord: 'Szenario-Datensatz',
   reading: (name) => `Liest ${name} …`,

@@ -61,8 +61,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'futures-unread': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} mögliche Bewegung ist leer, unmöglich oder über der Grenze und entfällt`,
-        other: `${v.count} mögliche Bewegungen sind leer, unmöglich oder über der Grenze und entfallen`,
+        one: `${v.count} Zukunft ist leer, unmöglich oder über der Grenze und entfällt`,
+        other: `${v.count} Zukünfte sind leer, unmöglich oder über der Grenze und entfallen`,
       }),
     'goals-beyond-first': (v: Values) =>
       plural(Number(v.count), {
@@ -194,7 +194,7 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} von ${v.most} Verläufen der Challenge: erst so viele Varianten erzeugen`,
         other: `${v.count} von ${v.most} Verläufen der Challenge: erst so viele Varianten erzeugen`,
       }),
-    'loss-single-precision': (v: Values) => `Zahlen sind einfach genau: bis ${v.off_um} µm daneben`,
+    'loss-single-precision': (v: Values) => `Zahlen in einfacher Genauigkeit: Abweichung bis ${v.off_um} µm`,
     'loss-steps-over-room': (v: Values) =>
       `Zustände mehr als ${v.past} Schritte vor dem aktuellen oder ${v.future} danach`,
     'loss-users-off-lanes': (v: Values) =>
@@ -239,8 +239,8 @@ export const german: Said<typeof SENTENCES> = {
     'parts-left-out': (v: Values) => `Entfallen: ${v.parts}`,
     'passengers-left-out': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Container oder Fahrgast entfällt bisher`,
-        other: `${v.count} Container und Fahrgäste entfallen bisher`,
+        one: `${v.count} Container oder Fahrgast entfällt`,
+        other: `${v.count} Container und Fahrgäste entfallen`,
       }),
     'points-out-of-range': (v: Values) =>
       plural(Number(v.count), {
@@ -256,8 +256,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'shapes-boxed': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Hindernis ist kein Rechteck: Genommen wird ein Rechteck um es`,
-        other: `${v.count} Hindernisse sind keine Rechtecke: Genommen werden Rechtecke um sie`,
+        one: `${v.count} Hindernis ist kein Rechteck: Verwendet wird das umschließende Rechteck`,
+        other: `${v.count} Hindernisse sind keine Rechtecke: Verwendet werden die umschließenden Rechtecke`,
       }),
     'signal-links-unprogrammed': (v: Values) =>
       plural(Number(v.count), {

@@ -6,25 +6,46 @@ export const german: Said<typeof SENTENCES> = {
   inLine: (line, sentence) => `Zeile ${line}: ${sentence}`,
   lists: { kind: { vehicle: 'dieses Fahrzeug', cyclist: 'dieses Fahrrad', pedestrian: 'diese Person' } },
   sentences: {
-    'goal-too-far': (v: Values) =>
-      `Zu weit für ${v.time_s}. Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} kommt ${v.kind} aus ${v.start_mps} höchstens ${v.most_m} weit.`,
-    'goal-too-fast': (v: Values) =>
-      `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
-    'goal-above-top-speed': (v: Values) =>
-      `Schneller, als ${v.kind} fahren oder gehen kann.${v.need_mps && ` Nötig wären ${v.need_mps}.`}`,
-    'goal-too-near': (v: Values) =>
-      `Anhalten ist so früh nicht möglich. Der Bremsweg aus ${v.start_mps} beträgt ${v.least_m}, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
-    'goal-too-slow': (v: Values) =>
-      `So starkes Bremsen ist in ${v.time_s} nicht möglich.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
-    'goal-too-tight': (v: Values) => `Zu eng bei diesem Tempo.${v.need_mps2 && ` Nötig wären quer ${v.need_mps2}.`}`,
-    'goal-turn-too-tight': (v: Values) => `Die Kurve ist für ${v.kind} zu eng.`,
-    'goal-blocked': (v: Values) =>
-      `Im Weg für ${v.kind}: Verkehrsteilnehmer ${v.agent}. Der Halt liegt ${v.short_m} vor dem Ziel.`,
-    'goal-blocked-by-traffic': (v: Values) =>
-      `Im Weg für ${v.kind}: ein anderer Verkehrsteilnehmer. Der Halt liegt ${v.short_m} vor dem Ziel.`,
-    'goal-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um das Ziel ist keine Spur.`,
-    'goal-beyond-top-speed': (v: Values) =>
-      `${v.goal_m} in ${v.time_s} ist mehr als mit Höchstgeschwindigkeit möglich.`,
+    'goal-too-far': {
+      title: (v: Values) => `Zu weit für ${v.time_s}`,
+      rest: (v: Values) =>
+        `Das Ziel ist ${v.goal_m} entfernt. In ${v.time_s} kommt ${v.kind} aus ${v.start_mps} höchstens ${v.most_m} weit.`,
+    },
+    'goal-too-fast': {
+      title: (v: Values) => `So starkes Beschleunigen ist in ${v.time_s} aus ${v.start_mps} nicht möglich`,
+      rest: (v: Values) => (v.need_mps2 ? `Nötig wären ${v.need_mps2}.` : ''),
+    },
+    'goal-above-top-speed': {
+      title: (v: Values) => `Schneller, als ${v.kind} fahren oder gehen kann`,
+      rest: (v: Values) => (v.need_mps ? `Nötig wären ${v.need_mps}.` : ''),
+    },
+    'goal-too-near': {
+      title: () => 'Anhalten ist so früh nicht möglich',
+      rest: (v: Values) =>
+        `Der Bremsweg aus ${v.start_mps} beträgt ${v.least_m}, das Ziel ist ${v.goal_m} entfernt.${v.need_mps2 && ` Nötig wären ${v.need_mps2}.`}`,
+    },
+    'goal-too-slow': {
+      title: (v: Values) => `So starkes Bremsen ist in ${v.time_s} nicht möglich`,
+      rest: (v: Values) => (v.need_mps2 ? `Nötig wären ${v.need_mps2}.` : ''),
+    },
+    'goal-too-tight': {
+      title: () => 'Zu eng bei diesem Tempo',
+      rest: (v: Values) => (v.need_mps2 ? `Nötig wären quer ${v.need_mps2}.` : ''),
+    },
+    'goal-turn-too-tight': { title: (v: Values) => `Die Kurve ist für ${v.kind} zu eng`, rest: '' },
+    'goal-blocked': {
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist im Weg für ${v.kind}`,
+      rest: (v: Values) => `Der Halt liegt ${v.short_m} vor dem Ziel.`,
+    },
+    'goal-blocked-by-traffic': {
+      title: (v: Values) => `Ein anderer Verkehrsteilnehmer ist im Weg für ${v.kind}`,
+      rest: (v: Values) => `Der Halt liegt ${v.short_m} vor dem Ziel.`,
+    },
+    'goal-off-road': { title: (v: Values) => `Im Umkreis von ${v.within_m} um das Ziel ist keine Spur`, rest: '' },
+    'goal-beyond-top-speed': {
+      title: (v: Values) => `${v.goal_m} in ${v.time_s} ist mehr als mit Höchstgeschwindigkeit möglich`,
+      rest: '',
+    },
     'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,
     'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,
     'via-missed': (v: Values) =>

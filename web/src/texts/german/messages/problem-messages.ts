@@ -7,7 +7,7 @@ export const german: Said<typeof SENTENCES> = {
   sentences: {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
     'not-asked': (v: Values) =>
-      `Verkehrsteilnehmer „${v.id}“ fehlt in agents: dort ergänzen oder diese Bedingung weglassen`,
+      `Verkehrsteilnehmer „${v.id}“ fehlt in agents: dort ergänzen oder diese Vorgabe weglassen`,
     'no-agents-named':
       '„all“ oder mindestens eine Kennung wird erwartet, oder mindestens ein Verkehrsteilnehmer, der reagiert',
     'too-many-regenerated': (v: Values) =>
@@ -24,7 +24,7 @@ export const german: Said<typeof SENTENCES> = {
     'no-network': (v: Values) => `Eine Datei im Format ${v.format} kommt ohne Netz`,
     'no-columns': (v: Values) => `Eine Datei im Format ${v.format} hat keine Spalten zu benennen`,
     'unknown-format': (v: Values) => `Kein Format heißt „${v.format}“; es gibt ${v.formats}.`,
-    defect: 'Der Server hat einen Fehler. Mehr steht in seinem Protokoll.',
+    defect: 'Im Server ist ein Fehler aufgetreten. Mehr steht in seinem Protokoll.',
     'exactly-one': (v: Values) => `Nötig ist genau eines von ${v.first} und ${v.second}`,
     'share-sum': (v: Values) => `Die Summe der Anteile ist ${v.sum}; erwartet: 1`,
     'empty-map': 'Die Karte ist leer: Sie hat keinen Platz für einen Bereich',

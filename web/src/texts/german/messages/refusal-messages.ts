@@ -16,10 +16,10 @@ export const german: Said<typeof SENTENCES> = {
     outside: (v: Values) => `Gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
     'state-expected': (v: Values) => `Zustand ${v.step}: erwartet: ${v.expected}`,
     'track-beyond-scene': (v: Values) => `Die Trajektorie endet nach Schritt ${v.end}, die Szene hat ${v.steps}`,
-    'both-or-neither': (v: Values) => `${v.first} ist festgelegt, ${v.second} nicht; legen Sie beide oder keines fest`,
+    'both-or-neither': (v: Values) => `${v.first} ist festgelegt, ${v.second} nicht; beide oder keines festlegen`,
     'cannot-decompress': (v: Values) => `Nicht zu entpacken oder zu lesen: ${v.words}`,
     'challenge-start': (v: Values) =>
-      `Die Challenge beginnt bei Schritt ${v.begin} (1,0 s), diese Szene bei Schritt ${v.found} (${v.found_s}): Erzeugen Sie die Zukünfte mit --start-time 1.0`,
+      `Die Challenge beginnt bei Schritt ${v.begin} (1,0 s), diese Szene bei Schritt ${v.found} (${v.found_s}): Zukünfte mit --start-time 1.0 erzeugen`,
     'checksum-differs': (v: Values) => `Die Prüfsumme ${v.what} stimmt nicht`,
     contradiction: (v: Values) => `Nicht als ${v.format} lesbar: Die Datei widerspricht sich`,
     'element-lacks-attribute': (v: Values) => `<${v.element}> hat kein Attribut „${v.attribute}“`,
@@ -34,22 +34,22 @@ export const german: Said<typeof SENTENCES> = {
     'index-beyond': (v: Values) => `Gefunden: ${v.index}; erwartet: eine Zahl ab 0 und unter ${v.below}`,
     'inflates-too-much': (v: Values) => `Entpackt mehr als ${v.most}-mal so groß`,
     'lane-outside': (v: Values) =>
-      `Fahrstreifen „${v.lane}“, ${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+      `Spur „${v.lane}“, ${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
     'lanelets-in-extract': 'Die Datei hat Lanelets: eine Lanelet2-Karte, die als lanelet2 gelesen wird',
     'map-too-wide': (v: Values) => `${v.width_m} x ${v.height_m}; eine Karte reicht bis ${v.most_m} um ihre Mitte`,
     needs: (v: Values) => `${v.what} braucht: ${v.expected}`,
     'nested-deeper': (v: Values) => `Tiefer als ${v.most} Ebenen verschachtelt`,
     'netconvert-failed': (v: Values) => `netconvert konnte aus der Datei kein Netz machen: ${v.words}`,
     'netconvert-missing':
-      'Ein OpenStreetMap-Auszug wird mit netconvert von SUMO gelesen, das hier fehlt: Installieren Sie es mit `pip install eclipse-sumo` und starten Sie neu',
+      'Ein OpenStreetMap-Auszug wird mit netconvert von SUMO gelesen, das hier fehlt: mit `pip install eclipse-sumo` installieren und neu starten',
     'network-too-large': (v: Values) =>
-      `Mehr als ${v.most} ${v.what}; schneiden Sie mit netconvert --keep-edges.in-boundary einen Teil aus`,
+      `Mehr als ${v.most} ${v.what}; mit netconvert --keep-edges.in-boundary einen Teil ausschneiden`,
     'no-column': (v: Values) => `Keine Spalte „${v.column}“; vorhanden sind ${v.columns}`,
     'no-lanelets': 'Keine Lanelets: Ein OpenStreetMap-Auszug wird als osm gelesen',
     'no-open-lanelets':
       'Keine Lanelets mit zwei Seiten, die ein Verkehrsteilnehmer befahren darf: Subtypen und Teilnehmer entscheiden',
-    'no-roads-with-lanes': (v: Values) => `Keine Straßen mit Fahrstreifen: ${v.words}`,
-    'not-both': (v: Values) => `Geben Sie ${v.first} oder ${v.second} an, nicht beide`,
+    'no-roads-with-lanes': (v: Values) => `Keine Straßen mit Spuren: ${v.words}`,
+    'not-both': (v: Values) => `Nur ${v.first} oder ${v.second} angeben, nicht beide`,
     'not-read': (v: Values) => `${v.what} wird nicht gelesen`,
     'not-utf8': (v: Values) => `Kein UTF-8 in ${v.what}`,
     'one-of': (v: Values) => `Erwartet: eines von ${v.list}`,
@@ -65,19 +65,19 @@ export const german: Said<typeof SENTENCES> = {
     'pickle-holds': (v: Values) =>
       `Byte ${v.byte}: gefunden: ${v.what}; gelesen werden Zahlen, Texte, Listen und Arrays`,
     'positions-over-limit': (v: Values) =>
-      `Mehr als ${v.most} ${v.what} in ${v.within_s}; zeichnen Sie weniger auf (fcd-output.filter-edges.input-file, device.fcd.probability)`,
+      `Mehr als ${v.most} ${v.what} in ${v.within_s}: weniger aufzeichnen (fcd-output.filter-edges.input-file, device.fcd.probability)`,
     'range-outside': (v: Values) => `${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
     'road-over-limit': (v: Values) => `Straße „${v.road}“ hat ${v.records} Einträge, zu viele für ihre Länge`,
     'roads-over-memory': (v: Values) =>
-      `${v.lanes_m} Fahrstreifen und ${v.elements} Elemente brauchen mehr Speicher, als eine Datei dieser Größe darf`,
-    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km; schneiden Sie einige Kilometer aus`,
+      `${v.lanes_m} Spuren und ${v.elements} Elemente brauchen mehr Speicher, als eine Datei dieser Größe darf`,
+    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km: einige Kilometer ausschneiden`,
     'too-far-from-start': (v: Values) => `${v.what} liegt ${v.distance_m} vom Start, höchstens ${v.most_m} erwartet`,
     'unequal-columns': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Wert, erwartet werden so viele wie ${v.like} (${v.expected})`,
         other: `${v.count} Werte, erwartet werden so viele wie ${v.like} (${v.expected})`,
       }),
-    'unknown-map': 'Hier ist keine Karte mit diesem Hash bekannt; senden Sie die Karte selbst',
+    'unknown-map': 'Hier ist keine Karte mit diesem Hash bekannt: die Karte selbst senden',
     unreadable: (v: Values) => `Nicht als ${v.format} lesbar: ${v.words}`,
     'unsupported-version': (v: Values) => `Version ${v.found} gefunden, bekannt sind Versionen bis ${v.known}`,
     'zip-without': (v: Values) => `Ein ZIP ohne Datei, deren Name auf ${v.first} oder ${v.second} endet`,

@@ -12,7 +12,8 @@ const EXAMPLES: Readonly<Record<string, string>> = {
 export const german: Said<typeof TEXTS> = {
   aColumnIsBroken: 'eine Spalte ist defekt',
   thisIsNotAScene: 'Das ist keine Szene: es fehlt die Liste der Verkehrsteilnehmer.',
-  thisSceneWas: (version) => `Diese Szene wurde mit einer neueren Version (${version}) gesichert. Lesbar ist bis 1.`,
+  thisSceneWas: (version) =>
+    `Diese Szene wurde mit einer neueren Version (${version}) gesichert. Lesbar sind Versionen bis 1.`,
   theMapOfThis: 'Die Karte dieser Szene fehlt.',
   untitled: 'Ohne Titel',
   sceneName: (id: string, name: string) => EXAMPLES[id] ?? name,

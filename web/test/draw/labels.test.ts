@@ -1,0 +1,22 @@
+// Placement of labels: never over another, and over objects below only without an alternative.
+import { describe, expect, it } from 'vitest';
+import { Labels } from '../../src/draw/labels';
+
+const TRIES = [
+  [10, 0],
+  [-60, 0],
+  [0, 40],
+] as const;
+const place = (l: Labels, must = true) => l.place(100, 100, 50, 20, TRIES, must);
+
+describe('a label', () => {
+  it('avoids objects below it while there is another place', () => {
+    const labels = new Labels(400, 400);
+    labels.keepOff({ x: 110, y: 100, w: 20, h: 20 });
+    expect(place(labels)).toMatchObject({ x: 40, y: 100 });
+    expect(place(labels)).toMatchObject({ x: 100, y: 140 });
+    // The last place is over a road user, which is better than over another label.
+    expect(place(labels)).toMatchObject({ x: 110, y: 100 });
+    expect(place(labels, false)).toBeNull();
+  });
+});
