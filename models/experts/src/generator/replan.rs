@@ -8,7 +8,9 @@ use super::trajectory::{Rollout, along_places, short_along};
 use crate::features::agent::{AgentPlan, BEYOND_M};
 use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::tuning::ReplanTuning;
-use crate::tuning::fixed::replan::{BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M, THERE_M};
+use crate::tuning::fixed::replan::{
+    BRAKES, HARDER_M, LEAST_WAY_M, ROOM_M, SHORT_M, SLOPE, SPARE_M, THERE_M, WALKER_ROOM_M,
+};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::motion::{Gear, MotionKind, Trajectory};
@@ -306,7 +308,11 @@ impl<'a> ShiftSearch<'a> {
         (1..along_m.len()).step_by(2).all(|step| {
             let size = &self.plan.present.size;
             let pose = self.path.extrapolate(along_m[step]);
-            let (length, width) = (0.5 * size.length_m + SHORT_M, 0.5 * size.width_m + ROOM_M);
+            let (short_m, beside_m) = match self.plan.model.kind {
+                MotionKind::Drive => (SHORT_M, ROOM_M),
+                MotionKind::Walk => WALKER_ROOM_M,
+            };
+            let (length, width) = (0.5 * size.length_m + short_m, 0.5 * size.width_m + beside_m);
             !self.is_met(step, &OrientedBox::new(pose.position, length, width, pose.heading_rad))
         })
     }

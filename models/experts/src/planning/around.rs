@@ -28,10 +28,8 @@ pub(super) fn around(
     let room_m = 0.5 * who.size.width_m.max(who.size.length_m) + ROOM_M;
     let standing = world.obstacles(who.index).into_iter().filter(|o| o.speed_mps < STANDING_MPS);
     let holds = |b: &OrientedBox, place: Vec2| b.meets_segment(place, place);
-    let boxes: Vec<OrientedBox> = standing
-        .map(|o| o.outline.grown(room_m))
-        .filter(|b| !holds(b, start) && !holds(b, goal))
-        .collect();
+    let boxes: Vec<OrientedBox> =
+        standing.map(|o| o.outline.grown(room_m)).filter(|b| !holds(b, start) && !holds(b, goal)).collect();
     let mut known: Vec<usize> = met(&boxes, straight.points());
     if known.is_empty() {
         return None;
@@ -102,7 +100,8 @@ fn shortest(
         way.push(places[at]);
         // Corners are told by their box and their place on it, whatever else is in the way.
         if let Some(corner) = at.checked_sub(2) {
-            identity = identity.wrapping_mul(1_009).wrapping_add((4 * known[corner / 4] + corner % 4) as u64 + 1);
+            identity =
+                identity.wrapping_mul(1_009).wrapping_add((4 * known[corner / 4] + corner % 4) as u64 + 1);
         }
     }
     way.reverse();

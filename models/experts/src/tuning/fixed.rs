@@ -34,6 +34,8 @@ numbers! {
         ROOM_M: f64 = 0.3;
         /// Room to what an agent stops before, metres: ten knots cannot follow every halt.
         SHORT_M: f64 = 1.0;
+        /// Room of a walker that stops: before it and beside it, metres.
+        WALKER_ROOM_M: (f64, f64) = (0.4, 0.1);
         /// Shorter ways have no sides, metres.
         LEAST_WAY_M: f64 = 2.0;
         /// Braking before what is in the way that is tried: shares of the hardest.

@@ -100,7 +100,9 @@ fn chains_from(graph: &LaneGraph, start: &StartLane, agent_type: AgentType, leng
                 .filter(|b| b.same_direction && lanes[b.lane].carries(agent_type))
                 .filter(|b| hops.iter().all(|h| h.lane != b.lane))
                 .filter_map(|b| search::change_before_end(graph, last, b))
-                .map(|(left_m, onto)| before_last(&hops).chain([Hop { to_m: left_m, ..*last }, onto]).collect())
+                .map(|(left_m, onto)| {
+                    before_last(&hops).chain([Hop { to_m: left_m, ..*last }, onto]).collect()
+                })
                 .collect();
             if !ways_on.is_empty() && hops.len() < MAX_HOPS {
                 open.extend(ways_on.into_iter().map(|hops| (hops.iter().map(Hop::length_m).sum(), hops)));

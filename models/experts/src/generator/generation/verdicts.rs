@@ -53,7 +53,9 @@ pub(super) fn judge(
         let taken: Vec<(usize, Actor<'_>)> = other_reactions
             .into_iter()
             .flatten()
-            .map(|(j, reacts)| (*j, as_taken(request, &scene.agents[*j], reacts.as_ref().and_then(shown_future))))
+            .map(|(j, reacts)| {
+                (*j, as_taken(request, &scene.agents[*j], reacts.as_ref().and_then(shown_future)))
+            })
             .collect();
         let reactions: Vec<(&Agent, &AgentFutures)> = match other_reactions {
             Some(others) => {
@@ -62,7 +64,8 @@ pub(super) fn judge(
             None => scene.agents.iter().filter_map(|a| Some((a, sample.agents.get(&a.id)?))).collect(),
         };
         let id = &scene.agents[i].id;
-        let caused = reactions.into_iter().filter(|(_, f)| f.reaction.as_ref().is_some_and(|r| r.cause == *id));
+        let caused =
+            reactions.into_iter().filter(|(_, f)| f.reaction.as_ref().is_some_and(|r| r.cause == *id));
         let changes: Vec<Change<'_>> =
             caused.filter_map(|(other, f)| Some(change(request, other, shown_future(f)?))).collect();
         let relations = standing.relations(i, future, &taken);
