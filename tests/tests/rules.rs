@@ -124,6 +124,7 @@ const HOUSES: &[House] = &[
             &["net"],
             &["request", "weights", "maps"],
             &["placement", "generator"],
+            &["run"],
             &["engine"],
         ],
     },

@@ -276,6 +276,25 @@ numbers! {
         /// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
         ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
     }
+    /// Of runs that are stepped.
+    run {
+        /// An ego that brakes harder than this is expected to go on braking, m/s2.
+        BRAKES_MPS2: f64 = 0.5;
+        /// For so long, seconds.
+        BRAKES_FOR_S: f64 = 1.5;
+        /// A road user farther than this from every lane and edge beyond the end of the roads has left, metres.
+        OFF_MAP_M: f64 = 2.0;
+        /// A road user farther than this outside the box of the map has left, metres.
+        OUTSIDE_M: f64 = 5.0;
+        /// A road user nearer than this to its goal, at its time or later, has arrived, metres.
+        ARRIVED_M: f64 = 2.0;
+        /// Room that a road user needs to come in, metres.
+        ENTRY_GAP_M: f64 = 2.0;
+        /// And the time in which a faster one behind would be there, seconds.
+        ENTRY_HEADWAY_S: f64 = 1.5;
+        /// A corner farther than this past the edge is off the road, metres.
+        PAST_EDGE_M: f64 = 0.15;
+    }
     /// Of speed profiles.
     profile {
         /// Braking for a bend beyond the goal, m/s2.
