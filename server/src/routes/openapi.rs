@@ -8,6 +8,7 @@ use api::GenerateRequest;
 use api::info::ProgramInfo;
 use api::map::{MapBody, MapReply, TemplateList};
 use api::place::{PlaceBody, PlaceReply};
+use api::runs::{PeekBody, PeekReply, RunBody, RunReply, SnapshotReply, StepBody, StepReply};
 use api::score::ScoreRequest;
 use formats::native::{MapDoc, SceneDoc};
 use scene::score::Score;
@@ -105,6 +106,10 @@ fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<maps::MapList>();
     generator.subschema_for::<MapReply>();
     generator.subschema_for::<TemplateList>();
+    generator.subschema_for::<RunReply>();
+    generator.subschema_for::<StepReply>();
+    generator.subschema_for::<PeekReply>();
+    generator.subschema_for::<SnapshotReply>();
 }
 
 /// Schemas of requests, and of documents in both directions: members with a default are optional.
@@ -115,6 +120,9 @@ fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ScoreRequest>();
     generator.subschema_for::<PlaceBody>();
     generator.subschema_for::<MapBody>();
+    generator.subschema_for::<RunBody>();
+    generator.subschema_for::<StepBody>();
+    generator.subschema_for::<PeekBody>();
     generator.subschema_for::<scenes::write::ScenePatch>();
     generator.subschema_for::<scenes::copy::DuplicateRequest>();
 }
@@ -197,14 +205,15 @@ mod tests {
                 if let Some(body) = operation.get("requestBody") {
                     assert_eq!(body["required"], id != "duplicateScene", "{id}");
                 }
-                if matches!(method.as_str(), "patch" | "delete") && id != "cancelJob" {
+                if matches!(method.as_str(), "patch" | "delete") && !["cancelJob", "deleteRun"].contains(&id)
+                {
                     let parameters = operation["parameters"].as_array().unwrap();
                     let tag = parameters.iter().find(|p| p["name"] == "If-Match").unwrap();
                     assert_eq!(tag["required"], true, "{id}");
                 }
             }
         }
-        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest"] {
+        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest", "RunBody"] {
             let one = &document["components"]["schemas"][name]["oneOf"];
             assert_eq!(one.as_array().map(Vec::len), Some(2), "{name}");
         }

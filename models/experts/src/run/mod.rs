@@ -46,13 +46,13 @@ pub use contacts::RunFault;
 pub use settings::{
     EgoState, MOST_ANNOUNCED, MOST_RUN_MS, PLAN_INTERVAL_MS, RUN_STEP_MS, RunError, RunSettings,
 };
-pub use snapshot::SnapshotError;
+pub use snapshot::{SnapshotError, VERSION_AT};
 
 use crate::cancel::Cancel;
 use crate::generator::Generator;
 use crate::planning::world::AgentAtStart;
 use agents::{DrivenPlan, EgoMotion, Presence, RunAgent};
-use moment::Moment;
+use moment::RunMoment;
 use scene::judge::Reaction;
 use scene::{AgentId, AgentType, ContentHash, HORIZON_STEPS, STEP_S, Scene, State};
 use std::collections::BTreeMap;
@@ -85,7 +85,7 @@ pub struct RunChange {
 
 /// A road user that has left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Departure {
+pub struct RunDeparture {
     /// The road user.
     pub agent: AgentId,
     /// Why.
@@ -108,7 +108,7 @@ pub struct RunStep {
     /// Who has come in, in the order of the scene.
     pub entered: Vec<AgentId>,
     /// Who has left, in the order of the scene.
-    pub left: Vec<Departure>,
+    pub left: Vec<RunDeparture>,
 }
 
 /// What the others would do if egos drove these plans.
@@ -198,7 +198,7 @@ impl Run {
             let motion = EgoMotion { plan: told.plan, ..motion.clone() };
             announced.insert(at, motion.expected(&graph, self.scene.agents[at].kind()).split_off(1));
         }
-        let request = Moment::of(&branch, &graph, &announced).request(&branch, &[]);
+        let request = RunMoment::of(&branch, &graph, &announced).request(&branch, &[]);
         let changes = branch.answer(generator, request, &[], cancel)?;
         let mut futures = BTreeMap::new();
         for (own, agent) in branch.agents.iter().zip(&self.scene.agents) {

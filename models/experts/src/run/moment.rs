@@ -14,13 +14,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A scene of what is there at present, and what each does without a change.
-pub(super) struct Moment {
+pub(super) struct RunMoment {
     scene: Arc<Scene>,
     /// The road users that may react, by id.
     others: BTreeSet<AgentId>,
 }
 
-impl Moment {
+impl RunMoment {
     /// Of a run in which every plan reaches far enough; `announced` are motions of egos in place of those expected.
     pub(super) fn of(run: &Run, graph: &LaneGraph, announced: &BTreeMap<usize, Vec<State>>) -> Self {
         let step = run.scene_step();

@@ -143,9 +143,12 @@ pub enum RunError {
         /// Given.
         got: usize,
     },
-    /// The run is as long as a run may be.
-    #[error("the run has lasted an hour, the most that a run may last")]
-    Over,
+    /// The run has lasted an hour, the most that a run may last.
+    #[error("the run has made {most} steps, the most that it may make")]
+    Over {
+        /// Steps.
+        most: u64,
+    },
     /// Bytes that are no snapshot of a run of this scene.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),

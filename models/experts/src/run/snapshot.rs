@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// The last byte is the version of the form.
 const HEAD: [u8; 8] = *b"DT-RUN\0\x01";
+/// Byte of a snapshot that has the version of its form.
+pub const VERSION_AT: usize = 7;
 /// More states than any plan has.
 const MOST_STATES: usize = LOOKED_AT + MAX_STEPS;
 
@@ -84,11 +86,11 @@ impl Run {
         let identity = identity(&scene);
         let mut read = SnapshotReader { bytes, at: 0 };
         let head: [u8; 8] = read.take().map_err(|_| SnapshotError::NoSnapshot)?;
-        if head[..7] != HEAD[..7] {
+        if head[..VERSION_AT] != HEAD[..VERSION_AT] {
             return Err(SnapshotError::NoSnapshot.into());
         }
-        if head[7] != HEAD[7] {
-            return Err(SnapshotError::Version(head[7]).into());
+        if head[VERSION_AT] != HEAD[VERSION_AT] {
+            return Err(SnapshotError::Version(head[VERSION_AT]).into());
         }
         if read.take::<32>()? != *identity.bytes() {
             return Err(SnapshotError::OtherScene.into());

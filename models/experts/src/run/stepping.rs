@@ -3,9 +3,9 @@
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
 use super::borders::{bounds, departure, has_room};
 use super::contacts::{RunFault, Stepped, faults};
-use super::moment::Moment;
+use super::moment::RunMoment;
 use super::settings::{EgoState, MOST_RUN_MS, RunError};
-use super::{Departure, Run, RunChange, RunStep};
+use super::{Run, RunChange, RunDeparture, RunStep};
 use crate::cancel::Cancel;
 use crate::generator::Generator;
 use crate::request::Request;
@@ -36,7 +36,9 @@ impl Run {
         }
         match self.egos().into_iter().find(|id| !egos.iter().any(|ego| ego.id == **id)) {
             Some(id) => Err(RunError::EgoMissing(id.clone())),
-            None if self.elapsed_ms + u64::from(self.settings.step_ms) > MOST_RUN_MS => Err(RunError::Over),
+            None if self.elapsed_ms + u64::from(self.settings.step_ms) > MOST_RUN_MS => {
+                Err(RunError::Over { most: self.number })
+            }
             None => Ok(known),
         }
     }
@@ -91,14 +93,14 @@ impl Run {
     }
 
     /// Those who are driven and leave in this step.
-    fn see_off(&mut self, graph: &LaneGraph) -> Vec<Departure> {
+    fn see_off(&mut self, graph: &LaneGraph) -> Vec<RunDeparture> {
         let (step, now_ms, bounds) = (self.scene_step(), self.elapsed_ms, bounds(&self.scene.map));
         let mut left = Vec::new();
         for (own, agent) in self.agents.iter_mut().zip(&self.scene.agents) {
             let Presence::Driven(plan) = &own.presence else { continue };
             if let Some(reason) = departure(agent, &plan.at(now_ms), step, graph, bounds) {
                 own.presence = Presence::Gone;
-                left.push(Departure { agent: agent.id.clone(), reason });
+                left.push(RunDeparture { agent: agent.id.clone(), reason });
             }
         }
         left
@@ -202,7 +204,7 @@ impl Run {
         cancel: &Cancel,
     ) -> Result<Vec<RunChange>, RunError> {
         self.carry_on(graph);
-        let request = Moment::of(self, graph, &BTreeMap::new()).request(self, acting);
+        let request = RunMoment::of(self, graph, &BTreeMap::new()).request(self, acting);
         self.answer(generator, request, acting, cancel)
     }
 

@@ -18,6 +18,8 @@ export const refused: Readonly<Record<string, string>> = {
   superseded: 'Eine neuere Frage ist an der Reihe.',
   'stale-revision': 'Eine neuere Frage ist an der Reihe.',
   cancelled: 'Das wurde abgebrochen.',
+  'step-order': 'Dieser Schritt ist nicht der nächste des Laufs.',
+  'too-many-runs': 'Auf dem Server ist kein Platz für einen weiteren Lauf.',
   'stale-etag': 'Die Szene wurde inzwischen anderswo geändert.',
   'body-too-large': 'Das ist größer, als der Server annimmt.',
   'decoded-too-large': 'Ausgepackt ist das größer, als der Server annimmt.',
