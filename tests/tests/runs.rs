@@ -49,7 +49,7 @@ fn a_run_is_stepped_peeked_saved_and_forgotten() {
     for wrong in [4, 7] {
         let reply = step(&server, &run, wrong);
         assert_eq!((reply.status, reply.code().as_str()), (409, "step-order"), "{}", reply.text());
-        assert_eq!(reply.json()["message"]["values"]["next"], 6);
+        assert_eq!(reply.json()["message"]["values"]["next"].as_f64(), Some(6.0));
     }
     // What if it drove on as it does?
     let column = |of: &dyn Fn(f64) -> f64| (1..=90).map(|i| of(0.1 * f64::from(i))).collect::<Vec<_>>();

@@ -1,7 +1,7 @@
 //! One moment of a run as a call of the generator: what everybody is known to do, and who plans anew.
 
-use super::Run;
 use super::agents::{NEVER_PLANNED, PLAN_STEP_MS, Presence};
+use super::state::Run;
 use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::request::{React, Request, ShownLast, Stages};
 use scene::geometry::direction;

@@ -1,7 +1,7 @@
-//! How a run goes, what an ego says, and why a run refuses it.
+//! How a run goes, and what an ego says.
 
-use super::snapshot::SnapshotError;
-use crate::request::{DEFAULTS, GenerateError};
+use super::error::RunError;
+use crate::request::DEFAULTS;
 use scene::{AgentId, HORIZON_STEPS, MAX_COORDINATE_M, MAX_STEPS, State};
 
 /// Range of a step, milliseconds, both ends allowed.
@@ -91,68 +91,4 @@ pub(super) fn is_state(state: &State) -> bool {
         && near(heading_rad, std::f64::consts::TAU)
         && near(vx_mps, FASTEST_MPS.into())
         && near(vy_mps, FASTEST_MPS.into())
-}
-
-/// Why a run cannot begin or go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// No road user has this id.
-    #[error("no road user \"{0}\"")]
-    UnknownAgent(AgentId),
-    /// An ego is not in the scene at the start of the run.
-    #[error("ego \"{0}\" is not in the scene at the start of the run")]
-    EgoAbsent(AgentId),
-    /// An ego was named twice.
-    #[error("ego \"{0}\" is named twice")]
-    EgoTwice(AgentId),
-    /// A step without the state of an ego.
-    #[error("the step has no state of ego \"{0}\"")]
-    EgoMissing(AgentId),
-    /// A state of a road user that the run drives itself.
-    #[error("road user \"{0}\" is no ego of this run")]
-    NotAnEgo(AgentId),
-    /// A number that is not finite or that no road user has.
-    #[error(
-        "state {at} of ego \"{agent}\": coordinates within 10,000 m, speeds within 100 m/s, a heading within a turn"
-    )]
-    NoState {
-        /// The ego.
-        agent: AgentId,
-        /// 0 for the state itself, from 1 on those of the plan.
-        at: usize,
-    },
-    /// An announced plan of more than [`MOST_ANNOUNCED`] states.
-    #[error("the plan of ego \"{agent}\" has {found} states; at most {most}")]
-    PlanTooLong {
-        /// The ego.
-        agent: AgentId,
-        /// States of its plan.
-        found: usize,
-        /// Allowed.
-        most: usize,
-    },
-    /// A setting out of its range.
-    #[error("{what} is {got}; {least} to {most} expected")]
-    OutOfRange {
-        /// The setting.
-        what: &'static str,
-        /// Least allowed.
-        least: usize,
-        /// Most allowed.
-        most: usize,
-        /// Given.
-        got: usize,
-    },
-    /// The run has lasted an hour, the most that a run may last.
-    #[error("the run has made {most} steps, the most that it may make")]
-    Over {
-        /// Steps.
-        most: u64,
-    },
-    /// Bytes that are no snapshot of a run of this scene.
-    #[error(transparent)]
-    Snapshot(#[from] SnapshotError),
-    /// The generator failed.
-    #[error(transparent)]
-    Generate(#[from] GenerateError),
 }

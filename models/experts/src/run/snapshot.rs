@@ -4,8 +4,9 @@
 //! numbers in little-endian order. The scene itself is not in it.
 
 use super::agents::{DrivenPlan, EgoMotion, LOOKED_AT, NEVER_PLANNED, Presence, RunAgent};
-use super::settings::{MOST_ANNOUNCED, MOST_RUN_MS, RunError, RunSettings, is_state};
-use super::{Run, identity, with_goal_times};
+use super::error::{RunError, SnapshotError};
+use super::settings::{MOST_ANNOUNCED, MOST_RUN_MS, RunSettings, is_state};
+use super::state::{Run, identity, with_goal_times};
 use scene::{MAX_STEPS, MAX_VIAS, Scene, State};
 use std::sync::Arc;
 
@@ -15,34 +16,6 @@ const HEAD: [u8; 8] = *b"DT-RUN\0\x01";
 pub const VERSION_AT: usize = 7;
 /// More states than any plan has.
 const MOST_STATES: usize = LOOKED_AT + MAX_STEPS;
-
-/// Why bytes are no snapshot of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SnapshotError {
-    /// They begin otherwise.
-    #[error("these bytes are no snapshot of a run")]
-    NoSnapshot,
-    /// A version of the form that this program does not read.
-    #[error("a snapshot of version {0}; this program reads version 1")]
-    Version(u8),
-    /// It was taken in a scene with another map, other signals or other road users.
-    #[error("the snapshot was taken in another scene")]
-    OtherScene,
-    /// They end too early.
-    #[error("the snapshot ends at byte {0}, within a value")]
-    Ends(usize),
-    /// Bytes that are left over.
-    #[error("the snapshot goes on after its end at byte {0}")]
-    GoesOn(usize),
-    /// A value that no run has.
-    #[error("byte {at}: {what} that no run has")]
-    Value {
-        /// Byte at which it begins.
-        at: usize,
-        /// What it would be.
-        what: &'static str,
-    },
-}
 
 impl Run {
     /// The run as bytes, without its scene.

@@ -3,9 +3,10 @@
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
 use super::borders::{bounds, departure, has_room};
 use super::contacts::{RunFault, Stepped, faults};
+use super::error::RunError;
 use super::moment::RunMoment;
-use super::settings::{EgoState, MOST_RUN_MS, RunError};
-use super::{Run, RunChange, RunDeparture, RunStep};
+use super::settings::{EgoState, MOST_RUN_MS};
+use super::state::{Run, RunChange, RunDeparture, RunStep};
 use crate::cancel::Cancel;
 use crate::generator::Generator;
 use crate::request::Request;

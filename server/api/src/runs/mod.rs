@@ -15,6 +15,7 @@ use experts::{Cancel, Generator, Run, RunError};
 use formats::FieldProblem;
 use formats::native::MAX_SAFE_INTEGER;
 use scene::Scene;
+use schemars::SchemaGenerator;
 use std::sync::Arc;
 
 impl RunBody {
@@ -113,6 +114,21 @@ fn snapshot(error: SnapshotError) -> scene::message::Message {
             english::snapshot_broken(at)
         }
     }
+}
+
+/// Adds the schemas of the replies.
+pub fn replies(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<RunReply>();
+    generator.subschema_for::<StepReply>();
+    generator.subschema_for::<PeekReply>();
+    generator.subschema_for::<SnapshotReply>();
+}
+
+/// Adds the schemas of the requests.
+pub fn requests(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<RunBody>();
+    generator.subschema_for::<StepBody>();
+    generator.subschema_for::<PeekBody>();
 }
 
 /// A run that a carrier does not have, or does not have any more.
