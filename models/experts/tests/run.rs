@@ -262,6 +262,24 @@ fn equal_runs_give_equal_bytes_over_threads_after_restore_and_in_branches() {
 }
 
 #[test]
+fn a_full_street_begins_in_parts_and_goes_on() {
+    // More than plan at once, close enough to answer to each other.
+    let cars: Vec<(String, f64, usize, f64)> = (0..70)
+        .map(|i| (i.to_string(), 15.0 + 14.0 * f64::from(i / 2), i as usize % 2, 5.0 + f64::from(i % 5)))
+        .collect();
+    let cars: Vec<(&str, f64, usize, f64)> =
+        cars.iter().map(|(id, x_m, lane, speed)| (id.as_str(), *x_m, *lane, *speed)).collect();
+    let scene = Arc::new(street(&cars));
+    let mut run = begun(&scene, &[]);
+    for _ in 0..30 {
+        let step = step(&mut run, &[]);
+        let met = step.faults.iter().find(|f| f.fault.kind == FaultKind::Collision);
+        assert!(met.is_none(), "{met:?}");
+    }
+    assert_eq!(Run::restore(scene, &run.snapshot()).unwrap().snapshot(), run.snapshot());
+}
+
+#[test]
 fn steps_of_other_lengths_come_to_the_same_time() {
     let scene = Arc::new(street(&[("a", 100.0, 0, 10.0)]));
     for step_ms in [50, 130, 500] {

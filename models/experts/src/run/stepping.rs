@@ -239,7 +239,9 @@ impl Run {
             plan.from_ms = now_ms;
             if let Some(reaction) = futures.reaction {
                 let interval_ms = i64::from(self.settings.plan_interval_ms);
-                if !acting.contains(&at) && now_ms as i64 - plan.planned_ms >= SURPRISED_AFTER_MS {
+                if !acting.contains(&at)
+                    && (now_ms as i64).saturating_sub(plan.planned_ms) >= SURPRISED_AFTER_MS
+                {
                     plan.planned_ms = plan.planned_ms.min(now_ms as i64 - interval_ms);
                 }
                 changes.push(RunChange { agent: id, reaction });
