@@ -4,6 +4,7 @@ use crate::base::limits::Limits;
 use crate::generation::Experts;
 use crate::http::body::{Reading, Room};
 use crate::http::observe::RequestGate;
+use crate::runs::RunStore;
 use crate::scenes::{Catalog, map_bytes};
 use crate::work::Pool;
 use api::Problem;
@@ -36,6 +37,8 @@ pub struct AppParts {
     pub generator: Arc<Generator>,
     /// The same experts for long calls: they leave a core to the others.
     pub patient: Arc<Generator>,
+    /// Runs that clients step.
+    pub runs: RunStore,
     /// Placement.
     pub placer: Arc<Placer>,
     /// Experts are warm.

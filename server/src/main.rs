@@ -8,6 +8,7 @@ mod cli;
 mod generation;
 mod http;
 mod routes;
+mod runs;
 mod scenes;
 mod work;
 

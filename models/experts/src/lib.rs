@@ -32,6 +32,7 @@ pub mod net;
 pub mod placement;
 pub mod planning;
 pub mod request;
+pub mod run;
 pub mod sentences;
 pub mod tuning;
 pub mod weights;
@@ -48,6 +49,7 @@ pub use request::{
     Refining, Request, Resolved, ResolvedGoal, ResolvedStart, ResolvedVia, Shown, Source, Stages, Timings,
     Warning, WarningCode,
 };
+pub use run::{EgoState, Run, RunError, RunSettings};
 pub use scene::motion::Limiting;
 pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

@@ -62,6 +62,9 @@ pub struct Request {
     /// The futures shown last, while the user drags. The first sample keeps one unless another is better by
     /// `switching`.
     pub shown: BTreeMap<AgentId, ShownLast>,
+    /// The motions in `shown` are being driven: each is a candidate, and leaving it costs less than while the user
+    /// drags.
+    pub under_way: bool,
     /// Verdicts on earlier cards: the answer is the next round of `modes` cards out of a wide draw, in place
     /// of `samples`. [`Request::round`] sets it.
     pub feedback: Option<Feedback>,
@@ -189,10 +192,16 @@ impl Request {
             stream_all: false,
             pinned: BTreeMap::new(),
             shown: BTreeMap::new(),
+            under_way: false,
             feedback: None,
             thresholds: Thresholds::default(),
             stages: Stages::default(),
         }
+    }
+
+    /// A road user is driving a motion that the call knows.
+    pub(crate) fn drives(&self, agent: &str) -> bool {
+        self.under_way && self.shown.contains_key(agent)
     }
 
     /// The next round of cards out of a wide draw, given verdicts on earlier cards. Each verdict changes the

@@ -46,6 +46,8 @@ codes! {
     Superseded "superseded" "Overtaken by a newer revision" "The same client sent a newer revision; `by_revision` names it.";
     StaleRevision "stale-revision" "Revision not newer" "The revision is not above the highest that this client has sent.";
     Cancelled "cancelled" "Cancelled" "The job was cancelled by its id, or its reader left.";
+    StepOrder "step-order" "Step out of order" "The step is not the next one of its run, and not the last one again. The message has the next number.";
+    TooManyRuns "too-many-runs" "Too many runs" "The server holds as many runs as it may, the caller has half of them (`limit` says which), or their memory is full. Delete a run, or wait until an idle one is forgotten.";
     StaleEtag "stale-etag" "Changed in the meantime" "The stored scene is another than the one the precondition names; its current `etag` is given.";
     BodyTooLarge "body-too-large" "Body too large" "The body is larger than `limit` bytes.";
     DecodedTooLarge "decoded-too-large" "Decoded body too large" "The body decodes to more than `limit` bytes.";

@@ -46,5 +46,14 @@ scene::messages! {
     no_columns(format: &str) = "no-columns", "a file of format {format} has no columns to name";
     unknown_format(format: &str, formats: &str) =
         "unknown-format", "No format is named \"{format}\"; there are {formats}.";
+    ego_absent(id: &str) = "ego-absent", "\"{id}\" is not there at the start";
+    ego_once(id: &str) = "ego-once", "\"{id}\" is needed once";
+    not_an_ego(id: &str) = "not-an-ego", "\"{id}\" is no ego";
+    no_state(id: &str, at: usize) = "no-ego-state", "\"{id}\", state {at}: no road user is there or so fast";
+    step_order(got: usize, next: usize) = "step-order", "step {got}; {next} is next";
+    setting_of_snapshot(member: &str) = "setting-of-snapshot", "the snapshot has its own {member}";
+    snapshot_of_another_scene() = "snapshot-of-another-scene", "the snapshot is of another scene";
+    snapshot_broken(at: usize) = "snapshot-broken", "no snapshot: byte {at} is wrong";
+    too_many_runs() = "too-many-runs", "no room for another run; delete one, or wait";
     defect() = "defect", "The server failed; see its log.";
 }

@@ -41,6 +41,7 @@ mod opened;
 mod operations;
 pub mod place;
 pub mod problem;
+pub mod runs;
 pub mod score;
 
 pub use code::Code;

@@ -10,8 +10,9 @@ use crate::limits::{Bound, CallLimits};
 use crate::map::{MapBody, MapReply};
 use crate::place::{PlaceBody, PlaceReply};
 use crate::problem::Problem;
+use crate::runs::{PeekBody, PeekReply, RunBody, StepBody, StepReply};
 use crate::score::{ScoreRequest, score};
-use experts::{Cancel, Clock, Engine, Generator, Placer};
+use experts::{Cancel, Clock, Engine, Generator, Placer, Run};
 use formats::Source;
 use scene::Scene;
 use scene::score::Score;
@@ -115,6 +116,30 @@ impl Operations {
     ) -> Result<GenerationRun<'_>, Problem> {
         let request = GenerateRequest { feedback: Some(feedback), ..request.clone() };
         self.generate(&request, about, cancel)
+    }
+
+    /// Begins a run: traffic that is stepped, beside road users that the caller drives.
+    ///
+    /// # Errors
+    /// As [`RunBody::begin`].
+    pub fn begin_run(&self, request: &RunBody, about: &Subject, cancel: &Cancel) -> Result<Run, Problem> {
+        request.begin(&about.scene, &self.generator, cancel)
+    }
+
+    /// One step of a run.
+    ///
+    /// # Errors
+    /// As [`StepBody::step`].
+    pub fn step_run(&self, request: &StepBody, run: &mut Run, cancel: &Cancel) -> Result<StepReply, Problem> {
+        Ok((&request.step(run, &self.generator, cancel)?).into())
+    }
+
+    /// What the others of a run would do if egos drove these plans.
+    ///
+    /// # Errors
+    /// As [`PeekBody::peek`].
+    pub fn peek_run(&self, request: &PeekBody, run: &Run, cancel: &Cancel) -> Result<PeekReply, Problem> {
+        Ok(PeekReply::of(run, &request.peek(run, &self.generator, cancel)?))
     }
 
     /// Collisions, near misses, off-road driving, kinematics, goals.

@@ -65,6 +65,9 @@ limits! {
     map_keep_s = 86_400, "time an unused map is kept";
     cached_map_bytes = 128 << 20, "memory of maps that are kept";
     cached_scene_bytes = 128 << 20, "memory of open scenes: saved and held ones, and as much for demos and the data folder; the party with most of them makes room";
+    runs = 64, "runs that clients step; one party has at most half of them";
+    run_bytes = 256 << 20, "memory of runs and their scenes";
+    run_idle_s = 600, "time after which a run that is not used is forgotten";
     shutdown_s = 10, "time running work gets when the server stops";
 }
 

@@ -11,6 +11,7 @@ use crate::http::guard::Guard;
 use crate::http::net;
 use crate::http::observe::RequestGate;
 use crate::routes::router;
+use crate::runs::RunStore;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
 use crate::work::{self, Pool, PoolLane};
@@ -150,6 +151,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         pool,
         generator,
         patient,
+        runs: RunStore::new(&limits),
         placer: Arc::new(placer),
         warm: AtomicBool::new(false),
         metrics: handle,
@@ -200,6 +202,14 @@ fn start_background(app: &App) -> std::io::Result<()> {
     if let Some(tokens) = app.gate.guard.tokens.clone() {
         tokio::spawn(async move { tokens.follow().await });
     }
+    let idle = app.clone();
+    tokio::spawn(async move {
+        let mut minute = tokio::time::interval(Duration::from_secs(60));
+        loop {
+            minute.tick().await;
+            idle.runs.tidy();
+        }
+    });
     let tidied = app.clone();
     tokio::spawn(async move {
         let mut hour = tokio::time::interval(Duration::from_secs(3_600));

@@ -226,7 +226,7 @@ where
 }
 
 /// A value as JSON text, made where the value was: a long one takes time.
-pub struct JsonText(Vec<u8>);
+pub struct JsonText(Bytes);
 
 impl JsonText {
     /// Of a value.
@@ -234,7 +234,19 @@ impl JsonText {
     /// # Errors
     /// When it cannot be written as JSON.
     pub fn of(value: &impl Serialize) -> Result<Self, Problem> {
-        serde_json::to_vec(value).map(Self).map_err(Problem::internal)
+        serde_json::to_vec(value).map(|text| Self(text.into())).map_err(Problem::internal)
+    }
+
+    /// The text.
+    pub fn bytes(&self) -> Bytes {
+        self.0.clone()
+    }
+}
+
+impl From<Bytes> for JsonText {
+    /// Of a text that was written before.
+    fn from(text: Bytes) -> Self {
+        Self(text)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Generation over a WebSocket (RFC 6455): each message is a request like any other.
+//! Generation, and the steps of a run, over a WebSocket (RFC 6455): each message is a request like any other.
 //!
 //! A separate request costs a browser three times the work of a message, and a drag sends sixty requests a
 //! second. The server passes each one to the router as the `POST` that it replaces, so that limits, refusals,
@@ -129,7 +129,7 @@ impl ReplyHead {
 
 /// Upgrades a connection to a WebSocket. Requests go to `path`, with the headers of the page or program that
 /// opened it. `None` for a request that is no handshake (RFC 6455, 4.2.1).
-pub fn open(mut request: Request<Body>, carrier: Carrier, path: &'static str) -> Option<Response> {
+pub fn open(mut request: Request<Body>, carrier: Carrier, path: String) -> Option<Response> {
     let accept = HeaderValue::try_from(accept_key(&request)?).ok()?;
     let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION, header::COOKIE];
     let given =
@@ -180,7 +180,7 @@ fn accept_key(request: &Request<Body>) -> Option<String> {
 
 struct Line {
     carrier: Carrier,
-    path: &'static str,
+    path: String,
     headers: HeaderMap,
 }
 
@@ -436,7 +436,7 @@ impl Line {
     fn request(&self, body: String) -> Request<Body> {
         let mut request = Request::new(Body::from(body));
         *request.method_mut() = Method::POST;
-        *request.uri_mut() = base_path::published(self.path).parse().unwrap_or_default();
+        *request.uri_mut() = base_path::published(&self.path).parse().unwrap_or_default();
         *request.headers_mut() = self.headers.clone();
         request
     }

@@ -83,7 +83,7 @@ refusals!(NoLine: CHANGES, UpgradeRequired);
 #[utoipa::path(get, path = "/v1/generate", operation_id = "openLine", tag = "generate",
     responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
 pub async fn line(carrier: Option<Extension<Carrier>>, request: Request) -> Result<Response, Refusal> {
-    let opened = carrier.and_then(|Extension(carrier)| line::open(request, carrier, "/v1/generate"));
+    let opened = carrier.and_then(|Extension(carrier)| line::open(request, carrier, "/v1/generate".into()));
     opened.ok_or_else(|| {
         let detail = "A generation is asked for by POST, or over a WebSocket.";
         Problem::new(Code::UpgradeRequired, detail).into()

@@ -14,6 +14,7 @@ pub mod layouts;
 pub mod maps;
 pub mod openapi;
 pub mod place;
+pub mod runs;
 mod scene_ref;
 pub mod scenes;
 pub mod score;
@@ -55,6 +56,11 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(layouts::templates))
         .routes(routes!(generate::generate, generate::line))
         .routes(routes!(jobs::cancel))
+        .routes(routes!(runs::begin))
+        .routes(routes!(runs::step, runs::line))
+        .routes(routes!(runs::peek))
+        .routes(routes!(runs::snapshot))
+        .routes(routes!(runs::remove))
         .routes(routes!(place::place))
         .routes(routes!(score::score))
         .routes(routes!(info::info))

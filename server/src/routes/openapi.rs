@@ -3,11 +3,9 @@
 use super::{health, import, maps, scenes};
 use crate::base::{base_path::published, limits::Limits, problem::ProblemDoc};
 use crate::generation::events;
-use api::GenerateRequest;
-use api::info::ProgramInfo;
 use api::map::{MapBody, MapReply, TemplateList};
 use api::place::{PlaceBody, PlaceReply};
-use api::score::ScoreRequest;
+use api::{GenerateRequest, info::ProgramInfo, score::ScoreRequest};
 use formats::native::{MapDoc, SceneDoc};
 use scene::score::Score;
 use schemars::SchemaGenerator;
@@ -105,6 +103,7 @@ fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<maps::MapList>();
     generator.subschema_for::<MapReply>();
     generator.subschema_for::<TemplateList>();
+    api::runs::replies(generator);
 }
 
 /// Schemas of requests, and of documents in both directions: members with a default are optional.
@@ -115,6 +114,7 @@ fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ScoreRequest>();
     generator.subschema_for::<PlaceBody>();
     generator.subschema_for::<MapBody>();
+    api::runs::requests(generator);
     generator.subschema_for::<scenes::write::ScenePatch>();
     generator.subschema_for::<scenes::copy::DuplicateRequest>();
 }
@@ -191,20 +191,20 @@ mod tests {
     #[test]
     fn bodies_and_preconditions_that_are_needed_are_said_to_be() {
         let document = super::document();
-        for item in document["paths"].as_object().unwrap().values() {
+        for (path, item) in document["paths"].as_object().unwrap() {
             for (method, operation) in item.as_object().unwrap() {
                 let id = operation["operationId"].as_str().unwrap();
                 if let Some(body) = operation.get("requestBody") {
                     assert_eq!(body["required"], id != "duplicateScene", "{id}");
                 }
-                if matches!(method.as_str(), "patch" | "delete") && id != "cancelJob" {
+                if path.starts_with("/v1/scenes") && matches!(method.as_str(), "patch" | "delete") {
                     let parameters = operation["parameters"].as_array().unwrap();
                     let tag = parameters.iter().find(|p| p["name"] == "If-Match").unwrap();
                     assert_eq!(tag["required"], true, "{id}");
                 }
             }
         }
-        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest"] {
+        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest", "RunBody"] {
             let one = &document["components"]["schemas"][name]["oneOf"];
             assert_eq!(one.as_array().map(Vec::len), Some(2), "{name}");
         }

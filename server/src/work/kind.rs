@@ -55,6 +55,8 @@ pub enum JobKind {
     Map,
     /// Scores of given motion.
     Score,
+    /// Steps of a run.
+    Run,
     /// Scenes out of a file.
     Import,
     /// A file out of a scene.
@@ -71,6 +73,7 @@ impl JobKind {
             Self::Place => "place",
             Self::Map => "map",
             Self::Score => "score",
+            Self::Run => "run",
             Self::Import => "import",
             Self::Export => "export",
             Self::Document => "document",
@@ -84,6 +87,7 @@ impl JobKind {
             Self::Place => "placement",
             Self::Map => "map",
             Self::Score => "score",
+            Self::Run => "step of a run",
             Self::Import => "import",
             Self::Export => "export",
             Self::Document => "reading or writing of a document",

@@ -10,7 +10,7 @@ use super::trajectory::{
 use crate::planning::{INSTANTS, MODES, PER_INSTANT};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
-use scene::motion::Reach;
+use scene::motion::{Gear, Reach};
 use scene::{AgentType, Vec2};
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
@@ -30,6 +30,8 @@ pub(super) enum CandidateOrigin {
     PathMean(Slot),
     /// The motion that a person has seen last of this mode, brought to the present goal.
     Shown(Slot),
+    /// The motion that the actor is driving, taken further. It is nearest to this mode.
+    UnderWay(Slot),
     /// The draft of this mode after overlaps were resolved.
     Settled(Slot),
     /// The draft of this mode, guided out of a conflict of the chosen scene.
@@ -50,6 +52,7 @@ impl CandidateOrigin {
             Self::Mode(slot)
             | Self::PathMean(slot)
             | Self::Shown(slot)
+            | Self::UnderWay(slot)
             | Self::Settled(slot)
             | Self::Guided(slot)
             | Self::Swerving(slot)
@@ -66,6 +69,11 @@ impl CandidateOrigin {
     /// A person has seen it last.
     pub(super) fn is_shown(self) -> bool {
         matches!(self, Self::Shown(_))
+    }
+
+    /// It goes on with what was shown or driven before.
+    pub(super) fn goes_on(self) -> bool {
+        matches!(self, Self::Shown(_) | Self::UnderWay(_))
     }
 
     /// It is an alternative of the answer by itself; all other motions of this answer take an alternative's place
@@ -90,11 +98,13 @@ pub(super) struct MotionCandidate {
 pub(super) struct Material<'a> {
     pub(super) actor: &'a PlannedActor,
     pub(super) drafts: &'a Drafts,
-    /// Planning window, from 0.
-    pub(super) window: usize,
+    /// A plan moves the actor already.
+    pub(super) moves: bool,
     pub(super) tuning: &'a MiddleTuning,
     /// The future that a person has seen last, in the sample and window that follow it.
     pub(super) shown: Option<&'a ShownLast>,
+    /// The actor is driving that future.
+    pub(super) under_way: bool,
 }
 
 impl Material<'_> {
@@ -112,8 +122,10 @@ impl Material<'_> {
         let means = self.path_means(&alternatives);
         let missed = alternatives.iter().all(|c| !c.motion.reach.is_reached());
         let missed = alternatives.first().filter(|_| missed).map(|c| c.motion.reach);
+        let driven = self.driven(&alternatives);
         out.extend(alternatives);
         out.extend(means);
+        out.extend(driven);
         out.extend(self.shown_last(missed));
         if let Some(residual) = &self.drafts.settled {
             let slot = self.drafts.leading;
@@ -135,6 +147,19 @@ impl Material<'_> {
             None => return None,
         };
         Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Shown(slot), motion })
+    }
+
+    /// The motion that the actor is driving, within its limits and on to its goal.
+    fn driven(&self, alternatives: &[MotionCandidate]) -> Option<MotionCandidate> {
+        let plan = &self.actor.plan;
+        let free = self.under_way && !self.actor.only_rests() && plan.model.gear == Gear::Forward;
+        let shown = self.shown.filter(|_| free && self.actor.kept.is_none())?;
+        let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
+        let motion = self.without_creep(short_along(plan, &places, true));
+        let apart = |c: &&MotionCandidate| distance(&c.motion.states, &motion.states);
+        let modes = alternatives.iter().filter(|c| matches!(c.origin, CandidateOrigin::Mode(_)));
+        let slot = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?.origin.slot()?;
+        Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::UnderWay(slot), motion })
     }
 
     /// The same where the motion that was shown last stops before another agent.
@@ -222,7 +247,7 @@ impl Material<'_> {
     }
 
     fn without_creep(&self, motion: Rollout) -> Rollout {
-        without_creep(&self.actor.plan, self.window, motion)
+        without_creep(&self.actor.plan, self.moves, motion)
     }
 
     /// Share of what was learned in the mode in the middle.

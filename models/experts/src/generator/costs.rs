@@ -28,6 +28,8 @@ pub(super) struct Yardstick<'a> {
     pub(super) around: Option<Slot>,
     /// The future that a person has seen last.
     pub(super) shown: Option<&'a ShownLast>,
+    /// The actor is driving that future.
+    pub(super) under_way: bool,
     pub(super) map: &'a KnownMap,
     pub(super) judge: &'a Judge<'a>,
     /// The agents that do not act.
@@ -60,14 +62,14 @@ pub(super) fn options(
         None => central(&actor.plan, candidates, by.around, tuning),
     };
     let shown_rule_cost =
-        candidates.iter().position(|c| c.origin.is_shown()).map_or(0.0, |shown| rule_cost[shown]);
+        candidates.iter().position(|c| c.origin.goes_on()).map_or(0.0, |shown| rule_cost[shown]);
     let option = |((c, cost), rule_cost): ((&MotionCandidate, f64), &f64)| {
         let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
         let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
         let goes = actor.plan.target.position.is_some();
         let cost = match c.origin {
             // Where the others are alike, a swerving motion is far from all of them.
-            CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) => {
+            CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) | CandidateOrigin::UnderWay(_) => {
                 cost.min(tuning.most_swerving + missed)
             }
             // What reaches the same goal is no worse for being far from the rest.
@@ -173,7 +175,8 @@ fn switching(candidate: &MotionCandidate, by: &Yardstick<'_>) -> f64 {
     let most_m = apart.iter().copied().fold(0.0, f64::max);
     let other = shown.anchor.is_some() && candidate.origin.slot().map(Slot::number) != shown.anchor;
     let (tuning, other) = (by.tuning, f64::from(u8::from(other)));
-    tuning.switching * ((mean_m + 0.5 * most_m) / tuning.switching_m).min(1.0) + tuning.other_mode * other
+    let switching = if by.under_way { tuning.leaving_course } else { tuning.switching };
+    switching * ((mean_m + 0.5 * most_m) / tuning.switching_m).min(1.0) + tuning.other_mode * other
 }
 
 /// Cost to a vehicle that starts on a lane of being away from every lane, and to one that starts within the road's edges

@@ -95,7 +95,8 @@ fn initialize(
     let free = actor.plan.is_free();
     let waits = actor.plan.sets_off();
     let stays = !free || (actor.stays_probability > STAYS_ABOVE && !waits) || actor.is_parked();
-    actor.rests = actor.stays_parked || (may_rest(&actor.plan, setting.number) && stays);
+    actor.rests = actor.stays_parked
+        || (may_rest(&actor.plan, setting.number > 0 || setting.request.drives(&actor.id)) && stays);
     Ok(())
 }
 

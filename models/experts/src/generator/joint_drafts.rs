@@ -40,7 +40,9 @@ impl<'a> JointDrafts<'a> {
     /// The material of an actor's candidates.
     pub(super) fn material(&self, i: usize) -> Material<'a> {
         let (actor, drafts) = (&self.actors[i], &self.drafts[i]);
-        let (window, tuning) = (self.setting.number, &self.setting.tuning().middle);
-        Material { actor, drafts, window, tuning, shown: self.shown_last(actor) }
+        let (setting, tuning) = (self.setting, &self.setting.tuning().middle);
+        let under_way = setting.request.drives(&actor.id);
+        let moves = setting.number > 0 || under_way;
+        Material { actor, drafts, moves, tuning, shown: self.shown_last(actor), under_way }
     }
 }

@@ -44,6 +44,7 @@ mod window_setting;
 mod workers;
 
 pub use generation::Generation;
+pub(crate) use others::extend_along_road;
 
 use crate::cancel::Cancel;
 use crate::clock::{self, Clock};
@@ -199,7 +200,15 @@ impl Generator {
     /// # Errors
     /// The errors of the call.
     pub fn answer(&self, request: Request) -> Result<Answer, GenerateError> {
-        for event in self.start(request, Cancel::default())? {
+        self.answer_unless(request, Cancel::default())
+    }
+
+    /// The same; it ends early once it is cancelled.
+    ///
+    /// # Errors
+    /// The errors of the call.
+    pub fn answer_unless(&self, request: Request, cancel: Cancel) -> Result<Answer, GenerateError> {
+        for event in self.start(request, cancel)? {
             if let Event::Final(answer) = event? {
                 return Ok(answer);
             }

@@ -401,17 +401,17 @@ pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
 
 /// Replaces creeping by rest: a free road user that stands and moves less than [`STAYS_WITHIN_M`] in the
 /// whole window stays.
-pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Rollout) -> Rollout {
+pub(super) fn without_creep(plan: &AgentPlan, moves: bool, motion: Rollout) -> Rollout {
     let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
-    let rests = plan.is_free() && may_rest(plan, window) && motion.states.iter().all(creeps);
+    let rests = plan.is_free() && may_rest(plan, moves) && motion.states.iter().all(creeps);
     if rests { rest(plan) } else { motion }
 }
 
-/// The agent stands at the start, and rest meets its goal. A recording that shows it standing may creep by its jitter; an
-/// earlier window must have brought it to rest by its own motion.
-pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
-    let standing_mps = if window == 0 { RESTING_MPS.0 } else { RESTING_MPS.1 };
+/// The agent stands at the start, and rest meets its goal. A recording that shows it standing may creep by its jitter;
+/// where a plan moves it already, that must have brought it to rest.
+pub(super) fn may_rest(plan: &AgentPlan, moves: bool) -> bool {
+    let standing_mps = if moves { RESTING_MPS.1 } else { RESTING_MPS.0 };
     plan.vias.is_empty()
         && plan.present.start.speed_mps() < standing_mps
         && TargetError::of(&still(plan), &plan.target).is_met()
@@ -431,7 +431,7 @@ mod tests {
             for (step, state) in motion.states.iter_mut().enumerate() {
                 state.position.x += metres * step as f64 / HORIZON_STEPS as f64;
             }
-            without_creep(plan, 0, motion).states[HORIZON_STEPS].position.x
+            without_creep(plan, false, motion).states[HORIZON_STEPS].position.x
         };
         let standing = car_on_a_street(0.0, Goal::default());
         assert_eq!([crept(&standing, 0.4), crept(&standing, 0.6)], [0.0, 0.6]);

@@ -383,6 +383,25 @@ numbers! {
         /// A jump of one step by so much more than the hardest braking is smoothed away later, m/s2.
         JUMP_MPS2: f64 = 4.0;
     }
+    /// Of runs that are stepped.
+    run {
+        /// An ego that brakes harder than this is expected to go on braking, m/s2.
+        BRAKES_MPS2: f64 = 0.5;
+        /// For so long, seconds.
+        BRAKES_FOR_S: f64 = 1.5;
+        /// A road user farther than this from every lane and edge beyond the end of the roads has left, metres.
+        OFF_MAP_M: f64 = 2.0;
+        /// A road user farther than this outside the box of the map has left, metres.
+        OUTSIDE_M: f64 = 5.0;
+        /// A road user nearer than this to its goal, at its time or later, has arrived, metres.
+        ARRIVED_M: f64 = 2.0;
+        /// Room that a road user needs to come in, metres.
+        ENTRY_GAP_M: f64 = 2.0;
+        /// And the time in which a faster one behind would be there, seconds.
+        ENTRY_HEADWAY_S: f64 = 1.5;
+        /// A corner farther than this past the edge is off the road, metres.
+        PAST_EDGE_M: f64 = 0.15;
+    }
     /// Of speed profiles.
     profile {
         /// Braking for a bend beyond the goal, m/s2.

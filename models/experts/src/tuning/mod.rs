@@ -255,6 +255,9 @@ tuning! {
         /// difference between modes. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7
         /// % at 3, 2.3 % at 4. 2026-11-23.
         switching = 4.0, off 0.0;
+        /// The same for a road user of a run that leaves the motion it is driving: less than a close approach, so that it
+        /// changes its mind for a reason only. Set by hand. 2026-11-27.
+        leaving_course = 1.0, off 0.0;
         /// Mean distance from it from which on a motion is another one, metres.
         switching_m = 1.0;
         /// Another mode than the one shown last, however near. Set by hand. 2026-11-22.

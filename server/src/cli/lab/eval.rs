@@ -1,6 +1,6 @@
 //! `dragtraffic lab eval` and `bench`.
 
-use super::{SceneArgs, crowd_bench, failed, http_bench, print_json, scenes};
+use super::{SceneArgs, crowd_bench, failed, http_bench, print_json, run_bench, scenes};
 use crate::cli::progress::Progress;
 use crate::cli::{Common, Exit, Failure, output};
 use clap::Args;
@@ -61,6 +61,9 @@ pub struct BenchArgs {
     /// Measure over HTTP: start a server, and time each call beside the same request in this process.
     #[arg(long, conflicts_with = "crowd")]
     http: bool,
+    /// Measure one step of a run beside 8, 32 and 128 placed road users on the map of the first scene.
+    #[arg(long, conflicts_with_all = ["http", "crowd"])]
+    steps: bool,
     /// Numbers of simultaneous clients, one after another; then one client that drags beside the heaviest
     /// calls. Uses the first scene, over HTTP.
     #[arg(long, value_name = "CLIENTS", value_delimiter = ',')]
@@ -165,6 +168,9 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
     if args.http {
         return print_json(&http_bench::latency(&scenes, common)?);
+    }
+    if let (true, Some(scene)) = (args.steps, scenes.first()) {
+        return print_json(&run_bench::step_times(scene, common)?);
     }
     if let (false, Some(scene)) = (args.crowd.is_empty(), scenes.first()) {
         return print_json(&crowd_bench::strain(scene, &args.crowd, args.seconds, common)?);

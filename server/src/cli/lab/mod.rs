@@ -6,6 +6,7 @@ mod http_bench;
 mod placement;
 mod prepare;
 mod reproduce;
+mod run_bench;
 mod served;
 mod statistics;
 mod synthesize;
@@ -48,7 +49,7 @@ pub enum LabCommand {
     #[command(after_help = examples!("dragtraffic lab reproduce recordings/ --quick -o paper/", "dragtraffic lab reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
     Reproduce(reproduce::ReproduceArgs),
     /// Measure the response times of drags and of whole scenes.
-    #[command(after_help = examples!("dragtraffic lab bench recordings/", "dragtraffic lab bench recordings/ --scenes 20 --weights DIR"))]
+    #[command(after_help = examples!("dragtraffic lab bench recordings/", "dragtraffic lab bench assets/scenes/demo-crossing.json --steps"))]
     Bench(eval::BenchArgs),
 }
 

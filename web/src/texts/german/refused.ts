@@ -18,6 +18,8 @@ export const refused: Readonly<Record<string, string>> = {
   superseded: 'Eine neuere Anfrage hat diese ersetzt.',
   'stale-revision': 'Eine neuere Anfrage hat diese ersetzt.',
   cancelled: 'Das wurde abgebrochen.',
+  'step-order': 'Dieser Schritt ist nicht der nächste des Laufs.',
+  'too-many-runs': 'Auf dem Server ist kein Platz für einen weiteren Lauf.',
   'stale-etag': 'Die Szene wurde inzwischen anderswo geändert.',
   'body-too-large': 'Die Anfrage ist größer, als der Server annimmt.',
   'decoded-too-large': 'Entpackt ist die Anfrage größer, als der Server annimmt.',

@@ -452,6 +452,7 @@ impl OptionTable<'_> {
         let yardstick = Yardstick {
             around: self.of.material(i).around(sample),
             shown: self.of.shown_last(actor),
+            under_way: setting.request.under_way,
             map: &setting.map,
             judge: &self.judge,
             others,

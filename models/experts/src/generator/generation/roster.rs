@@ -8,7 +8,7 @@ use crate::generator::extrapolation::Guessed;
 use crate::generator::others::extend_along_road;
 use crate::planning::world::World;
 use crate::request::{GenerateError, React, Request};
-use scene::{AgentId, AgentType, Scene};
+use scene::{AgentId, AgentType, HORIZON_STEPS, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -177,7 +177,7 @@ impl Roster {
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];
-            extend_along_road(ahead, way, &world.graph, agent_type);
+            extend_along_road(ahead, way, &world.graph, agent_type, HORIZON_STEPS + 1);
         }
         acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
         let new = |part: CallPart| self.with(move |p| p == part).filter(move |i| !acted.contains(i));

@@ -171,13 +171,14 @@ impl PathProgress {
     }
 }
 
-/// Carries a plan on for a window: along the way that these states have and the road goes on, as fast as they are at
-/// each place.
-pub(in crate::generator) fn extend_along_road(
+/// Carries a plan on until it has so many states: along the way that these states have and the road goes on, as fast as
+/// they are at each place.
+pub(crate) fn extend_along_road(
     plan: &mut Vec<State>,
     way: &[Option<State>],
     graph: &LaneGraph,
     agent_type: AgentType,
+    count: usize,
 ) {
     let (Some(path), Some(last)) = (PathProgress::of(way, 0.0), plan.last().copied()) else { return };
     let path = path.extended(graph, agent_type);
@@ -185,7 +186,7 @@ pub(in crate::generator) fn extend_along_road(
     let Some(nearest) = path.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
     let ahead = direction(nearest.heading_rad).dot(&(last.position() - nearest.position));
     let (mut along, mut speed) = (nearest.along_m + ahead, last.speed_mps());
-    while plan.len() <= HORIZON_STEPS {
+    while plan.len() < count {
         let rate = (path.speed_at_mps(along) - speed) / STEP_S;
         let then = (speed + rate.clamp(TAKES_UP_MPS2.0, TAKES_UP_MPS2.1) * STEP_S).max(0.0);
         along += 0.5 * (speed + then) * STEP_S;
@@ -265,7 +266,7 @@ mod tests {
     fn a_plan_is_carried_on_along_the_way_it_is_on() {
         let way = going(8.0, 120);
         let mut plan = vec![State { x_m: 20.0, vx_mps: 2.0, ..State::default() }];
-        extend_along_road(&mut plan, &way, &LaneGraph::new(&LaneMap::default()), AgentType::Vehicle);
+        extend_along_road(&mut plan, &way, &LaneGraph::new(&LaneMap::default()), AgentType::Vehicle, 91);
         assert_eq!(plan.len(), 91);
         assert!((plan[1].x_m - 20.2).abs() < 0.05 && (plan[90].vx_mps - 8.0).abs() < 1e-6);
     }

@@ -203,7 +203,7 @@ pub(crate) fn run_of<T: Trainee>(
     let device = options.processor.device()?;
     let records = Records::load(&options.records)?;
     let provenance = provenance(options, &records)?;
-    let mut run = Run::<T>::begin(options, &records, &provenance, &device)?;
+    let mut run = TrainingRun::<T>::begin(options, &records, &provenance, &device)?;
     let even = run.trained.draws_files_evenly();
     let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
     report(&TrainProgress::Begin {
@@ -321,7 +321,7 @@ impl Since {
     }
 }
 
-struct Run<'a, T: Trainee> {
+struct TrainingRun<'a, T: Trainee> {
     options: &'a TrainOptions<T::Architecture>,
     trained: T,
     /// The same with the running mean of the weights.
@@ -332,7 +332,7 @@ struct Run<'a, T: Trainee> {
     seconds_before: f64,
 }
 
-impl<'a, T: Trainee> Run<'a, T> {
+impl<'a, T: Trainee> TrainingRun<'a, T> {
     fn begin(
         options: &'a TrainOptions<T::Architecture>,
         records: &Records,

@@ -1,0 +1,118 @@
+//! What a caller asks of a run: to begin, to make a step, to say what would be.
+
+use super::agents::{DrivenPlan, EgoMotion, Presence, RunAgent};
+use super::error::RunError;
+use super::moment::RunMoment;
+use super::settings::{EgoState, RunSettings};
+use super::state::{Run, RunPeek, RunStep, identity, with_goal_times};
+use crate::cancel::Cancel;
+use crate::generator::Generator;
+use crate::planning::world::AgentAtStart;
+use scene::{AgentId, AgentType, Scene, State};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+impl Run {
+    /// Begins a run: every road user that is there plans for the first time.
+    ///
+    /// # Errors
+    /// Settings out of range, egos that are unknown, absent at the start or named twice, and the generator's.
+    pub fn new(
+        scene: Arc<Scene>,
+        egos: &[AgentId],
+        settings: RunSettings,
+        generator: &Generator,
+        cancel: &Cancel,
+    ) -> Result<Self, RunError> {
+        settings.check()?;
+        let identity = identity(&scene);
+        let agents = (0..scene.agents.len())
+            .map(|i| RunAgent { presence: present_at(&scene, i, settings.start_step), vias_passed: 0 });
+        let agents = agents.collect();
+        let scene = with_goal_times(scene, settings.start_step);
+        let mut run = Self { scene, identity, settings, number: 0, elapsed_ms: 0, agents };
+        for id in egos {
+            let at = run.index(id)?;
+            run.agents[at].presence = match &run.agents[at].presence {
+                Presence::Driven(plan) => {
+                    Presence::Ego(EgoMotion { state: plan.at(0), plan: Vec::new(), brakes_mps2: 0.0 })
+                }
+                Presence::Ego(_) => return Err(RunError::EgoTwice(id.clone())),
+                Presence::Coming | Presence::Gone => return Err(RunError::EgoAbsent(id.clone())),
+            };
+        }
+        run.plan_all(generator, cancel)?;
+        Ok(run)
+    }
+
+    /// One step: the egos are where this says, the others go on, and answer to what they see then.
+    ///
+    /// # Errors
+    /// States that are missing, not asked for or no states, a run that is over, and the generator's. The run stays as
+    /// it was then.
+    pub fn step(
+        &mut self,
+        generator: &Generator,
+        egos: &[EgoState],
+        cancel: &Cancel,
+    ) -> Result<RunStep, RunError> {
+        let egos = self.checked(egos)?;
+        let mut next = self.clone();
+        let step = next.advance(generator, egos, cancel)?;
+        *self = next;
+        Ok(step)
+    }
+
+    /// What the others would do if egos drove these plans from where they are: states 0.1 s apart, the first 0.1 s after
+    /// the present. An ego that is left out does what it has announced. The run does not change.
+    ///
+    /// # Errors
+    /// As [`Run::step`].
+    pub fn peek(
+        &self,
+        generator: &Generator,
+        plans: &BTreeMap<AgentId, Vec<State>>,
+        cancel: &Cancel,
+    ) -> Result<RunPeek, RunError> {
+        let mut branch = self.clone();
+        let graph = generator.maps().graph(&self.scene.map);
+        branch.carry_on(&graph);
+        let mut announced = BTreeMap::new();
+        for (id, plan) in plans {
+            let at = self.index(id)?;
+            let Presence::Ego(motion) = &self.agents[at].presence else {
+                return Err(RunError::NotAnEgo(id.clone()));
+            };
+            let told = EgoState { id: id.clone(), state: motion.state, plan: plan.clone() };
+            told.check()?;
+            let motion = EgoMotion { plan: told.plan, ..motion.clone() };
+            announced.insert(at, motion.expected(&graph, self.scene.agents[at].kind()).split_off(1));
+        }
+        let request = RunMoment::of(&branch, &graph, &announced).request(&branch, &[]);
+        let changes = branch.answer(generator, request, &[], cancel)?;
+        let mut futures = BTreeMap::new();
+        for (own, agent) in branch.agents.iter().zip(&self.scene.agents) {
+            if let Presence::Driven(plan) = &own.presence {
+                futures.insert(agent.id.clone(), plan.ahead(self.elapsed_ms).split_off(1));
+            }
+        }
+        let faults = self.peeked_faults(&graph, &announced, &futures);
+        Ok(RunPeek { futures, changes, faults })
+    }
+}
+
+/// Whether a road user is there when the run begins.
+fn present_at(scene: &Scene, agent: usize, start_step: usize) -> Presence {
+    let own = &scene.agents[agent];
+    match AgentAtStart::at(agent, own, &own.conditions, start_step) {
+        Some(there) if own.kind() == AgentType::Other => {
+            // What is shown and never planned does what is recorded.
+            let recorded = (start_step + 1..).map_while(|step| own.track.at(step).copied());
+            let states = std::iter::once(there.start).chain(recorded).collect();
+            Presence::Driven(DrivenPlan { states, ..DrivenPlan::fresh(0, there.start) })
+        }
+        Some(there) => Presence::Driven(DrivenPlan::fresh(0, there.start)),
+        None if own.track.last_valid_step().is_some_and(|last| last > start_step) => Presence::Coming,
+        None => Presence::Gone,
+    }
+}

@@ -1,0 +1,204 @@
+//! Replies about runs.
+
+use super::base64;
+use super::request::{MotionDoc, StateDoc};
+use experts::Run;
+use experts::run::{DepartureReason, RunChange, RunFault, RunPeek, RunStep};
+use scene::State as AgentState;
+use scene::judge::{Fault, Reaction};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Coordinates and speeds are written to a tenth of a millimetre, headings to as many radians.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}
+
+impl From<&AgentState> for StateDoc {
+    fn from(state: &AgentState) -> Self {
+        let AgentState { x_m, y_m, heading_rad, vx_mps, vy_mps } = *state;
+        let [x_m, y_m, heading_rad, vx_mps, vy_mps] = [x_m, y_m, heading_rad, vx_mps, vy_mps].map(rounded);
+        Self { x_m, y_m, heading_rad, vx_mps, vy_mps }
+    }
+}
+
+impl MotionDoc {
+    fn of(states: &[AgentState]) -> Self {
+        let column = |of: fn(&AgentState) -> f64| states.iter().map(|state| rounded(of(state))).collect();
+        Self {
+            x_m: column(|s| s.x_m),
+            y_m: column(|s| s.y_m),
+            heading_rad: column(|s| s.heading_rad),
+            vx_mps: column(|s| s.vx_mps),
+            vy_mps: column(|s| s.vy_mps),
+        }
+    }
+}
+
+/// A road user that changed its plan because of another.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ChangeDoc {
+    /// The road user.
+    pub agent: String,
+    /// What it does, and because of whom.
+    pub reaction: Reaction,
+}
+
+impl ChangeDoc {
+    fn all(changes: &[RunChange]) -> Vec<Self> {
+        let doc = |c: &RunChange| Self { agent: c.agent.clone(), reaction: c.reaction.clone() };
+        changes.iter().map(doc).collect()
+    }
+}
+
+/// A fault and the road user whose it is.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RunFaultDoc {
+    /// Of a collision the one that drove into the other.
+    pub agent: String,
+    /// What, when and where.
+    pub fault: Fault,
+}
+
+impl RunFaultDoc {
+    fn all(faults: &[RunFault]) -> Vec<Self> {
+        faults.iter().map(|f| Self { agent: f.agent.clone(), fault: f.fault.clone() }).collect()
+    }
+}
+
+/// Why a road user left.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DepartureWord {
+    /// The roads of the map end there.
+    LeftTheMap,
+    /// It is where its goal is.
+    Arrived,
+}
+
+/// A road user that left.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct DepartureDoc {
+    /// The road user.
+    pub agent: String,
+    /// Why.
+    pub reason: DepartureWord,
+}
+
+/// What a step came to.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct StepReply {
+    /// Number of the step; 0 for the start.
+    pub number: u64,
+    /// Scene time at its end, seconds.
+    pub time_s: f64,
+    /// Everybody who is there, egos too, by id.
+    pub states: BTreeMap<String, StateDoc>,
+    /// Who changed its plan because of whom.
+    pub changes: Vec<ChangeDoc>,
+    /// Collisions and vehicles off the road that began in this step.
+    pub faults: Vec<RunFaultDoc>,
+    /// Ids of those who came in.
+    pub entered: Vec<String>,
+    /// Those who left.
+    pub left: Vec<DepartureDoc>,
+}
+
+impl From<&RunStep> for StepReply {
+    fn from(step: &RunStep) -> Self {
+        let reason = |reason| match reason {
+            DepartureReason::LeftTheMap => DepartureWord::LeftTheMap,
+            DepartureReason::Arrived => DepartureWord::Arrived,
+        };
+        let left = step.left.iter();
+        Self {
+            number: step.number,
+            time_s: rounded(step.time_s),
+            states: step.states.iter().map(|(id, state)| (id.clone(), state.into())).collect(),
+            changes: ChangeDoc::all(&step.changes),
+            faults: RunFaultDoc::all(&step.faults),
+            entered: step.entered.clone(),
+            left: left.map(|d| DepartureDoc { agent: d.agent.clone(), reason: reason(d.reason) }).collect(),
+        }
+    }
+}
+
+/// A run that has begun.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RunReply {
+    /// Id of the run.
+    pub run: String,
+    /// Road users that the caller drives.
+    pub egos: Vec<String>,
+    /// Repeats the run.
+    pub seed: u64,
+    /// Length of a step, seconds.
+    pub step_s: f64,
+    /// Each of the others plans anew after so many seconds.
+    pub plan_interval_s: f64,
+    /// Seconds without a request after which the server forgets the run.
+    pub idle_s: u64,
+    /// The present.
+    pub present: StepReply,
+}
+
+impl RunReply {
+    /// Of a run under this id.
+    pub fn of(id: &str, run: &Run, idle_s: u64) -> Self {
+        let settings = run.settings();
+        Self {
+            run: id.to_owned(),
+            egos: run.egos().into_iter().cloned().collect(),
+            seed: settings.seed,
+            step_s: f64::from(settings.step_ms) / 1e3,
+            plan_interval_s: f64::from(settings.plan_interval_ms) / 1e3,
+            idle_s,
+            present: (&run.present()).into(),
+        }
+    }
+}
+
+/// What the others would do.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PeekReply {
+    /// Scene time of the present, seconds.
+    pub time_s: f64,
+    /// Motion of the others over nine seconds by id, the first state 0.1 s after the present.
+    pub futures: BTreeMap<String, MotionDoc>,
+    /// Who would change its plan because of whom.
+    pub changes: Vec<ChangeDoc>,
+    /// The first collision of each ego with each other road user.
+    pub faults: Vec<RunFaultDoc>,
+}
+
+impl PeekReply {
+    /// Of what a run says.
+    pub fn of(run: &Run, peek: &RunPeek) -> Self {
+        Self {
+            time_s: rounded(run.time_s()),
+            futures: peek.futures.iter().map(|(id, states)| (id.clone(), MotionDoc::of(states))).collect(),
+            changes: ChangeDoc::all(&peek.changes),
+            faults: RunFaultDoc::all(&peek.faults),
+        }
+    }
+}
+
+/// A run as a text. Without its scene.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SnapshotReply {
+    /// Steps that it has made.
+    pub number: u64,
+    /// Bytes of the snapshot.
+    pub bytes: usize,
+    /// Base64, for `snapshot` of a run that is begun.
+    pub snapshot: String,
+}
+
+impl SnapshotReply {
+    /// Of a run.
+    pub fn of(run: &Run) -> Self {
+        let bytes = run.snapshot();
+        Self { number: run.number(), bytes: bytes.len(), snapshot: base64::encoded(&bytes) }
+    }
+}

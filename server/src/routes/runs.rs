@@ -1,0 +1,170 @@
+//! `/v1/runs`: traffic that is stepped, beside road users that the client drives.
+
+use super::scene_ref::WithScene;
+use crate::app::App;
+use crate::base::id;
+use crate::base::problem::Refusal;
+use crate::http::body::{Json, JsonText};
+use crate::http::extract::{Connection, Id};
+use crate::http::line;
+use crate::http::net::Carrier;
+use crate::runs::HeldRun;
+use crate::work::{JobKind, JobRequest};
+use api::home::Subject;
+use api::runs::{PeekBody, PeekReply, RunBody, RunReply, SnapshotReply, StepBody, StepReply};
+use api::{Code, Problem};
+use axum::Extension;
+use axum::extract::{Request, State};
+use axum::http::StatusCode;
+use axum::response::Response;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::OwnedMutexGuard;
+
+/// Approximate time of the first plan of one road user.
+const FIRST_PLAN: Duration = Duration::from_millis(3);
+/// Approximate time of a step or a peek.
+const STEP_COST: Duration = Duration::from_millis(10);
+
+refusals!(Unbegun: CHANGES BODY SCENE SCENE_REF STORE WORK, TooManyRuns, NonFiniteOutput);
+
+/// Begins a run in a scene, or takes one up from a snapshot. The client drives the road users in `egos`; the server
+/// drives all others from step to step. They know what has happened and what egos announce. The run is kept in memory
+/// and forgotten when it is not used for `idle_s`.
+#[utoipa::path(post, path = "/v1/runs", operation_id = "beginRun", tag = "runs",
+    request_body(content = ref("#/components/schemas/RunBody"), content_type = "application/json",
+        example = json!({"scene_id": "demo-crossing", "egos": ["5"], "seed": 7})),
+    responses((status = 201, description = "the run", body = ref("#/components/schemas/RunReply")), Unbegun))]
+pub async fn begin(
+    State(app): State<App>,
+    connection: Connection,
+    WithScene(body, Subject { scene, .. }): WithScene<RunBody>,
+) -> Result<(StatusCode, JsonText), Refusal> {
+    app.runs.expects(connection.party)?;
+    let cost = FIRST_PLAN * scene.agents.len() as u32 + app.map_preparation(&scene.map).await?;
+    let asked = JobRequest { kind: JobKind::Run, cost, caller: connection.into() };
+    let generator = Arc::clone(&app.generator);
+    let (idle_s, id) = (app.runs.idle_s(), id::fresh());
+    let name = id.clone();
+    let work = move |cancel: &_| {
+        let run = body.begin(&scene, &generator, cancel)?;
+        Ok((JsonText::of(&RunReply::of(&name, &run, idle_s))?, run))
+    };
+    let (reply, run) = app.pool.run(asked, work).await?;
+    app.runs.add(&id, run, connection.party)?;
+    Ok((StatusCode::CREATED, reply))
+}
+
+refusals!(Unstepped: CHANGES BODY WORK, NotFound, StepOrder, UnknownAgent, NonFiniteOutput);
+
+/// Makes a step: the egos are where the body says, all others go on, and answer to what they see then. Steps are
+/// numbered from 1 on. The last number again gives the same reply again, whatever its body, so that a lost reply can be
+/// asked for; any other number than the next one is refused (`step-order`).
+#[utoipa::path(post, path = "/v1/runs/{id}/step", operation_id = "stepRun", tag = "runs",
+    params(("id" = String, Path)),
+    request_body(content = ref("#/components/schemas/StepBody"), content_type = "application/json",
+        example = json!({"number": 1, "egos": [
+            {"id": "5", "x_m": 1.8, "y_m": -20.0, "heading_rad": 1.57, "vx_mps": 0.0, "vy_mps": 8.0}]})),
+    responses((status = 200, description = "what the step came to", body = ref("#/components/schemas/StepReply")),
+        Unstepped))]
+pub async fn step(
+    State(app): State<App>,
+    connection: Connection,
+    Id(id): Id,
+    Json(body): Json<StepBody>,
+) -> Result<JsonText, Refusal> {
+    let mut held = taken(&app, &id).await?;
+    if let Some((_, reply)) = held.last.as_ref().filter(|(number, _)| *number == body.number) {
+        return Ok(JsonText::from(reply.clone()));
+    }
+    let generator = Arc::clone(&app.generator);
+    let work = move |cancel: &_| {
+        let step = body.step(&mut held.run, &generator, cancel)?;
+        let reply = JsonText::of(&StepReply::from(&step))?;
+        held.last = Some((step.number, reply.bytes()));
+        Ok(reply)
+    };
+    Ok(app.pool.run(asked(connection), work).await?)
+}
+
+refusals!(NoLine: CHANGES, NotFound, UpgradeRequired);
+
+/// A WebSocket for the steps of a run: messages are those of the line for generations, each `body` that of a step. A
+/// client waits for the reply to a step before it sends the next one.
+#[utoipa::path(get, path = "/v1/runs/{id}/step", operation_id = "openRunLine", tag = "runs",
+    params(("id" = String, Path)),
+    responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
+pub async fn line(
+    State(app): State<App>,
+    Id(id): Id,
+    carrier: Option<Extension<Carrier>>,
+    request: Request,
+) -> Result<Response, Refusal> {
+    app.runs.get(&id)?;
+    let opened =
+        carrier.and_then(|Extension(carrier)| line::open(request, carrier, format!("/v1/runs/{id}/step")));
+    opened.ok_or_else(|| {
+        let detail = "A step is asked for by POST, or over a WebSocket.";
+        Problem::new(Code::UpgradeRequired, detail).into()
+    })
+}
+
+refusals!(Unpeeked: CHANGES BODY WORK, NotFound, UnknownAgent, NonFiniteOutput);
+
+/// Says what the others would do over the next nine seconds if egos drove these plans. The run does not change.
+#[utoipa::path(post, path = "/v1/runs/{id}/peek", operation_id = "peekRun", tag = "runs",
+    params(("id" = String, Path)),
+    request_body(content = ref("#/components/schemas/PeekBody"), content_type = "application/json",
+        example = json!({"plans": {}})),
+    responses((status = 200, description = "what they would do", body = ref("#/components/schemas/PeekReply")),
+        Unpeeked))]
+pub async fn peek(
+    State(app): State<App>,
+    connection: Connection,
+    Id(id): Id,
+    Json(body): Json<PeekBody>,
+) -> Result<JsonText, Refusal> {
+    let held = taken(&app, &id).await?;
+    let generator = Arc::clone(&app.generator);
+    let work = move |cancel: &_| {
+        let peek = body.peek(&held.run, &generator, cancel)?;
+        JsonText::of(&PeekReply::of(&held.run, &peek))
+    };
+    Ok(app.pool.run(asked(connection), work).await?)
+}
+
+refusals!(Unsaved: CHANGES WORK, NotFound);
+
+/// Gives the run as a text that begins another one: in this server or another, now or later. It goes on with the same
+/// bytes as this one.
+#[utoipa::path(post, path = "/v1/runs/{id}/snapshot", operation_id = "saveRun", tag = "runs",
+    params(("id" = String, Path)),
+    responses((status = 200, description = "the run", body = ref("#/components/schemas/SnapshotReply")), Unsaved))]
+pub async fn snapshot(
+    State(app): State<App>,
+    connection: Connection,
+    Id(id): Id,
+) -> Result<JsonText, Refusal> {
+    let held = taken(&app, &id).await?;
+    let work = move |_: &_| JsonText::of(&SnapshotReply::of(&held.run));
+    Ok(app.pool.run(asked(connection), work).await?)
+}
+
+refusals!(Undeleted: CHANGES, NotFound);
+
+/// Forgets a run.
+#[utoipa::path(delete, path = "/v1/runs/{id}", operation_id = "deleteRun", tag = "runs",
+    params(("id" = String, Path)), responses((status = 204, description = "forgotten"), Undeleted))]
+pub async fn remove(State(app): State<App>, Id(id): Id) -> Result<StatusCode, Refusal> {
+    app.runs.remove(&id)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// The run of an id, for one request alone; the others wait for it.
+async fn taken(app: &App, id: &str) -> Result<OwnedMutexGuard<HeldRun>, Refusal> {
+    Ok(app.runs.get(id)?.lock_owned().await)
+}
+
+fn asked(connection: Connection) -> JobRequest {
+    JobRequest { kind: JobKind::Run, cost: STEP_COST, caller: connection.into() }
+}

@@ -1,0 +1,168 @@
+//! Runs that clients step: in memory, bounded in number, bytes and share of one party, and forgotten when idle.
+
+use crate::base::limits::Limits;
+use crate::base::party::Party;
+use crate::scenes::bytes_of;
+use api::runs::unknown_run;
+use api::{Code, Problem, english};
+use axum::body::Bytes;
+use experts::Run;
+use scene::State;
+use std::collections::BTreeMap;
+use std::mem::size_of;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// States that a road user of a run keeps at most, on average: a plan of nine seconds and what it is carried on by.
+const STATES: usize = 130;
+
+/// A run with the reply to its last step.
+pub struct HeldRun {
+    /// The run.
+    pub run: Run,
+    /// The reply to the step with this number, as it was sent.
+    pub last: Option<(u64, Bytes)>,
+}
+
+/// A run that one request at a time has for itself.
+pub type SharedRun = Arc<tokio::sync::Mutex<HeldRun>>;
+
+struct RunEntry {
+    run: SharedRun,
+    party: Party,
+    bytes: usize,
+    used: Instant,
+}
+
+/// All runs of the server by id.
+pub struct RunStore {
+    entries: Mutex<BTreeMap<String, RunEntry>>,
+    limits: Arc<Limits>,
+}
+
+impl RunStore {
+    /// An empty one.
+    pub fn new(limits: &Arc<Limits>) -> Self {
+        Self { entries: Mutex::default(), limits: Arc::clone(limits) }
+    }
+
+    /// Refuses a run before any work where there would be no room for it afterwards.
+    ///
+    /// # Errors
+    /// `too-many-runs`.
+    pub fn expects(&self, party: Party) -> Result<(), Problem> {
+        let mut entries = self.lock();
+        self.drop_idle(&mut entries);
+        self.check(&entries, party, 0)
+    }
+
+    /// Keeps a run that a party has begun.
+    ///
+    /// # Errors
+    /// `too-many-runs`.
+    pub fn add(&self, id: &str, run: Run, party: Party) -> Result<(), Problem> {
+        let scene = run.scene();
+        let bytes = bytes_of(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
+        let mut entries = self.lock();
+        self.drop_idle(&mut entries);
+        self.check(&entries, party, bytes)?;
+        let run = Arc::new(tokio::sync::Mutex::new(HeldRun { run, last: None }));
+        entries.insert(id.to_owned(), RunEntry { run, party, bytes, used: Instant::now() });
+        Ok(())
+    }
+
+    /// The run of an id, which counts as a use.
+    ///
+    /// # Errors
+    /// `not-found`.
+    pub fn get(&self, id: &str) -> Result<SharedRun, Problem> {
+        let mut entries = self.lock();
+        self.drop_idle(&mut entries);
+        let entry = entries.get_mut(id).ok_or_else(unknown_run)?;
+        entry.used = Instant::now();
+        Ok(Arc::clone(&entry.run))
+    }
+
+    /// Forgets a run.
+    ///
+    /// # Errors
+    /// `not-found`.
+    pub fn remove(&self, id: &str) -> Result<(), Problem> {
+        self.lock().remove(id).map(drop).ok_or_else(unknown_run)
+    }
+
+    /// Forgets all runs that were not used for a while.
+    pub fn tidy(&self) {
+        self.drop_idle(&mut self.lock());
+    }
+
+    /// After so many seconds without a use.
+    pub fn idle_s(&self) -> u64 {
+        self.limits.run_idle_s
+    }
+
+    fn drop_idle(&self, entries: &mut BTreeMap<String, RunEntry>) {
+        let idle = Duration::from_secs(self.limits.run_idle_s);
+        // A run at work is held by its request.
+        entries.retain(|_, entry| entry.used.elapsed() < idle || Arc::strong_count(&entry.run) > 1);
+    }
+
+    fn check(&self, entries: &BTreeMap<String, RunEntry>, party: Party, bytes: usize) -> Result<(), Problem> {
+        let (most, room) = (self.limits.runs as usize, self.limits.run_bytes as usize);
+        let share = most.div_ceil(2);
+        let own = entries.values().filter(|entry| entry.party == party).count();
+        let all: usize = entries.values().map(|entry| entry.bytes).sum();
+        if own < share && entries.len() < most && all + bytes <= room {
+            return Ok(());
+        }
+        let oldest = entries.values().map(|entry| entry.used.elapsed().as_secs()).max().unwrap_or(0);
+        let wait_s = self.limits.run_idle_s.saturating_sub(oldest).clamp(1, 60);
+        let limit = if own >= share { share } else { most };
+        Err(Problem::of(Code::TooManyRuns, english::too_many_runs()).limit(limit as u64).retry_after(wait_s))
+    }
+
+    /// A table of whole values is usable after a panic elsewhere.
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, RunEntry>> {
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RunStore;
+    use crate::base::limits::Limits;
+    use crate::base::party::Party;
+    use api::Code;
+    use experts::{Cancel, Generator, Run, RunSettings};
+    use scene::{LaneMap, Scene};
+    use std::sync::Arc;
+
+    #[test]
+    fn runs_are_bounded_in_number_share_and_bytes_and_forgotten_when_idle() {
+        let generator = Generator::random(1).unwrap();
+        let scene = Arc::new(Scene::bare("empty", LaneMap::default(), Vec::new()));
+        let run =
+            || Run::new(scene.clone(), &[], RunSettings::default(), &generator, &Cancel::default()).unwrap();
+        let store = |limits: Limits| RunStore::new(&Arc::new(limits));
+        let party = |last: u8| Party::of(std::net::IpAddr::from([10, 0, 0, last]));
+        let few = store(Limits { runs: 3, ..Limits::default() });
+        let add = |store: &RunStore, id: &str, last: u8| {
+            store.add(id, run(), party(last)).map_err(|problem| problem.members.limit)
+        };
+        assert_eq!((add(&few, "a", 1), add(&few, "b", 1)), (Ok(()), Ok(())));
+        assert_eq!(add(&few, "c", 1), Err(Some(2)));
+        assert_eq!(few.expects(party(1)).unwrap_err().code, Code::TooManyRuns);
+        assert_eq!(add(&few, "c", 2), Ok(()));
+        assert_eq!(add(&few, "d", 2), Err(Some(3)));
+        assert!(few.expects(party(3)).unwrap_err().members.retry_after_s.is_some());
+        few.remove("a").unwrap();
+        assert_eq!(few.get("a").err().map(|problem| problem.code), Some(Code::NotFound));
+        assert_eq!(add(&few, "d", 2), Ok(()));
+        let small = store(Limits { run_bytes: 10, ..Limits::default() });
+        assert_eq!(add(&small, "a", 1), Err(Some(64)));
+        let brief = store(Limits { run_idle_s: 0, ..Limits::default() });
+        add(&brief, "a", 1).unwrap();
+        brief.tidy();
+        assert!(brief.get("a").is_err());
+    }
+}
