@@ -104,7 +104,7 @@ fn a_copy_needs_no_server_and_keeps_what_is_there() {
     refused(&db, &at("scenes.sqlite-wal"), &["--force"], 2, "the store itself");
     refused(&db, folder.path(), &["--force"], 2, "a plain file");
     refused(&db, Path::new("-"), &[], 2, "a plain file");
-    refused(&db, Path::new("/dev/null/x"), &[], 1, "Not a directory");
+    refused(&db, Path::new("/dev/null/x"), &[], 1, "/dev/null/x: File exists");
     let foreign = rusqlite::Connection::open(at("foreign")).unwrap();
     foreign.execute_batch("CREATE TABLE notes (text)").unwrap();
     refused(&at("foreign"), &at("new"), &[], 1, "another program's database");

@@ -95,6 +95,29 @@ fn a_file_of_a_known_kind_is_called_what_it_is() {
 }
 
 #[test]
+fn files_without_a_scene_are_called_what_they_are() {
+    let said = |bytes: &[u8]| {
+        let error = registry::import(bytes, "a.json", "auto", &ImportOptions::default()).unwrap_err();
+        assert_eq!(error.code(), "format-unknown");
+        error.problems[0].detail.clone()
+    };
+    for empty in [&b""[..], b" \n", b"\xef\xbb\xbf"] {
+        assert_eq!(said(empty), "the file is empty");
+    }
+    assert!(said(b" []").starts_with("the file is a JSON array; a scene is a JSON object"));
+    assert!(said(b"hello").starts_with("not a file of a known format"));
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_a_scene() {
+    let marked = [b"\xef\xbb\xbf", JUNCTION].concat();
+    let read = |bytes: &[u8]| {
+        registry::import(bytes, "a.json", "auto", &ImportOptions::default()).unwrap().remove(0).unwrap().0
+    };
+    assert_eq!(read(&marked), read(JUNCTION));
+}
+
+#[test]
 fn losses_are_listed_once() {
     let scene = formats::native::read(JUNCTION).unwrap();
     let womd = registry::by_id("womd").unwrap();
