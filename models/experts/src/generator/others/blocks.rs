@@ -57,9 +57,9 @@ impl Corridor {
         };
         let chunks = outlines.chunks(CHUNK).map(circle).collect();
         let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        let extent = outlines.iter().fold(none, |(low, high), outline| {
-            (low.inf(&outline.center()), high.sup(&outline.center()))
-        });
+        let extent = outlines
+            .iter()
+            .fold(none, |(low, high), outline| (low.inf(&outline.center()), high.sup(&outline.center())));
         Self { enters: path.enters, outlines, chunks, extent }
     }
 
