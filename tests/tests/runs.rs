@@ -117,6 +117,15 @@ fn a_run_is_stepped_over_a_websocket() {
 }
 
 #[test]
+fn the_example_of_the_document_begins_a_run() {
+    let server = Server::with_demos().unwrap();
+    let document = server.get("/openapi.json").unwrap().json();
+    let content = &document["paths"]["/v1/runs"]["post"]["requestBody"]["content"]["application/json"];
+    let reply = server.post("/v1/runs", &content["example"]).unwrap();
+    assert_eq!((reply.status, &reply.json()["egos"]), (201, &json!(["5"])), "{}", reply.text());
+}
+
+#[test]
 fn bad_requests_are_refused_with_their_places_and_change_nothing() {
     let server = Server::start(&[]).unwrap();
     let scene = street(2, 20);

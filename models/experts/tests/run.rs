@@ -9,7 +9,7 @@ use scene::limits::Limits;
 use scene::map::{Lane, LaneMap};
 use scene::routes::{LaneGraph, Pose, best_route_ahead};
 use scene::{Agent, AgentType, Goal, Scene, State, Subtype, Vec2};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
@@ -95,6 +95,34 @@ fn a_minute_of_a_crossing_is_smooth_and_without_collisions() {
     }
     assert!(entered >= 3 && left >= 3, "{entered} came in, {left} left");
     assert_eq!((run.number(), (run.time_s() * 10.0).round()), (600, 600.0));
+}
+
+#[test]
+fn road_users_reach_where_their_recordings_end_and_do_nothing_wrong() {
+    let (mut sent, mut reached) = (0, 0);
+    for name in ["demo-crossing", "demo-motorway"] {
+        let mut scene = Scene::clone(&example(name));
+        let mut asked = BTreeSet::new();
+        for agent in scene.agents.iter_mut().filter(|a| a.kind() != AgentType::Other) {
+            let ends = agent.track.last_valid_step().filter(|_| agent.track.at(0).is_some());
+            let Some(end) = ends.filter(|end| *end > 80 && agent.track.extent_m() > 2.0) else { continue };
+            let position = agent.track.at(end).map(State::position);
+            agent.conditions.goal = Goal { position, time_s: Some(0.1 * end as f64), ..Goal::default() };
+            asked.insert(agent.id.clone());
+        }
+        let mut run = begun(&Arc::new(scene), &[]);
+        let (mut arrived, mut at_fault) = (BTreeSet::new(), BTreeSet::new());
+        for _ in 0..100 {
+            let step = step(&mut run, &[]);
+            let left = step.left.into_iter().filter(|d| d.reason == DepartureReason::Arrived);
+            arrived.extend(left.map(|d| d.agent));
+            at_fault.extend(step.faults.into_iter().map(|f| f.agent));
+        }
+        sent += asked.len();
+        reached += asked.iter().filter(|id| arrived.contains(*id) && !at_fault.contains(*id)).count();
+    }
+    // All of them when this was written.
+    assert!(sent > 40 && reached + 2 >= sent, "{reached} of {sent}");
 }
 
 #[test]

@@ -42,6 +42,8 @@ pub(super) struct Corridor {
     outlines: Vec<OrientedBox>,
     /// Circles about the centres of each eight of them.
     chunks: Vec<(Vec2, f64)>,
+    /// Corners of the upright box of all centres.
+    extent: (Vec2, Vec2),
 }
 
 impl Corridor {
@@ -54,7 +56,11 @@ impl Corridor {
             (middle, boxes.iter().map(|b| (b.center() - middle).norm()).fold(0.0, f64::max))
         };
         let chunks = outlines.chunks(CHUNK).map(circle).collect();
-        Self { enters: path.enters, outlines, chunks }
+        let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        let extent = outlines
+            .iter()
+            .fold(none, |(low, high), outline| (low.inf(&outline.center()), high.sup(&outline.center())));
+        Self { enters: path.enters, outlines, chunks, extent }
     }
 
     /// First and last progress, of the places in a row that this box takes first; what crosses on its way takes more.
@@ -66,10 +72,16 @@ impl Corridor {
             if moves && crosses { CROSSING_M } else { CLEAR_M }
         };
         let own = self.outlines.first()?.radius_m();
+        // Most others are nowhere near the path.
+        let (center, reach_m) = (other.center(), own + other.radius_m() + CROSSING_M);
+        let away = (self.extent.0 - center).sup(&(center - self.extent.1));
+        if away.x.max(away.y) > reach_m {
+            return None;
+        }
         let mut found: Option<(usize, usize)> = None;
         for (c, (middle, radius)) in self.chunks.iter().enumerate() {
-            let reach = radius + own + other.radius_m() + CROSSING_M;
-            if (middle - other.center()).norm_squared() > reach * reach {
+            let reach = radius + reach_m;
+            if (middle - center).norm_squared() > reach * reach {
                 if found.is_some() {
                     break;
                 }
