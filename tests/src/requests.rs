@@ -36,6 +36,7 @@ pub const TARGETS: &[Target] = &[
     post("request-generate", "/v1/generate", JSON),
     post("request-score", "/v1/score", JSON),
     post("request-place", "/v1/place", JSON),
+    post("request-run", "/v1/runs", JSON),
     post("request-scene", "/v1/scenes", JSON),
     post("request-duplicate", "/v1/scenes/demo-crossing/duplicate", JSON),
     post("request-export", "/v1/export?format=womd", JSON),
