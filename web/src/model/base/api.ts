@@ -1640,7 +1640,7 @@ export interface components {
          * FaultKind
          * @description Kind of a fault, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "off_map" | "on_carriageway" | "speeding" | "harsh_braking" | "harsh_steering" | "running" | "askew" | "near_miss" | "via_missed" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "off_map" | "on_carriageway" | "speeding" | "harsh_braking" | "harsh_steering" | "running" | "askew" | "fails_to_yield" | "forces_braking" | "near_miss" | "via_missed" | "goal_missed";
         /**
          * Features
          * @description A motion of one road user, or of several together, in such terms.
@@ -2078,6 +2078,7 @@ export interface components {
              *       "covered_share": 0.5,
              *       "crosswalk_m": 15,
              *       "follow_brake_mps2": 3.35,
+             *       "forced_brake_mps2": 3,
              *       "gap_m": 1,
              *       "goal_heading_rad": 0.02,
              *       "goal_position_m": 0.05,
@@ -4478,6 +4479,7 @@ export interface components {
              *       "covered_share": 0.5,
              *       "crosswalk_m": 15,
              *       "follow_brake_mps2": 3.35,
+             *       "forced_brake_mps2": 3,
              *       "gap_m": 1,
              *       "goal_heading_rad": 0.02,
              *       "goal_position_m": 0.05,
@@ -4844,6 +4846,12 @@ export interface components {
              * @default 3.35
              */
             follow_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Braking above this of another that gives way is forced on it, m/s2.
+             * @default 3
+             */
+            forced_brake_mps2?: number;
             /**
              * Format: double
              * @description Near miss: gap below this, metres.
@@ -7847,6 +7855,8 @@ export interface operations {
             /** @description busy, store-unavailable, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7999,6 +8009,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8198,6 +8210,8 @@ export interface operations {
             /** @description busy, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8364,6 +8378,8 @@ export interface operations {
             /** @description busy, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8528,6 +8544,8 @@ export interface operations {
             /** @description busy */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
@@ -8737,6 +8755,8 @@ export interface operations {
             /** @description busy, shutting-down */
             503: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {

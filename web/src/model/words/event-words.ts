@@ -50,6 +50,8 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   askew: TEXTS.askew,
   harsh_braking: TEXTS.hardBraking,
   harsh_steering: TEXTS.hardSteering,
+  fails_to_yield: TEXTS.failsToYield,
+  forces_braking: TEXTS.forcesBraking,
   near_miss: TEXTS.nearMiss,
   via_missed: TEXTS.viaMissed,
   goal_missed: TEXTS.goalMissed,
@@ -75,7 +77,10 @@ function extentWords(r: SceneEvent, unit: SpeedUnit): string | null {
       return degrees(r.extent);
     case 'harsh_braking':
     case 'harsh_steering':
+    case 'forces_braking':
       return acceleration(r.extent);
+    case 'fails_to_yield':
+      return seconds(r.extent);
     case 'wrong_way':
     case 'off_map':
     case 'on_carriageway':
@@ -147,6 +152,8 @@ const FACTS: Partial<Record<FaultKind, string>> = {
   askew: TEXTS.angleToTheLane,
   harsh_braking: TEXTS.braking,
   harsh_steering: TEXTS.lateral,
+  fails_to_yield: TEXTS.waited,
+  forces_braking: TEXTS.otherBrakes,
   via_missed: TEXTS.distanceToVia,
   goal_missed: TEXTS.distanceToGoal,
 };
