@@ -52,6 +52,7 @@ pub const CONSTANTS: &[(&str, &str, &str)] = &[
     ("placement/request.rs", "MAX_SPEED_MPS", "range"),
     ("placement/room.rs", "STEP_M", "grid"),
     ("placement/speeds.rs", "ROUNDING_MPS", "rounding"),
+    ("planning/around.rs", "SPACING_M", "grid"),
     ("planning/coordinates.rs", "INSTANT_S", "format"),
     ("planning/coordinates.rs", "STAYS_WITHIN_M", "format"),
     ("planning/coordinates.rs", "ALONG_SCALE", "format"),

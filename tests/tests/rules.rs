@@ -138,6 +138,7 @@ const HOUSES: &[House] = &[
             &["world", "pullback"],
             &["legal", "lights", "way"],
             &["crossing"],
+            &["around"],
             &["to_goal"],
             &["through"],
             &["anchors"],
