@@ -90,7 +90,7 @@ fn a_run_is_stepped_over_a_websocket() {
     let open = |id: &str| {
         let stream = std::net::TcpStream::connect(server.address).unwrap();
         stream.set_read_timeout(Some(std::time::Duration::from_secs(60))).unwrap();
-        tungstenite::client(format!("ws://{}/v1/runs/{id}/step", server.address), stream)
+        tungstenite::client(format!("ws://{}/v1/runs/{id}/step", server.address), stream).map_err(Box::new)
     };
     let (mut line, _) = open(run["run"].as_str().unwrap()).unwrap();
     let mut ask = |number: u64| -> (Value, Value) {

@@ -459,7 +459,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     await d.page.reload();
     await d.ready();
-    expect(await d.text('.toast')).toContain('Restored');
+    expect(await d.text('.toast')).toContain('restored');
   });
 
   it('works by keys only', async () => {
