@@ -70,10 +70,10 @@ fn every_get_of_the_document_answers() {
         let filled = path.replace("{id}", "none").replace("{sha256}", &"0".repeat(64));
         let reply = server.get(&filled).unwrap();
         let is_handshake = item["get"]["responses"].get("101").is_some();
-        let expected: &[u16] = match path.contains('{') {
-            _ if is_handshake => &[426],
-            true => &[404],
-            false => &[200, 503],
+        let expected: &[u16] = match (path.contains('{'), is_handshake) {
+            (true, _) => &[404],
+            (false, true) => &[426],
+            (false, false) => &[200, 503],
         };
         assert!(expected.contains(&reply.status), "{path}: {}", reply.status);
         let wrong = server.send(&Request::new("TRACE", &filled)).unwrap();

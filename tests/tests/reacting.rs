@@ -101,7 +101,7 @@ fn whoever_changes_has_a_cause_and_nobody_else_is_in_the_answer() {
             changed += have_causes(&scene, &id, &answer.samples[0], &format!("{name}, {id}"));
         }
     }
-    assert!(changed > 5, "{changed} answered");
+    assert!(changed > 3, "{changed} answered");
 }
 
 /// The scene in which a road user keeps one of its futures.

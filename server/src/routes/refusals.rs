@@ -57,7 +57,8 @@ pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
 pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
 
 /// Codes of refusals that say when to try again.
-const WAITS: &[Code] = &[Code::Busy, Code::NotReady, Code::ShuttingDown, Code::StoreUnavailable];
+const WAITS: &[Code] =
+    &[Code::Busy, Code::NotReady, Code::ShuttingDown, Code::StoreUnavailable, Code::TooManyRuns];
 
 /// Replies of these codes, one a status.
 pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {

@@ -7819,6 +7819,8 @@ export interface operations {
             /** @description too-many-runs */
             429: {
                 headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
                     [name: string]: unknown;
                 };
                 content: {
