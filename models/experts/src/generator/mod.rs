@@ -44,7 +44,7 @@ mod window_setting;
 mod workers;
 
 pub use generation::Generation;
-pub(crate) use others::extend_along_road;
+pub(crate) use others::{extend_along_road, state_between};
 
 use crate::cancel::Cancel;
 use crate::clock::{self, Clock};

@@ -1,10 +1,10 @@
 //! The road users of a run: those to come, those that are there with the plan that they drive, and those that have left.
 
-use crate::generator::extend_along_road;
+use crate::generator::{extend_along_road, state_between};
 use crate::tuning::fixed::run::{BRAKES_FOR_S, BRAKES_MPS2};
 use scene::geometry::direction;
 use scene::routes::LaneGraph;
-use scene::{AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, State, wrap_angle};
+use scene::{AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
 /// Milliseconds of a step of a plan.
 pub(super) const PLAN_STEP_MS: u64 = 100;
@@ -81,7 +81,7 @@ impl DrivenPlan {
         let share = (past_ms % PLAN_STEP_MS) as f64 / PLAN_STEP_MS as f64;
         let last = self.states.last().copied().unwrap_or_default();
         let at = |i: usize| self.states.get(i).copied().unwrap_or(last);
-        if share == 0.0 { at(i) } else { between(&at(i), &at(i + 1), share) }
+        if share == 0.0 { at(i) } else { state_between(&at(i), &at(i + 1), share) }
     }
 
     /// Forgets what is past, and carries the plan on along the road where it ends within what is looked at.
@@ -137,7 +137,7 @@ impl EgoMotion {
             .map(|i| {
                 let share = along / (speed_mps * STEP_S);
                 let at = (share as usize).min(even.len().saturating_sub(2));
-                let place = between(&even[at], &even[at + 1], share - at as f64);
+                let place = state_between(&even[at], &even[at + 1], share - at as f64);
                 let slower = speed / speed_mps;
                 let state = State { vx_mps: slower * place.vx_mps, vy_mps: slower * place.vy_mps, ..place };
                 let brakes = (i as f64) * STEP_S < BRAKES_FOR_S;
@@ -172,18 +172,6 @@ fn along_road(first: &State, count: usize, graph: &LaneGraph, agent_type: AgentT
         }
     }
     (0..count).map(straight).collect()
-}
-
-/// The state between two.
-pub(super) fn between(a: &State, b: &State, share: f64) -> State {
-    let mix = |p: f64, q: f64| p + share * (q - p);
-    State {
-        x_m: mix(a.x_m, b.x_m),
-        y_m: mix(a.y_m, b.y_m),
-        heading_rad: wrap_angle(a.heading_rad + share * wrap_angle(b.heading_rad - a.heading_rad)),
-        vx_mps: mix(a.vx_mps, b.vx_mps),
-        vy_mps: mix(a.vy_mps, b.vy_mps),
-    }
 }
 
 #[cfg(test)]

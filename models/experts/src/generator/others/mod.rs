@@ -18,6 +18,6 @@ mod yielding;
 pub(super) use chain::{ChangedMotion, Reacted, caused};
 pub(super) use following::following;
 pub(super) use other::Others;
-pub(crate) use path_progress::extend_along_road;
+pub(crate) use path_progress::{extend_along_road, state_between};
 pub(super) use reaction::reaction_of;
 pub(super) use replanned::replanned;

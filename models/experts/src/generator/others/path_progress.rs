@@ -209,7 +209,7 @@ fn bridged(known: &[Option<State>]) -> Vec<State> {
         };
         if let Some(last) = out.last().copied() {
             for i in 1..=gap {
-                out.push(between(&last, state, i as f64 / (gap + 1) as f64));
+                out.push(state_between(&last, state, i as f64 / (gap + 1) as f64));
             }
         }
         gap = 0;
@@ -218,7 +218,8 @@ fn bridged(known: &[Option<State>]) -> Vec<State> {
     out
 }
 
-fn between(a: &State, b: &State, share: f64) -> State {
+/// The state between two.
+pub(crate) fn state_between(a: &State, b: &State, share: f64) -> State {
     let mix = |p: f64, q: f64| p + share * (q - p);
     State {
         x_m: mix(a.x_m, b.x_m),
