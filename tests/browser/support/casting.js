@@ -52,6 +52,15 @@ export async function carOnTheMove(e) {
   });
 }
 
+/** Clicks a car on the move, and waits for its futures. */
+export async function selectMovingCar(e) {
+  const car = await carOnTheMove(e);
+  await e.page.mouse.click(...car.from);
+  await e.page.waitForSelector('.fu');
+  await e.settled();
+  return car;
+}
+
 export async function pedestrianOnTheMove(e) {
   return find(
     e,

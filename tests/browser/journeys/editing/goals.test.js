@@ -1,7 +1,7 @@
 // Unreachable goals, typed values and turned handles, and undo.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
-import { carOnTheMove, cyclistOnTheMove, pedestrianOnTheMove } from '../../support/casting.js';
+import { carOnTheMove, cyclistOnTheMove, pedestrianOnTheMove, selectMovingCar } from '../../support/casting.js';
 import { distance, turn } from '../../support/editor.js';
 import { journeys } from '../../support/journey.js';
 
@@ -60,10 +60,7 @@ journeys('goals and values', (stage) => {
   it('explains an unreachable goal and fixes it with one click, in German too', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    const car = await carOnTheMove(e);
-    await e.page.mouse.click(...car.from);
-    await e.page.waitForSelector('.fu');
-    await e.settled();
+    const car = await selectMovingCar(e);
     await e.drag(
       [car.to[0] + 9, car.to[1] - 26],
       [car.to[0] + (car.from[0] - car.to[0]) * 0.1 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.1 - 26],

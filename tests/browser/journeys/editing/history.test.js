@@ -1,7 +1,7 @@
 // The history is a list: a click goes to a step, abandoned steps stay as a branch, and the view follows.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
-import { carOnTheMove } from '../../support/casting.js';
+import { carOnTheMove, selectMovingCar } from '../../support/casting.js';
 import { journeys } from '../../support/journey.js';
 
 const time = (e) => e.value('goal-time');
@@ -42,10 +42,7 @@ journeys('history', (stage) => {
   it('restores the view with undo, and offers a way back to the scene', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    const car = await carOnTheMove(e);
-    await e.page.mouse.click(...car.from);
-    await e.page.waitForSelector('.fu');
-    await e.settled();
+    const car = await selectMovingCar(e);
     const before = await e.view();
     await e.drag([car.to[0] + 9, car.to[1] - 26], [before.box.x + 4, before.box.y + 300], { moves: 4 });
     // At the edge the picture scrolls.

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
-import { carOnTheMove } from '../../support/casting.js';
+import { selectMovingCar } from '../../support/casting.js';
 import { journeys } from '../../support/journey.js';
 import { recordedFile } from '../../support/where.js';
 
@@ -21,10 +21,7 @@ journeys('files and outages', (stage) => {
       assert.notEqual(await e.page.inputValue('.title input'), 'Rosa & 5th');
       await e.settled();
       await e.picture('womd');
-      const car = await carOnTheMove(e);
-      await e.page.mouse.click(...car.from);
-      await e.page.waitForSelector('.fu');
-      await e.settled();
+      const car = await selectMovingCar(e);
       const back = 0.35;
       await e.drag(
         [car.to[0] + 9, car.to[1] - 26],
@@ -52,10 +49,7 @@ journeys('files and outages', (stage) => {
     async () => {
       const e = await stage.open();
       await e.begin();
-      const car = await carOnTheMove(e);
-      await e.page.mouse.click(...car.from);
-      await e.page.waitForSelector('.fu');
-      await e.settled();
+      const car = await selectMovingCar(e);
       await stage.program.kill();
       const to = [car.to[0] + (car.from[0] - car.to[0]) * 0.3 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.3 - 26];
       await e.drag([car.to[0] + 9, car.to[1] - 26], to);
@@ -95,10 +89,7 @@ journeys('files and outages', (stage) => {
   it('asks for a goal set during an outage beyond the edge of the picture', { timeout: 90_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    const car = await carOnTheMove(e);
-    await e.page.mouse.click(...car.from);
-    await e.page.waitForSelector('.fu');
-    await e.settled();
+    const car = await selectMovingCar(e);
     const { box } = await e.view();
     const flag = [car.to[0] + 9, car.to[1] - 26];
     // At the edge the picture scrolls, away from the car.
