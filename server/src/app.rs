@@ -1,15 +1,14 @@
 //! State that every handler can reach.
 
 use crate::base::limits::Limits;
-use crate::generation::Experts;
+use crate::generation::LaneOperations;
 use crate::http::body::{Reading, Room};
 use crate::http::observe::RequestGate;
 use crate::runs::RunStore;
 use crate::scenes::{Catalog, map_bytes};
 use crate::work::Pool;
-use api::Problem;
+use api::{Operations, Problem};
 use axum::extract::FromRef;
-use experts::{Generator, Placer};
 use metrics_exporter_prometheus::PrometheusHandle;
 use scene::{LaneMap, Shared};
 use std::ops::Deref;
@@ -33,14 +32,12 @@ pub struct AppParts {
     pub room: Arc<Room>,
     /// All CPU work.
     pub pool: Arc<Pool>,
-    /// Experts, for calls that people wait for.
-    pub generator: Arc<Generator>,
-    /// The same experts for long calls: they leave a core to the others.
-    pub patient: Arc<Generator>,
+    /// The operations, for calls that people wait for.
+    pub operations: Operations,
+    /// The same for long calls: they leave a core to the others.
+    pub patient: Operations,
     /// Runs that clients step.
     pub runs: RunStore,
-    /// Placement.
-    pub placer: Arc<Placer>,
     /// Experts are warm.
     pub warm: AtomicBool,
     /// Counters.
@@ -60,13 +57,13 @@ impl App {
     /// # Errors
     /// A full queue.
     pub async fn map_preparation(&self, map: &Shared<LaneMap>) -> Result<Duration, Problem> {
-        let (generator, map) = (Arc::clone(&self.generator), map.clone());
+        let (generator, map) = (Arc::clone(&self.operations.generator), map.clone());
         self.pool.document(map_bytes(&map), move || Ok(generator.maps().cost(&map).preparation)).await
     }
 
-    /// The experts by the lane of a call.
-    pub fn experts(&self) -> Experts<'_> {
-        Experts { quick: &self.generator, patient: &self.patient }
+    /// The operations by the lane of a call.
+    pub fn lanes(&self) -> LaneOperations<'_> {
+        LaneOperations { quick: &self.operations, patient: &self.patient }
     }
 }
 

@@ -5,6 +5,8 @@
 use api::feedback::FeedbackDoc;
 use api::generate::GenerationRun;
 use api::generate::request::AgentChoice;
+use api::map::MapBody;
+use api::place::{PlaceBody, PlaceReply};
 use api::{AboutScene, GenerateRequest, Operations, Problem, SceneRef, Subject};
 use dragtraffic_tests::Server;
 use dragtraffic_tests::program::{program, root};
@@ -30,7 +32,7 @@ fn demo() -> Value {
 fn opened<T: DeserializeOwned + AboutScene>(body: &Value) -> (T, Subject) {
     let mut request: T = serde_json::from_value(body.clone()).unwrap();
     let wanted: SceneRef = request.take_scene();
-    let subject = api::home::at_once(OPERATIONS.open(wanted, &BTreeMap::new())).unwrap();
+    let subject = api::home::at_once(wanted.open(&BTreeMap::new())).unwrap();
     (request, subject.map_err(|problem| problem.detail).unwrap())
 }
 
@@ -88,9 +90,10 @@ fn a_placement() {
     let server = Server::start(&[]).unwrap();
     let body =
         json!({"scene": demo(), "keep": [], "density": {"count": 12}, "seed": 3, "parked": {"share": 0.5}});
-    let (request, subject) = opened(&body);
-    let placed = OPERATIONS.place(&request, &subject, &Cancel::default());
-    let direct = serde_json::to_value(placed.map_err(|problem| problem.detail).unwrap()).unwrap();
+    let (request, subject) = opened::<PlaceBody>(&body);
+    let placed = OPERATIONS.place(&request, &subject.scene, &Cancel::default());
+    let placed = placed.map_err(|problem| problem.detail).unwrap();
+    let direct = serde_json::to_value(PlaceReply::of(&placed, &subject.scene)).unwrap();
     let sent: Value = serde_json::from_str(&posted(&server, "/v1/place", &body)).unwrap();
     assert_eq!(sent.to_string(), direct.to_string());
     let flags = ["--keep", "--count", "12", "--seed", "3", "--parked", "0.5", "--quiet"];
@@ -102,7 +105,7 @@ fn a_placement() {
 fn a_map_and_its_score() {
     let server = Server::start(&[]).unwrap();
     let body = json!({"template": "roundabout", "parameters": {}});
-    let direct = OPERATIONS.map(serde_json::from_value(body.clone()).unwrap());
+    let direct = serde_json::from_value::<MapBody>(body.clone()).unwrap().reply();
     let direct = direct.map_err(|problem| problem.detail).unwrap();
     let sent = posted(&server, "/v1/map", &body);
     assert_eq!(sent, serde_json::to_string(&direct).unwrap());

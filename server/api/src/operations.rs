@@ -1,26 +1,26 @@
-//! All operations over one engine.
+//! The operations that need the engine. Reading a file ([`crate::import::SceneFile`]), opening a scene
+//! ([`crate::SceneRef::open`]), drawing a map ([`crate::map::MapBody::reply`]) and writing a file ([`crate::export`]) need
+//! none and stand in their own modules.
 
-use crate::export::{self, MotionChoice, WrittenFile};
 use crate::feedback::FeedbackDoc;
-use crate::generate::{GenerateRequest, GenerationRun};
-use crate::home::{Home, SceneRef, Subject};
-use crate::import::{Companions, ReadFile, SceneFile};
+use crate::generate::{GenerateRequest, GenerationPlan, GenerationRun};
+use crate::home::Subject;
 use crate::info::{BuildInfo, ProgramInfo};
 use crate::limits::{Bound, CallLimits};
-use crate::map::{MapBody, MapReply};
-use crate::place::{PlaceBody, PlaceReply};
+use crate::place::PlaceBody;
 use crate::problem::Problem;
-use crate::runs::{PeekBody, PeekReply, RunBody, StepBody, StepReply};
+use crate::runs::{PeekBody, RunBody, StepBody};
 use crate::score::{ScoreRequest, score};
+use experts::placement::Placement;
+use experts::run::{RunPeek, RunStep};
 use experts::{Cancel, Clock, Engine, Generator, Placer, Run};
-use formats::Source;
 use scene::Scene;
 use scene::score::Score;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The operations. Cheap to clone.
+/// The operations over one engine. Cheap to clone.
 #[derive(Clone)]
 pub struct Operations {
     /// Scenes and conditions to futures.
@@ -29,7 +29,7 @@ pub struct Operations {
     pub placer: Arc<Placer>,
     /// Bounds of one call.
     pub limits: CallLimits,
-    /// What drafts and timings are measured by; it stands unless a carrier hands one in.
+    /// Measures drafts and timings. It stands unless a carrier hands one in.
     pub clock: Clock,
 }
 
@@ -44,63 +44,40 @@ impl Operations {
         }
     }
 
-    /// The scene that a request names.
-    ///
-    /// # Errors
-    /// As [`SceneRef::open`].
-    pub async fn open<H: Home>(&self, wanted: SceneRef, home: &H) -> Result<Subject, Problem> {
-        wanted.open(home).await
+    /// The same engine, each generation on `threads` threads of its own.
+    pub fn beside(&self, threads: usize) -> Self {
+        Self { generator: Arc::new(self.generator.beside(threads)), ..self.clone() }
     }
 
-    /// The scenes of a file: `window.1` of them at most, after `window.0`.
-    ///
-    /// # Errors
-    /// As [`SceneFile::of`] and [`SceneFile::read`].
-    pub fn import(
-        &self,
-        file: &dyn Source,
-        format: Option<&str>,
-        name: &str,
-        companions: &Companions,
-        window: (usize, usize),
-    ) -> Result<ReadFile, Problem> {
-        SceneFile::of(file, format, name, companions, window)?.read(file)
-    }
-
-    /// Road users where there are none yet.
-    ///
-    /// # Errors
-    /// Every fault of the options; a cancelled call.
-    pub fn place(
-        &self,
-        request: &PlaceBody,
-        about: &Subject,
-        cancel: &Cancel,
-    ) -> Result<PlaceReply, Problem> {
-        Ok(PlaceReply::of(&request.run(&about.scene, &self.placer, cancel)?, &about.scene))
-    }
-
-    /// A map from nothing.
-    ///
-    /// # Errors
-    /// Every fault of the parameters.
-    pub fn map(&self, request: MapBody) -> Result<MapReply, Problem> {
-        request.reply()
-    }
-
-    /// Futures, event after event. Dropping the iterator ends the work.
+    /// A checked generation that can be priced and queued before it starts.
     ///
     /// # Errors
     /// Every fault of the options, conditions and ids.
+    pub fn plan(&self, request: &GenerateRequest, about: &Subject) -> Result<GenerationPlan, Problem> {
+        let mut plan = request.plan(&about.scene, &self.limits, &self.generator)?;
+        plan.standings = about.standings.clone();
+        Ok(plan)
+    }
+
+    /// Futures of a plan, event after event. Dropping the iterator ends the work.
+    ///
+    /// # Errors
+    /// A scene that the engine refuses; a cancelled call.
+    pub fn start(&self, plan: GenerationPlan, cancel: Cancel) -> Result<GenerationRun<'_>, Problem> {
+        plan.start(&self.generator, cancel, self.clock)
+    }
+
+    /// [`Self::plan`] and [`Self::start`] at once.
+    ///
+    /// # Errors
+    /// As both.
     pub fn generate(
         &self,
         request: &GenerateRequest,
         about: &Subject,
         cancel: Cancel,
     ) -> Result<GenerationRun<'_>, Problem> {
-        let mut plan = request.plan(&about.scene, &self.limits, &self.generator)?;
-        plan.standings = about.standings.clone();
-        plan.start(&self.generator, cancel, self.clock)
+        self.start(self.plan(request, about)?, cancel)
     }
 
     /// The next round of cards, by what a person said of earlier ones.
@@ -118,28 +95,41 @@ impl Operations {
         self.generate(&request, about, cancel)
     }
 
+    /// Road users where there are none yet.
+    ///
+    /// # Errors
+    /// Every fault of the options; a cancelled call.
+    pub fn place(
+        &self,
+        request: &PlaceBody,
+        scene: &Arc<Scene>,
+        cancel: &Cancel,
+    ) -> Result<Placement, Problem> {
+        request.run(scene, &self.placer, cancel)
+    }
+
     /// Begins a run: traffic that is stepped, beside road users that the caller drives.
     ///
     /// # Errors
     /// As [`RunBody::begin`].
-    pub fn begin_run(&self, request: &RunBody, about: &Subject, cancel: &Cancel) -> Result<Run, Problem> {
-        request.begin(&about.scene, &self.generator, cancel)
+    pub fn begin_run(&self, request: &RunBody, scene: &Arc<Scene>, cancel: &Cancel) -> Result<Run, Problem> {
+        request.begin(scene, &self.generator, cancel)
     }
 
     /// One step of a run.
     ///
     /// # Errors
     /// As [`StepBody::step`].
-    pub fn step_run(&self, request: &StepBody, run: &mut Run, cancel: &Cancel) -> Result<StepReply, Problem> {
-        Ok((&request.step(run, &self.generator, cancel)?).into())
+    pub fn step_run(&self, request: &StepBody, run: &mut Run, cancel: &Cancel) -> Result<RunStep, Problem> {
+        request.step(run, &self.generator, cancel)
     }
 
     /// What the others of a run would do if egos drove these plans.
     ///
     /// # Errors
     /// As [`PeekBody::peek`].
-    pub fn peek_run(&self, request: &PeekBody, run: &Run, cancel: &Cancel) -> Result<PeekReply, Problem> {
-        Ok(PeekReply::of(run, &request.peek(run, &self.generator, cancel)?))
+    pub fn peek_run(&self, request: &PeekBody, run: &Run, cancel: &Cancel) -> Result<RunPeek, Problem> {
+        request.peek(run, &self.generator, cancel)
     }
 
     /// Collisions, near misses, off-road driving, kinematics, goals.
@@ -148,20 +138,6 @@ impl Operations {
     /// Every fault of the given motion and thresholds.
     pub fn score(&self, request: &ScoreRequest, about: &Subject) -> Result<Score, Problem> {
         score(about, request, self.generator.maps())
-    }
-
-    /// A scene as a file.
-    ///
-    /// # Errors
-    /// As [`export::write`].
-    pub fn export(
-        &self,
-        scene: &Scene,
-        format: &str,
-        sample: Option<usize>,
-        motion: MotionChoice,
-    ) -> Result<WrittenFile, Problem> {
-        export::write(scene, format, sample, motion, None)
     }
 
     /// Version, weights, limits and formats.

@@ -6,7 +6,6 @@ use api::Operations;
 use clap::{Args, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Heading of these flags in every help.
 const HEADING: &str = "Global options";
@@ -108,8 +107,7 @@ impl Common {
     /// # Errors
     /// Exit 7.
     pub fn operations_on(&self, threads: usize) -> Result<Operations, Failure> {
-        let operations = self.operations()?;
-        Ok(Operations { generator: Arc::new(operations.generator.beside(threads)), ..operations })
+        Ok(self.operations()?.beside(threads))
     }
 
     /// Only the generator.

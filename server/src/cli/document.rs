@@ -71,8 +71,7 @@ pub fn info(args: InfoArgs, common: &Common) -> Result<(), Failure> {
             _ => Err(Failure::usage("--markdown is for formats: dragtraffic info formats --markdown")),
         };
     }
-    let experts::Engine { generator, placer } = common.engine()?;
-    let info = serde_json::to_value(info::of(&generator, &placer, &Limits::default())).unwrap_or_default();
+    let info = serde_json::to_value(info::of(&common.operations()?, &Limits::default())).unwrap_or_default();
     let shown = match &args.part {
         None => Some(&info),
         Some(part) => info.get(part),

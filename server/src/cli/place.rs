@@ -6,11 +6,12 @@ use super::progress::Progress;
 use super::tally::Tally;
 use super::values::{For, for_one, index, share, whole, within};
 use super::{Common, Failure, parallel, pointers};
+use api::Operations;
 use api::place::PlaceBody;
 use api::place::request::{ArrivalsDoc, DensityDoc, ParkedDoc, RegionDoc, SpeedsDoc};
 use clap::Args;
+use experts::Cancel;
 use experts::placement::{ArmTraffic, MAX_COUNT, MAX_GAP_M, MAX_PER_HOUR, MAX_PER_LANE_KM, MAX_SPEED_MPS};
-use experts::{Cancel, Placer};
 use formats::native::{self, MAX_SAFE_INTEGER, MapForm, Members, SceneDoc};
 use serde_json::Value;
 use std::collections::HashSet;
@@ -87,8 +88,8 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
         no_ids(&sources, "--keep")?;
     }
     let body = request(&args)?;
-    let placer = common.engine()?.placer;
-    let work = Work { args: &args, body: &body, placer: &placer };
+    let operations = common.operations()?;
+    let work = Work { args: &args, body: &body, operations: &operations };
     let reading = Reading { index: args.index.clone(), ..Reading::default() };
     if args.arms {
         return tell_arms(&work, &sources, &reading);
@@ -142,7 +143,7 @@ fn per_hour(text: &str) -> Result<f64, String> {
 struct Work<'a> {
     args: &'a PlaceArgs,
     body: &'a PlaceBody,
-    placer: &'a Placer,
+    operations: &'a Operations,
 }
 
 impl Work<'_> {
@@ -151,8 +152,8 @@ impl Work<'_> {
         let mut scene = item.scene;
         let shared = Arc::new(scene.clone());
         let placement = self
-            .body
-            .run(&shared, self.placer, &Cancel::default())
+            .operations
+            .place(self.body, &shared, &Cancel::default())
             .map_err(|problem| pointers::refused(source, &problem))?;
         let mut told = vec![format!("{} placed", placement.agents.len())];
         for ArmTraffic { arm, placed, later, .. } in placement.arms.iter().filter(|a| a.placed + a.later > 0)
@@ -178,7 +179,7 @@ impl Work<'_> {
 fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(), Failure> {
     let [source] = sources else { return Err(Failure::usage("--arms takes one scene")) };
     let scene = Arc::new(source.first(reading)?.scene);
-    let placement = work.body.run(&scene, work.placer, &Cancel::default());
+    let placement = work.operations.place(work.body, &scene, &Cancel::default());
     let placement = placement.map_err(|problem| pointers::refused(source, &problem))?;
     let mut text = String::from("arm,x_m,y_m,lanes,length_m,most_per_hour\n");
     for ArmTraffic { arm, length_m, most_per_hour, .. } in &placement.arms {

@@ -15,6 +15,7 @@ use crate::runs::RunStore;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
 use crate::work::{self, Pool, PoolLane};
+use api::Operations;
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -132,12 +133,12 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     }
     let store = Store::open(&db, &limits)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error:#}", db.display())))?;
-    let experts::Engine { generator, placer } = common.engine()?;
+    let operations = Operations { limits: limits.of_a_call(), ..common.operations()? };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let patient = Arc::new(generator.beside(cores - 1));
-    let generator = Arc::new(generator);
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
-    metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));
+    metrics::identity(
+        operations.generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())),
+    );
     let pool = Pool::start(&limits)?;
     let cached_bytes = limits.cached_scene_bytes as usize;
     let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_bytes)?;
@@ -149,10 +150,9 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
         room: Arc::new(Room::new(&limits)),
         pool,
-        generator,
-        patient,
+        patient: operations.beside(cores - 1),
+        operations,
         runs: RunStore::new(&limits),
-        placer: Arc::new(placer),
         warm: AtomicBool::new(false),
         metrics: handle,
         refuse_nc: args.refuse_nc,
@@ -194,7 +194,7 @@ fn start_background(app: &App) -> std::io::Result<()> {
     let warm_up = move || {
         // The generator's own threads start here.
         work::give_way(PoolLane::Quick);
-        warmed.generator.warm_up();
+        warmed.operations.generator.warm_up();
         warmed.warm.store(true, Ordering::Relaxed);
         tracing::info!("experts are warm");
     };

@@ -10,19 +10,18 @@ pub use feed::EventReader;
 
 use crate::base::limits::Limits;
 use crate::work::{Caller, JobKind, JobRequest, Pool, PoolLane, Work};
-use api::Problem;
 use api::generate::GenerationPlan;
-use experts::Generator;
+use api::{Operations, Problem};
 use feed::Feed;
 use std::sync::Arc;
 
-/// The experts by the lane of a call.
+/// The operations by the lane of a call.
 #[derive(Clone, Copy)]
-pub struct Experts<'a> {
+pub struct LaneOperations<'a> {
     /// For small calls that people wait for.
-    pub quick: &'a Arc<Generator>,
+    pub quick: &'a Operations,
     /// For the others.
-    pub patient: &'a Arc<Generator>,
+    pub patient: &'a Operations,
 }
 
 /// Queues a generation.
@@ -31,19 +30,19 @@ pub struct Experts<'a> {
 /// `shutting-down`, `exists`, `stale-revision` or `busy`.
 pub fn submit(
     pool: &Arc<Pool>,
-    experts: Experts<'_>,
+    lanes: LaneOperations<'_>,
     limits: &Limits,
     caller: Caller,
     plan: GenerationPlan,
 ) -> Result<EventReader, Problem> {
     let asked = JobRequest { kind: JobKind::Generate, cost: plan.cost(), caller };
-    let generator = Arc::clone(if asked.lane() == PoolLane::Quick { experts.quick } else { experts.patient });
+    let operations = if asked.lane() == PoolLane::Quick { lanes.quick } else { lanes.patient }.clone();
     let most = limits.buffered_events as usize;
     let (feed, handle) = pool.submit(asked, |ticket| {
         let feed = Arc::new(Feed::new(Arc::clone(ticket), most));
         let (fed, pool) = (Arc::clone(&feed), Arc::clone(pool));
         let work: Work = Box::new(move || {
-            run::generate(&fed, &generator, plan, || pool.let_smaller_go(&fed.ticket));
+            run::generate(&fed, &operations, plan, || pool.let_smaller_go(&fed.ticket));
         });
         (feed, work)
     })?;

@@ -5,21 +5,21 @@ use super::feed::Feed;
 use super::outbox::JobEnd;
 use crate::base::{clock, metrics};
 use crate::work::JobKind;
-use api::Problem;
 use api::events::FinalBody;
 use api::generate::{GenerationAnswer, GenerationEvent, GenerationPlan, round_ms};
+use api::{Operations, Problem};
 use experts::weights::EXPERTS;
-use experts::{Draft, Event, Generator};
+use experts::{Draft, Event};
 use scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
-pub fn generate(feed: &Feed, generator: &Generator, plan: GenerationPlan, others: impl Fn()) {
+pub fn generate(feed: &Feed, operations: &Operations, plan: GenerationPlan, others: impl Fn()) {
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
-    if let Err(problem) = events(feed, generator, plan, queued, &others)
+    if let Err(problem) = events(feed, operations, plan, queued, &others)
         && feed.fail(problem)
     {
         metrics::ended(JobKind::Generate.name(), "error");
@@ -28,7 +28,7 @@ pub fn generate(feed: &Feed, generator: &Generator, plan: GenerationPlan, others
 
 fn events(
     feed: &Feed,
-    generator: &Generator,
+    operations: &Operations,
     plan: GenerationPlan,
     queued: Duration,
     others: &dyn Fn(),
@@ -40,7 +40,7 @@ fn events(
             count(&scene, draft);
         }
     };
-    let mut generation = plan.start(generator, feed.ticket.cancel.clone(), clock::monotonic)?;
+    let mut generation = operations.start(plan, feed.ticket.cancel.clone())?;
     while let Some(event) = generation.next_watched(&mut watch) {
         match event? {
             GenerationEvent::Accepted(accepted) => {

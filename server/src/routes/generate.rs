@@ -12,7 +12,7 @@ use crate::http::line;
 use crate::http::net::Carrier;
 use crate::scenes::bytes_of;
 use crate::work::Caller;
-use api::{AboutScene, Code, GenerateRequest, Problem, Subject};
+use api::{AboutScene, Code, GenerateRequest, Problem};
 use axum::Extension;
 use axum::extract::{FromRequest, Request, State};
 use axum::http::HeaderValue;
@@ -47,12 +47,13 @@ pub async fn generate(
     // Opening and preparing a scene costs more than a refusal may.
     app.pool.expects(&caller)?;
     let home = app.catalog.of(connection.party);
-    let Subject { scene, standings, held } = body.take_scene().open(&home).await?;
+    let about = body.take_scene().open(&home).await?;
+    let held = about.held.clone();
     let streams = form != ReplyFormat::Json;
-    let (shared, bytes) = (app.clone(), bytes_of(&scene));
+    let (operations, bytes) = (app.operations.clone(), bytes_of(&about.scene));
     let prepare = move || {
-        let mut plan = body.plan(&scene, &shared.limits.of_a_call(), &shared.generator)?;
-        (plan.drafts, plan.standings) = (streams, standings);
+        let mut plan = operations.plan(&body, &about)?;
+        plan.drafts = streams;
         Ok(plan)
     };
     let plan = app.pool.document(bytes, prepare).await?;
@@ -60,7 +61,7 @@ pub async fn generate(
         heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
         together: plan.draft_delay(),
     };
-    let reader = generation::submit(&app.pool, app.experts(), &app.limits, caller, plan)?;
+    let reader = generation::submit(&app.pool, app.lanes(), &app.limits, caller, plan)?;
     let mut reply = stream::reply(reader, form, pace).await;
     if let Some(name) = held.and_then(|name| HeaderValue::from_str(&name).ok()) {
         reply.headers_mut().insert("dragtraffic-scene", name);

@@ -2,14 +2,14 @@
 
 use crate::app::App;
 use crate::base::limits::Limits;
+use api::Operations;
 use api::info::{BuildInfo, ProgramInfo};
 use axum::extract::State;
-use experts::{Generator, Placer};
 
 /// Description of this program; the command line uses it too.
-pub fn of(generator: &Generator, placer: &Placer, limits: &Limits) -> ProgramInfo {
+pub fn of(operations: &Operations, limits: &Limits) -> ProgramInfo {
     let build = BuildInfo { target: env!("BUILD_TARGET"), profile: env!("BUILD_PROFILE") };
-    ProgramInfo::new(generator, placer, build, limits.bounds())
+    operations.info(build, limits.bounds())
 }
 
 refusals!(Refused:);
@@ -18,5 +18,5 @@ refusals!(Refused:);
 #[utoipa::path(get, path = "/v1/info", operation_id = "info", tag = "server",
     responses((status = 200, description = "the server", body = ref("#/components/schemas/Info")), Refused))]
 pub async fn info(State(app): State<App>) -> axum::Json<ProgramInfo> {
-    axum::Json(of(&app.generator, &app.placer, &app.limits))
+    axum::Json(of(&app.operations, &app.limits))
 }

@@ -10,7 +10,6 @@ use api::home::Subject;
 use api::place::{PlaceBody, PlaceReply};
 use axum::extract::State;
 use experts::Cancel;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// Approximate time of a placement, from a few road users to a town of them.
@@ -35,10 +34,11 @@ pub async fn place(
     connection: Connection,
     WithScene(body, Subject { scene, .. }): WithScene<PlaceBody>,
 ) -> Result<JsonText, Refusal> {
-    let placer = Arc::clone(&app.placer);
+    let operations = app.operations.clone();
     let preparation = app.map_preparation(&scene.map).await?;
-    let work =
-        move |cancel: &Cancel| JsonText::of(&PlaceReply::of(&body.run(&scene, &placer, cancel)?, &scene));
+    let work = move |cancel: &Cancel| {
+        JsonText::of(&PlaceReply::of(&operations.place(&body, &scene, cancel)?, &scene))
+    };
     let asked =
         JobRequest { kind: JobKind::Place, cost: PLACE_COST + preparation, caller: connection.into() };
     Ok(app.pool.run(asked, work).await?)

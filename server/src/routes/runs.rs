@@ -17,7 +17,6 @@ use axum::Extension;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
-use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::OwnedMutexGuard;
 
@@ -43,11 +42,11 @@ pub async fn begin(
     app.runs.expects(connection.party)?;
     let cost = FIRST_PLAN * scene.agents.len() as u32 + app.map_preparation(&scene.map).await?;
     let asked = JobRequest { kind: JobKind::Run, cost, caller: connection.into() };
-    let generator = Arc::clone(&app.generator);
+    let operations = app.operations.clone();
     let (idle_s, id) = (app.runs.idle_s(), id::fresh());
     let name = id.clone();
     let work = move |cancel: &_| {
-        let run = body.begin(&scene, &generator, cancel)?;
+        let run = operations.begin_run(&body, &scene, cancel)?;
         Ok((JsonText::of(&RunReply::of(&name, &run, idle_s))?, run))
     };
     let (reply, run) = app.pool.run(asked, work).await?;
@@ -77,9 +76,9 @@ pub async fn step(
     if let Some((_, reply)) = held.last.as_ref().filter(|(number, _)| *number == body.number) {
         return Ok(JsonText::from(reply.clone()));
     }
-    let generator = Arc::clone(&app.generator);
+    let operations = app.operations.clone();
     let work = move |cancel: &_| {
-        let step = body.step(&mut held.run, &generator, cancel)?;
+        let step = operations.step_run(&body, &mut held.run, cancel)?;
         let reply = JsonText::of(&StepReply::from(&step))?;
         held.last = Some((step.number, reply.bytes()));
         Ok(reply)
@@ -125,9 +124,9 @@ pub async fn peek(
     Json(body): Json<PeekBody>,
 ) -> Result<JsonText, Refusal> {
     let held = taken(&app, &id).await?;
-    let generator = Arc::clone(&app.generator);
+    let operations = app.operations.clone();
     let work = move |cancel: &_| {
-        let peek = body.peek(&held.run, &generator, cancel)?;
+        let peek = operations.peek_run(&body, &held.run, cancel)?;
         JsonText::of(&PeekReply::of(&held.run, &peek))
     };
     Ok(app.pool.run(asked(connection), work).await?)

@@ -8,7 +8,6 @@ use crate::http::extract::Connection;
 use crate::work::{JobKind, JobRequest};
 use api::score::ScoreRequest;
 use axum::extract::State;
-use std::sync::Arc;
 use std::time::Duration;
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
@@ -24,12 +23,12 @@ pub async fn score(
     connection: Connection,
     WithScene(request, about): WithScene<ScoreRequest>,
 ) -> Result<JsonText, Refusal> {
-    let generator = Arc::clone(&app.generator);
+    let operations = app.operations.clone();
     let scene = &about.scene;
     // Measured: 256 road users over 600 steps take half a second.
     let cost = Duration::from_nanos(3_200 * (scene.agents.len() * scene.time.steps) as u64);
     let cost = cost + app.map_preparation(&scene.map).await?;
     let asked = JobRequest { kind: JobKind::Score, cost, caller: connection.into() };
-    let work = move |_: &_| JsonText::of(&api::score::score(&about, &request, generator.maps())?);
+    let work = move |_: &_| JsonText::of(&operations.score(&request, &about)?);
     Ok(app.pool.run(asked, work).await?)
 }

@@ -6,7 +6,7 @@ use crate::cli::inputs::Source;
 use crate::cli::score::figures::Figures;
 use crate::cli::{Exit, Failure, pointers};
 use api::generate::{GenerationAnswer, GenerationRun};
-use api::{Operations, Problem};
+use api::{Operations, Problem, Subject};
 use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::scenarios::{Casting, Template};
@@ -77,14 +77,15 @@ impl Maker<'_> {
             }
         };
         let request = ask::request(args, &scene, casting.as_ref(), seed, self.scored)?;
-        let plan = request
-            .plan(&scene, &self.operations.limits, &self.operations.generator)
+        let plan = self
+            .operations
+            .plan(&request, &Subject::passing(scene))
             .map_err(|problem| pointers::refused(source, &problem))?;
         let failed =
             |problem: Problem| Failure::new(Exit::Failure, format!("{}: {}", source.shown(), problem.detail));
         let asked = plan.request.agents.as_ref();
         let actor = asked.filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
-        let call = plan.start(&self.operations.generator, Cancel::default(), self.operations.clock);
+        let call = self.operations.start(plan, Cancel::default());
         let answered = call.and_then(GenerationRun::answer).map_err(failed)?;
         let GenerationAnswer { answer, samples: all, scores, head, code, .. } = answered;
         let mut scene = (*answered.scene).clone();
