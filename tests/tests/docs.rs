@@ -2,7 +2,7 @@
 //! shows. With `DOCS_ACCEPT=1` sections and shown outputs are written again. Blocks in Python are run by
 //! `python/tests/test_docs.py`.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
 use dragtraffic_tests::Server;
 use dragtraffic_tests::markdown::{Block, Page, Section, pages};
@@ -165,7 +165,7 @@ fn play(page: &Page) -> Played {
             let server = server.get_or_init(|| Server::with_demos().unwrap());
             body = body.replace(ADDRESS, &server.address.to_string());
         }
-        let Some(command) = command_of(block, &body, folder.path()) else { continue };
+        let command = command_of(block, &body, folder.path());
         let (ended, output) = run(command, folder.path());
         played.ran += 1;
         if !ended {
@@ -183,23 +183,19 @@ fn play(page: &Page) -> Played {
     played
 }
 
-/// Command that runs a block; `None` without its interpreter.
-fn command_of(block: &Block, body: &str, folder: &Path) -> Option<Command> {
+/// Command that runs a block.
+fn command_of(block: &Block, body: &str, folder: &Path) -> Command {
     if block.language == "sh" {
         let mut command = Command::new("sh");
         command.args(["-e", "-c", body]);
-        return Some(command);
-    }
-    if Command::new("node").arg("--version").output().is_err() {
-        println!("Skipped: blocks of JavaScript, node is not here.");
-        return None;
+        return command;
     }
     let file = folder.join("block.mjs");
     std::fs::write(&file, body).unwrap();
     let mut command = Command::new("node");
     // A page has sockets; Node.js has them without the flag since 22.
     command.arg("--experimental-websocket").arg(file);
-    Some(command)
+    command
 }
 
 /// Runs a command in a folder with the program on its path: whether it ended well, and all that it printed.

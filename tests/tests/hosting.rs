@@ -208,7 +208,7 @@ impl Drop for Ended {
 
 #[cfg(unix)]
 #[test]
-fn the_server_and_the_proxy_of_the_documentation_work_together() {
+fn with_nginx_the_server_and_the_proxy_of_the_documentation_work_together() {
     let given = std::env::var_os("NGINX").map(std::path::PathBuf::from);
     let Some(nginx) = given.or_else(|| installed("nginx")) else {
         println!("skipped: no nginx (apt install nginx-light)");

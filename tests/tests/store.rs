@@ -172,7 +172,7 @@ impl Drop for SmallDisk {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn on_a_full_disk_scenes_can_be_deleted_and_then_saved_again() {
+fn where_disks_can_be_mounted_a_full_one_lets_scenes_be_deleted_and_saved_again() {
     let folder = tempfile::tempdir().unwrap();
     let Some(_disk) = small_disk(folder.path(), "6m") else { return };
     let server = Server::start_at(&folder.path().join("scenes.sqlite"), &[]).unwrap();
@@ -231,7 +231,7 @@ fn fill(server: &Server, seed: u64) -> Vec<String> {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_store_alone_on_a_full_disk_gives_all_of_it_way_again() {
+fn where_disks_can_be_mounted_a_store_alone_on_a_full_one_frees_all_of_it_again() {
     let folder = tempfile::tempdir().unwrap();
     let Some(_disk) = small_disk(folder.path(), "6m") else { return };
     let db = folder.path().join("scenes.sqlite");

@@ -216,7 +216,7 @@ fn as_nobody(server: &Server, path: &str) -> Option<String> {
 #[cfg(target_os = "linux")]
 #[test]
 #[allow(clippy::print_stdout, reason = "it says why it does nothing")]
-fn another_user_of_the_machine_is_not_let_in() {
+fn as_root_another_user_of_the_machine_is_not_let_in() {
     let server = Server::start(&[]).unwrap();
     assert_eq!(server.get("/v1/scenes").unwrap().status, 200);
     let Some(reply) = as_nobody(&server, "/v1/scenes") else {

@@ -94,11 +94,9 @@ fn links<'a>(lanes: &'a Lanes, names: &BTreeMap<&'a str, &'a str>) -> BTreeSet<(
 }
 
 #[test]
+#[ignore = "needs maps of netconvert: cargo xtask test maps writes them and runs this test"]
 fn one_network_in_several_formats_is_one_lane_graph() {
-    let Some(folder) = std::env::var_os(VARIABLE) else {
-        println!("skipped: {VARIABLE} names no folder; cargo xtask test maps makes one");
-        return;
-    };
+    let folder = std::env::var_os(VARIABLE).unwrap();
     let folder = Path::new(&folder);
     let (first, _) = lanes(&folder.join("map.xodr"));
     assert_eq!((first.len(), first.values().filter(|lane| lane.through).count()), (30, 14));

@@ -219,7 +219,7 @@ fn maps() -> anyhow::Result<Outcome> {
     run(cargo_command()
         .arg("test")
         .args(WHOLE)
-        .args(["--test", "equal_maps", "--test", "osm"])
+        .args(["--test", "equal_maps", "--test", "osm", "--", "--include-ignored"])
         .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
         .env("DRAGTRAFFIC_NETCONVERT", netconvert))
 }
