@@ -1,6 +1,5 @@
 //! Runs: traffic that is stepped, beside road users that the caller drives.
 
-mod base64;
 mod reply;
 mod request;
 
@@ -10,6 +9,8 @@ pub use request::{EgoDoc, MotionDoc, PeekBody, RunBody, StateDoc, StepBody};
 use crate::code::Code;
 use crate::english;
 use crate::problem::{Problem, refuse, shortened};
+use base64::engine::general_purpose::STANDARD;
+use base64::{DecodeError, Engine};
 use experts::run::{RunPeek, RunStep, SnapshotError, VERSION_AT};
 use experts::{Cancel, Generator, Run, RunError};
 use formats::FieldProblem;
@@ -26,7 +27,8 @@ impl RunBody {
     pub fn begin(&self, scene: &Arc<Scene>, generator: &Generator, cancel: &Cancel) -> Result<Run, Problem> {
         if let Some(text) = &self.snapshot {
             self.check_restored()?;
-            let bytes = base64::decoded(text).map_err(|at| {
+            let bytes = STANDARD.decode(text).map_err(|error| {
+                let at = first_wrong(&error, text.len());
                 Problem::of(Code::InvalidField, english::snapshot_broken(at)).at("/snapshot")
             })?;
             return Ok(Run::restore(Arc::clone(scene), &bytes)?);
@@ -104,6 +106,14 @@ impl From<RunError> for Problem {
     }
 }
 
+/// Where a text of `length` bytes is no base64.
+fn first_wrong(error: &DecodeError, length: usize) -> usize {
+    match *error {
+        DecodeError::InvalidByte(at, _) | DecodeError::InvalidLastSymbol(at, _) => at,
+        DecodeError::InvalidLength(_) | DecodeError::InvalidPadding => length,
+    }
+}
+
 /// What is wrong with a snapshot.
 fn snapshot(error: SnapshotError) -> scene::message::Message {
     match error {
@@ -140,6 +150,8 @@ pub fn unknown_run() -> Problem {
 mod tests {
     use super::{RunBody, StepBody};
     use crate::code::Code;
+    use base64::Engine;
+    use base64::engine::general_purpose::STANDARD;
     use experts::{Cancel, Generator};
     use scene::map::{Lane, LaneMap};
     use scene::{Agent, AgentType, Scene, State, Subtype, Vec2};
@@ -174,7 +186,7 @@ mod tests {
         }
         let made = step(1).step(&mut run, &generator, &none).unwrap();
         assert_eq!((made.number, made.states.len(), made.time_s), (1, 2, 0.2));
-        let text = super::base64::encoded(&run.snapshot());
+        let text = STANDARD.encode(run.snapshot());
         let again = body(&format!(r#"{{"snapshot": "{text}"}}"#)).begin(&scene, &generator, &none).unwrap();
         assert!(again.snapshot() == run.snapshot());
     }

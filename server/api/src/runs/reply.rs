@@ -1,7 +1,8 @@
 //! Replies about runs.
 
-use super::base64;
 use super::request::{MotionDoc, StateDoc};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use experts::Run;
 use experts::run::{DepartureReason, RunChange, RunFault, RunPeek, RunStep};
 use scene::State as AgentState;
@@ -199,6 +200,6 @@ impl SnapshotReply {
     /// Of a run.
     pub fn of(run: &Run) -> Self {
         let bytes = run.snapshot();
-        Self { number: run.number(), bytes: bytes.len(), snapshot: base64::encoded(&bytes) }
+        Self { number: run.number(), bytes: bytes.len(), snapshot: STANDARD.encode(&bytes) }
     }
 }
