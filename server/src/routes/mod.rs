@@ -17,6 +17,7 @@ pub mod place;
 pub mod runs;
 mod scene_ref;
 pub mod scenes;
+mod schemas;
 pub mod score;
 
 use crate::app::App;

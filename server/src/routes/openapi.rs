@@ -1,15 +1,7 @@
-//! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the table of codes.
+//! The OpenAPI 3.1 document: paths from the handlers, [`schemas`], problems from the table of codes.
 
-use super::{health, import, maps, scenes};
-use crate::base::{base_path::published, limits::Limits, problem::ProblemDoc};
-use crate::generation::events;
-use api::map::{MapBody, MapReply, TemplateList};
-use api::place::{PlaceBody, PlaceReply};
-use api::{GenerateRequest, info::ProgramInfo, score::ScoreRequest};
-use formats::native::{MapDoc, SceneDoc};
-use scene::score::Score;
-use schemars::SchemaGenerator;
-use schemars::generate::SchemaSettings;
+use super::schemas;
+use crate::base::{base_path::published, limits::Limits};
 use serde_json::{Map, Value, json};
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 
@@ -39,7 +31,7 @@ pub fn document() -> Value {
     let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
     document["security"] = json!([{}, {"token": []}]);
     tidy(&mut document);
-    document["components"] = json!({"schemas": schemas(), "securitySchemes": {"token": token}});
+    document["components"] = json!({"schemas": schemas::all(), "securitySchemes": {"token": token}});
     document
 }
 
@@ -87,66 +79,6 @@ fn exported() -> Map<String, Value> {
 /// Pretty text with a last newline, as it is committed.
 pub fn text() -> String {
     serde_json::to_string_pretty(&document()).unwrap_or_default() + "\n"
-}
-
-/// Schemas of replies: members that are always present are required.
-fn replies(generator: &mut SchemaGenerator) {
-    generator.subschema_for::<ProblemDoc>();
-    generator.subschema_for::<events::StreamEvent>();
-    generator.subschema_for::<Score>();
-    generator.subschema_for::<PlaceReply>();
-    generator.subschema_for::<import::ImportedBody>();
-    generator.subschema_for::<ProgramInfo>();
-    generator.subschema_for::<health::Health>();
-    generator.subschema_for::<scenes::list::SceneList>();
-    generator.subschema_for::<scenes::Saved>();
-    generator.subschema_for::<maps::MapList>();
-    generator.subschema_for::<MapReply>();
-    generator.subschema_for::<TemplateList>();
-    api::runs::replies(generator);
-}
-
-/// Schemas of requests, and of documents in both directions: members with a default are optional.
-fn requests(generator: &mut SchemaGenerator) {
-    generator.subschema_for::<SceneDoc>();
-    generator.subschema_for::<MapDoc>();
-    generator.subschema_for::<GenerateRequest>();
-    generator.subschema_for::<ScoreRequest>();
-    generator.subschema_for::<PlaceBody>();
-    generator.subschema_for::<MapBody>();
-    api::runs::requests(generator);
-    generator.subschema_for::<scenes::write::ScenePatch>();
-    generator.subschema_for::<scenes::copy::DuplicateRequest>();
-}
-
-fn settings() -> SchemaSettings {
-    SchemaSettings::draft2020_12().with(|s| s.definitions_path = "/components/schemas".into())
-}
-
-/// All components by name.
-fn schemas() -> Map<String, Value> {
-    let mut told = settings().for_serialize().into_generator();
-    let mut asked = settings().for_deserialize().into_generator();
-    replies(&mut told);
-    requests(&mut asked);
-    let mut all = told.take_definitions(true);
-    // A type that is in both is a document: what is sent can be sent back.
-    all.extend(asked.take_definitions(true));
-    all.insert("Scene".into(), json!({"$ref": "#/components/schemas/SceneDoc"}));
-    all.insert("Map".into(), json!({"$ref": "#/components/schemas/MapDoc"}));
-    let mut all: Vec<(String, Value)> = all.into_iter().collect();
-    all.sort_by(|a, b| a.0.cmp(&b.0));
-    all.into_iter().map(|(name, schema)| (name.clone(), titled(name, schema))).collect()
-}
-
-/// A schema with its name as title, which readers of the document show.
-fn titled(name: String, mut schema: Value) -> Value {
-    if let Some(object) = schema.as_object_mut()
-        && !object.contains_key("$ref")
-    {
-        object.entry("title").or_insert_with(|| name.into());
-    }
-    schema
 }
 
 #[cfg(test)]
@@ -210,29 +142,6 @@ mod tests {
         }
         let forms = &document["paths"]["/v1/import"]["post"]["requestBody"]["content"];
         assert!(forms["multipart/form-data"]["schema"]["properties"]["net"].is_object());
-    }
-
-    #[test]
-    fn every_component_has_a_title_or_is_another_name() {
-        let document = super::document();
-        for (name, schema) in document["components"]["schemas"].as_object().unwrap() {
-            assert!(schema["title"].is_string() || schema["$ref"].is_string(), "{name}");
-        }
-    }
-
-    #[test]
-    fn a_name_means_one_type_in_requests_and_replies() {
-        let mut told = super::settings().for_serialize().into_generator();
-        let mut asked = super::settings().for_deserialize().into_generator();
-        super::replies(&mut told);
-        super::requests(&mut asked);
-        let (told, asked) = (told.take_definitions(true), asked.take_definitions(true));
-        let members = |schema: &Value| -> BTreeSet<String> {
-            schema["properties"].as_object().into_iter().flatten().map(|(name, _)| name.clone()).collect()
-        };
-        for (name, schema) in told.iter().filter(|(name, _)| asked.contains_key(*name)) {
-            assert_eq!(members(schema), members(&asked[name]), "{name}");
-        }
     }
 
     fn collect(value: &Value, into: &mut BTreeSet<String>) {

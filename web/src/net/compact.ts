@@ -3,7 +3,7 @@ import type { Schemas } from '../model/base/schemas';
 import type { AgentFuturesJson } from '../model/document/scene-json';
 import type { DraftEvent, FinalEvent, GenerateEvent } from './types';
 
-type SentFutures = Schemas['FuturesDoc'];
+type SentFutures = Schemas['Futures'];
 type CompactFuture = Schemas['CompactFuture'];
 
 /** An event with its futures in columns; numbers are equal to the last digit, all in one memory block. */

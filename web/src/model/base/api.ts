@@ -520,15 +520,15 @@ export interface components {
             windows: number;
         };
         /**
-         * AgentDoc
+         * Agent
          * @description One road user.
          */
-        AgentDoc: {
+        Agent: {
             /**
              * @description Conditions fixed by the user.
              * @default {}
              */
-            conditions?: components["schemas"]["ConditionsDoc"];
+            conditions?: components["schemas"]["Conditions"];
             /**
              * Format: double
              * @description Metres.
@@ -567,7 +567,7 @@ export interface components {
              *       "z_m": null
              *     }
              */
-            track?: components["schemas"]["TrackDoc"];
+            track?: components["schemas"]["Track"];
             /**
              * @description Selects expert and motion model; `other` is shown, never regenerated.
              * @enum {string}
@@ -581,17 +581,17 @@ export interface components {
             width_m?: number | null;
         };
         /**
-         * AgentFuturesDoc
+         * AgentFutures
          * @description The futures of one road user.
          */
-        AgentFuturesDoc: {
+        AgentFutures: {
             /**
              * Format: uint64
              * @description Index into `modes` of the one that is shown and exported.
              */
             chosen: number;
             /** @description By falling probability. */
-            modes: components["schemas"]["FutureDoc"][];
+            modes: components["schemas"]["Future"][];
             /** @description Why it gave up the motion that it had. */
             reaction?: components["schemas"]["Reaction"] | null;
         };
@@ -685,18 +685,30 @@ export interface components {
         /**
          * AgentType
          * @description Type of a road user; selects the expert and the motion model.
+         *
+         *     `vehicle`: Anything with an engine on a lane: cars, trucks, buses, motorcycles.
+         *
+         *     `pedestrian`: A person on foot.
+         *
+         *     `cyclist`: A person on a bicycle or kick-scooter.
+         *
+         *     `other`: Shown, never regenerated.
+         * @enum {string}
          */
         AgentType: "vehicle" | "pedestrian" | "cyclist" | "other";
         /**
          * All
          * @description The word `all`.
+         *
+         *     `all`: Everyone.
+         * @enum {string}
          */
         All: "all";
         /**
-         * AnswerDoc
+         * Answer
          * @description A judged card.
          */
-        AnswerDoc: {
+        Answer: {
             /** @description Features of the card, as the reply had them. */
             features: components["schemas"]["Features"];
             /**
@@ -718,16 +730,16 @@ export interface components {
         AnswerSample: {
             /** @description Road user's id to its futures. */
             agents: {
-                [key: string]: components["schemas"]["FuturesDoc"];
+                [key: string]: components["schemas"]["Futures"];
             };
             /** @description Empty here; a place for the score when it is saved. */
             score: unknown;
         };
         /**
-         * AreaDoc
+         * Area
          * @description A crosswalk, speed bump or driveway.
          */
-        AreaDoc: {
+        Area: {
             /** @description Unique among areas of the kind. */
             id: string;
             /** @description Open ring. */
@@ -811,7 +823,7 @@ export interface components {
             /** @description The compass point that it comes from, with a number where several do: `north-east`, `west-2`. */
             id: string;
             /** @description From right to left. */
-            lanes: components["schemas"]["ArmLaneDoc"][];
+            lanes: components["schemas"]["ArmLane"][];
             /**
              * Format: uint
              * @description Those that come in later.
@@ -844,10 +856,10 @@ export interface components {
             y_m: number;
         };
         /**
-         * ArmLaneDoc
+         * ArmLane
          * @description A lane by which an arm leads in.
          */
-        ArmLaneDoc: {
+        ArmLane: {
             /** @description Id of the lane. */
             lane: string;
             /**
@@ -877,10 +889,10 @@ export interface components {
             turns: components["schemas"]["Turn"][][];
         };
         /**
-         * ArrivalsDoc
+         * Arrivals
          * @description Traffic that comes in by an arm.
          */
-        ArrivalsDoc: {
+        Arrivals: {
             /** @description Id of one of the reply's `arms`. */
             arm: string;
             /**
@@ -903,10 +915,10 @@ export interface components {
             what: string;
         };
         /**
-         * BoundaryDoc
+         * Boundary
          * @description A stretch of a lane's side and the line or edge that bounds it.
          */
-        BoundaryDoc: {
+        Boundary: {
             /**
              * Format: uint32
              * @description First point index.
@@ -1027,10 +1039,10 @@ export interface components {
             traffic: components["schemas"]["Traffic"];
         };
         /**
-         * ChangeDoc
+         * Change
          * @description A road user that changed its plan because of another.
          */
-        ChangeDoc: {
+        Change: {
             /** @description The road user. */
             agent: string;
             /** @description What it does, and because of whom. */
@@ -1057,13 +1069,22 @@ export interface components {
         /**
          * CheckKind
          * @description Subject of a check.
+         *
+         *     `lanes-lead`: Every lane leads somewhere.
+         *
+         *     `turns`: A bus of 12 m (in a car park: a car) can turn.
+         *
+         *     `widths`: No lane is too narrow.
+         *
+         *     `signals-apart`: No two movements with green at the same time conflict.
+         * @enum {string}
          */
         CheckKind: "lanes-lead" | "turns" | "widths" | "signals-apart";
         /**
-         * CircleDoc
+         * Circle
          * @description A circle.
          */
-        CircleDoc: {
+        Circle: {
             /**
              * Format: double
              * @description Metres.
@@ -1148,10 +1169,10 @@ export interface components {
             y_mm: number[];
         };
         /**
-         * CompactFuturesDoc
+         * CompactFutures
          * @description The futures of one road user, compact.
          */
-        CompactFuturesDoc: {
+        CompactFutures: {
             /**
              * Format: uint64
              * @description Index into `compact` of the one that is shown and exported.
@@ -1193,31 +1214,31 @@ export interface components {
             vehicle: components["schemas"]["ConditionRange"];
         };
         /**
-         * ConditionsDoc
+         * Conditions
          * @description All that a user fixes about one road user. A number fixes a field, null or absence frees it.
          */
-        ConditionsDoc: {
+        Conditions: {
             /**
              * @description Frame of the goal; replies are always in `scene`.
              * @enum {string}
              */
             frame?: "scene" | "agent";
             /** @description Goal fields. */
-            goal?: components["schemas"]["GoalDoc"] | null;
+            goal?: components["schemas"]["Goal"] | null;
             /**
              * Format: double
              * @description Metres.
              */
             length_m?: number | null;
             /** @description Start fields. */
-            start?: components["schemas"]["StartDoc"] | null;
+            start?: components["schemas"]["Start"] | null;
             /**
              * @description Expert to use in place of the road user's own type's.
              * @enum {unknown}
              */
             type?: "vehicle" | "pedestrian" | "cyclist" | null;
             /** @description Places that it passes on its way, in this order; always in the frame `scene`. */
-            via?: components["schemas"]["ViaDoc"][];
+            via?: components["schemas"]["Via"][];
             /**
              * Format: double
              * @description Metres.
@@ -1254,6 +1275,13 @@ export interface components {
         /**
          * Control
          * @description Priority where roads meet.
+         *
+         *     `signals`: Traffic lights.
+         *
+         *     `priority`: Stop signs at the arms that are not main.
+         *
+         *     `equal`: Stop signs at all arms.
+         * @enum {string}
          */
         Control: "signals" | "priority" | "equal";
         /**
@@ -1322,10 +1350,10 @@ export interface components {
             steps: number;
         };
         /**
-         * DensityDoc
+         * Density
          * @description How many: exactly one of the two.
          */
-        DensityDoc: {
+        Density: {
             /**
              * Format: uint64
              * @description Road users in all.
@@ -1340,10 +1368,10 @@ export interface components {
             per_lane_km?: number | null;
         };
         /**
-         * DepartureDoc
+         * Departure
          * @description A road user that left.
          */
-        DepartureDoc: {
+        Departure: {
             /** @description The road user. */
             agent: string;
             /** @description Why. */
@@ -1352,6 +1380,11 @@ export interface components {
         /**
          * DepartureWord
          * @description Why a road user left.
+         *
+         *     `left_the_map`: The roads of the map end there.
+         *
+         *     `arrived`: It is where its goal is.
+         * @enum {string}
          */
         DepartureWord: "left_the_map" | "arrived";
         /**
@@ -1361,7 +1394,7 @@ export interface components {
         DraftEvent: {
             /** @description Futures by road user; only the chosen ones, or all by `stream_modes`. */
             agents: {
-                [key: string]: components["schemas"]["FuturesDoc"];
+                [key: string]: components["schemas"]["Futures"];
             };
             /**
              * Format: double
@@ -1407,10 +1440,10 @@ export interface components {
             window: number;
         };
         /**
-         * DrivableDoc
+         * Drivable
          * @description A surface that may be driven on.
          */
-        DrivableDoc: {
+        Drivable: {
             /**
              * @description Open rings that are not drivable.
              * @default []
@@ -1454,10 +1487,10 @@ export interface components {
             name?: string | null;
         };
         /**
-         * EgoDoc
+         * Ego
          * @description An ego at the end of a step.
          */
-        EgoDoc: {
+        Ego: {
             /**
              * Format: double
              * @description Radians.
@@ -1476,7 +1509,7 @@ export interface components {
              *       "y_m": []
              *     }
              */
-            plan?: components["schemas"]["MotionDoc"];
+            plan?: components["schemas"]["Motion"];
             /**
              * Format: double
              * @description Of the box centre, m/s.
@@ -1557,11 +1590,23 @@ export interface components {
         /**
          * EncounterKind
          * @description What a pair comes to.
+         *
+         *     `collision`: In the list of collisions.
+         *
+         *     `overlap`: In the list of overlaps.
+         *
+         *     `near_miss`: In the list of near misses.
+         * @enum {string}
          */
         EncounterKind: "collision" | "overlap" | "near_miss";
         /**
          * Endpoint
          * @description Which step counts as the end of a future.
+         *
+         *     `last`: The last one.
+         *
+         *     `before_last`: The one before: the goal position was given, so the last says nothing (the paper's rule).
+         * @enum {string}
          */
         Endpoint: "last" | "before_last";
         /**
@@ -1639,6 +1684,41 @@ export interface components {
         /**
          * FaultKind
          * @description Kind of a fault, the worst first.
+         *
+         *     `collision`: Its box meets another's; `extent` is the closing speed, m/s.
+         *
+         *     `red_light`: A stop line is crossed at red; `extent` is the speed, m/s.
+         *
+         *     `wrong_way`: Against the direction of every lane there; `extent` is how far, metres.
+         *
+         *     `over_median`: Over what divides two roads; `extent` is how far past the edge, metres.
+         *
+         *     `off_road`: Over a kerb or away from the road; `extent` is how far past the edge, metres.
+         *
+         *     `off_map`: Where the roads of the map have ended; `extent` is how far from the lanes, metres.
+         *
+         *     `on_carriageway`: On foot along a lane, or across lanes beside a crosswalk; `extent` is how far, metres.
+         *
+         *     `speeding`: Above the speed limit; `extent` is by how much, m/s.
+         *
+         *     `harsh_braking`: Braking; `extent` in m/s2.
+         *
+         *     `harsh_steering`: Turning; `extent` is the acceleration sideways, m/s2.
+         *
+         *     `running`: A pedestrian runs; `extent` is the speed, m/s.
+         *
+         *     `askew`: Ends at an angle to its lane; `extent` in radians.
+         *
+         *     `fails_to_yield`: A pedestrian waits at a crosswalk that this one drives over; `extent` is the pedestrian's delay, seconds.
+         *
+         *     `forces_braking`: Another has to brake hard; `extent` is that braking, m/s2.
+         *
+         *     `near_miss`: Another is met all but; `extent` is the gap, metres.
+         *
+         *     `via_missed`: A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.
+         *
+         *     `goal_missed`: The goal is not met; `extent` is what is left, metres.
+         * @enum {string}
          */
         FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "off_map" | "on_carriageway" | "speeding" | "harsh_braking" | "harsh_steering" | "running" | "askew" | "fails_to_yield" | "forces_braking" | "near_miss" | "via_missed" | "goal_missed";
         /**
@@ -1683,16 +1763,16 @@ export interface components {
             standing_s: number;
         };
         /**
-         * FeedbackDoc
+         * Feedback
          * @description Rounds of cards: the reply is the next round, chosen from a wide draw by the verdicts on earlier cards. `feedback`
          *     of the reply has the features of each card; the client returns them with its verdict.
          */
-        FeedbackDoc: {
+        Feedback: {
             /**
              * @description Judged cards, the first round's first, without cards that were neither kept nor rejected.
              * @default []
              */
-            answers?: components["schemas"]["AnswerDoc"][];
+            answers?: components["schemas"]["Answer"][];
             /**
              * @description Traits to ignore, whatever the verdicts show.
              * @default []
@@ -1842,11 +1922,11 @@ export interface components {
             takes_net: boolean;
         };
         /**
-         * FutureDoc
+         * Future
          * @description One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
          *     0.001 m, 0.0001 rad and 0.001 m/s.
          */
-        FutureDoc: {
+        Future: {
             /**
              * Format: uint32
              * @description Which of the generator's anchors it follows: the same number while a goal is dragged is the same
@@ -1881,13 +1961,18 @@ export interface components {
             y_m: number[];
         };
         /**
-         * FuturesDoc
+         * Futures
          * @description The futures of one road user in a reply, in the form that `futures` of the request names.
          */
-        FuturesDoc: components["schemas"]["AgentFuturesDoc"] | components["schemas"]["CompactFuturesDoc"];
+        Futures: components["schemas"]["AgentFutures"] | components["schemas"]["CompactFutures"];
         /**
          * FuturesForm
          * @description How the futures of a reply are written.
+         *
+         *     `columns`: As a scene document has them.
+         *
+         *     `compact`: The same numbers in about half the bytes.
+         * @enum {string}
          */
         FuturesForm: "columns" | "compact";
         /**
@@ -1899,7 +1984,7 @@ export interface components {
              * @description Road users added for this call.
              * @default []
              */
-            add_agents?: components["schemas"]["AgentDoc"][];
+            add_agents?: components["schemas"]["Agent"][];
             /**
              * @description Road users to regenerate. When absent: those whose `conditions` have a goal or via points, or all when no road
              *     user has any. An empty list needs `react` and regenerates no road user: those of `react` keep their known
@@ -1924,7 +2009,7 @@ export interface components {
              * @default {}
              */
             conditions?: {
-                [key: string]: components["schemas"]["ConditionsDoc"];
+                [key: string]: components["schemas"]["Conditions"];
             };
             /**
              * Format: double
@@ -1958,7 +2043,7 @@ export interface components {
              *     no effect.
              * @default null
              */
-            feedback?: components["schemas"]["FeedbackDoc"] | null;
+            feedback?: components["schemas"]["Feedback"] | null;
             /** @description How futures are written, in drafts and in `final`. */
             futures?: components["schemas"]["FuturesForm"];
             /**
@@ -2027,7 +2112,7 @@ export interface components {
              * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
              * @default null
              */
-            scene?: components["schemas"]["SceneDoc"] | null;
+            scene?: components["schemas"]["Scene"] | null;
             /**
              * @description A scene of this server.
              * @default null
@@ -2049,7 +2134,7 @@ export interface components {
              *     `switching`.
              */
             shown?: {
-                [key: string]: components["schemas"]["ShownDoc"];
+                [key: string]: components["schemas"]["Shown"];
             };
             /**
              * Format: double
@@ -2105,10 +2190,10 @@ export interface components {
             scene_id: unknown;
         });
         /**
-         * GeneratedDoc
+         * Generated
          * @description Futures that the generator added to a scene.
          */
-        GeneratedDoc: {
+        Generated: {
             /**
              * Format: uint64
              * @description Index into `samples`.
@@ -2127,7 +2212,7 @@ export interface components {
              */
             request?: unknown;
             /** @description Independent answers. */
-            samples: components["schemas"]["SampleDoc"][];
+            samples: components["schemas"]["Sample"][];
             /**
              * Format: uint64
              * @description Seed that repeats the answer, 0 to 2^53 - 1.
@@ -2178,10 +2263,10 @@ export interface components {
             };
         };
         /**
-         * GoalDoc
+         * Goal
          * @description Position and state that a road user should have at `time_s`; absent or null is free.
          */
-        GoalDoc: {
+        Goal: {
             /**
              * Format: double
              * @description Frame `agent`: metres along the start's heading; with `left_m` or not at all.
@@ -2218,7 +2303,7 @@ export interface components {
              */
             turn_rad?: number | null;
             /** @description In place of `speed_mps`; fixes a free heading too. */
-            velocity?: components["schemas"]["VelocityDoc"] | null;
+            velocity?: components["schemas"]["Velocity"] | null;
             /**
              * Format: double
              * @description Box centre, metres; with `y_m` or not at all.
@@ -2261,6 +2346,11 @@ export interface components {
         /**
          * HealthStatus
          * @description Health of the server in a word, for its operators.
+         *
+         *     `ok`: The process answers.
+         *
+         *     `ready`: It takes work.
+         * @enum {string}
          */
         HealthStatus: "ok" | "ready";
         /**
@@ -2338,7 +2428,7 @@ export interface components {
             /** @description For people. */
             name: string;
             /** @description The scene itself, only in a dry run. */
-            scene?: components["schemas"]["SceneDoc"];
+            scene?: components["schemas"]["Scene"];
             /**
              * Format: uint
              * @description Steps of 0.1 s.
@@ -2527,6 +2617,13 @@ export interface components {
         /**
          * KeptFutures
          * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
+         *
+         *     `answered`: They are planned around and answered beside the new ones: the samples are the whole scene's.
+         *
+         *     `omitted`: They are planned around and not answered, for a client that has them itself.
+         *
+         *     `forgotten`: They are dropped before planning: their road users follow the recording again.
+         * @enum {string}
          */
         KeptFutures: "answered" | "omitted" | "forgotten";
         /**
@@ -2590,10 +2687,10 @@ export interface components {
             yaw_rate_radps: number | null;
         };
         /**
-         * LaneDoc
+         * Lane
          * @description One lane.
          */
-        LaneDoc: {
+        Lane: {
             /** @description Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`. */
             id: string;
             /**
@@ -2605,12 +2702,12 @@ export interface components {
              * @description Lines on the left.
              * @default []
              */
-            left_boundary?: components["schemas"]["BoundaryDoc"][];
+            left_boundary?: components["schemas"]["Boundary"][];
             /**
              * @description Lanes on the left.
              * @default []
              */
-            left_neighbors?: components["schemas"]["NeighborDoc"][];
+            left_neighbors?: components["schemas"]["Neighbor"][];
             /** @description Centre line in driving direction, at least two points. */
             points_m: components["schemas"]["Points"];
             /**
@@ -2622,12 +2719,12 @@ export interface components {
              * @description Lines on the right.
              * @default []
              */
-            right_boundary?: components["schemas"]["BoundaryDoc"][];
+            right_boundary?: components["schemas"]["Boundary"][];
             /**
              * @description Lanes on the right.
              * @default []
              */
-            right_neighbors?: components["schemas"]["NeighborDoc"][];
+            right_neighbors?: components["schemas"]["Neighbor"][];
             /**
              * Format: double
              * @description m/s.
@@ -2748,11 +2845,27 @@ export interface components {
         /**
          * Limiting
          * @description The limit of motion that binds.
+         *
+         *     `acceleration`: Speeding up, m/s2.
+         *
+         *     `braking`: Slowing down, m/s2.
+         *
+         *     `speed`: Top speed, m/s.
+         *
+         *     `lateral`: Sideways acceleration, m/s2.
+         *
+         *     `curvature`: Tightness of a turn, 1/m.
+         *
+         *     `traffic`: Another agent is in the way and stays there.
+         * @enum {string}
          */
         Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic";
         /**
          * Log
          * @description The word `log`.
+         *
+         *     `log`: The recording.
+         * @enum {string}
          */
         Log: "log";
         /**
@@ -2761,7 +2874,52 @@ export interface components {
          * @enum {string}
          */
         Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
-        Map: components["schemas"]["MapDoc"];
+        /**
+         * Map
+         * @description Everything that does not move.
+         */
+        Map: {
+            /**
+             * @description Crosswalks.
+             * @default []
+             */
+            crosswalks?: components["schemas"]["Area"][];
+            /**
+             * @description Surfaces that may be driven on.
+             * @default []
+             */
+            drivable?: components["schemas"]["Drivable"][];
+            /**
+             * @description Driveways.
+             * @default []
+             */
+            driveways?: components["schemas"]["Area"][];
+            /**
+             * @description Lanes with their links.
+             * @default []
+             */
+            lanes?: components["schemas"]["Lane"][];
+            /**
+             * @description Ends of the road's surface.
+             * @default []
+             */
+            road_edges?: components["schemas"]["RoadEdge"][];
+            /**
+             * @description Painted lines.
+             * @default []
+             */
+            road_lines?: components["schemas"]["RoadLine"][];
+            /**
+             * @description Speed bumps.
+             * @default []
+             */
+            speed_bumps?: components["schemas"]["Area"][];
+            /**
+             * @description Stop signs.
+             * @default []
+             */
+            stop_signs?: components["schemas"]["StopSign"][];
+        };
         /**
          * MapBody
          * @description Body of a new map.
@@ -2784,56 +2942,10 @@ export interface components {
             template: components["schemas"]["Template"];
         };
         /**
-         * MapDoc
-         * @description Everything that does not move.
-         */
-        MapDoc: {
-            /**
-             * @description Crosswalks.
-             * @default []
-             */
-            crosswalks?: components["schemas"]["AreaDoc"][];
-            /**
-             * @description Surfaces that may be driven on.
-             * @default []
-             */
-            drivable?: components["schemas"]["DrivableDoc"][];
-            /**
-             * @description Driveways.
-             * @default []
-             */
-            driveways?: components["schemas"]["AreaDoc"][];
-            /**
-             * @description Lanes with their links.
-             * @default []
-             */
-            lanes?: components["schemas"]["LaneDoc"][];
-            /**
-             * @description Ends of the road's surface.
-             * @default []
-             */
-            road_edges?: components["schemas"]["RoadEdgeDoc"][];
-            /**
-             * @description Painted lines.
-             * @default []
-             */
-            road_lines?: components["schemas"]["RoadLineDoc"][];
-            /**
-             * @description Speed bumps.
-             * @default []
-             */
-            speed_bumps?: components["schemas"]["AreaDoc"][];
-            /**
-             * @description Stop signs.
-             * @default []
-             */
-            stop_signs?: components["schemas"]["StopSignDoc"][];
-        };
-        /**
          * MapField
          * @description A map, or the hash of one.
          */
-        MapField: components["schemas"]["MapRef"] | components["schemas"]["MapDoc"];
+        MapField: components["schemas"]["MapRef"] | components["schemas"]["Map"];
         /**
          * MapItem
          * @description One map of the store.
@@ -2886,7 +2998,7 @@ export interface components {
             /** @description The template with all its parameters. */
             layout: components["schemas"]["Layout"];
             /** @description A scene with the map and no road users. Its `x_layout` has the template and its parameters. */
-            scene: components["schemas"]["SceneDoc"];
+            scene: components["schemas"]["Scene"];
             /** @description Ways from lane to lane where roads meet at grade. */
             ways: components["schemas"]["JunctionPath"][];
         };
@@ -2996,10 +3108,10 @@ export interface components {
          */
         MessageValue: number | string;
         /**
-         * MetaDoc
+         * Meta
          * @description Source of the scene, and notes on it.
          */
-        MetaDoc: {
+        Meta: {
             /**
              * @description Version of the program that made it.
              * @default null
@@ -3027,7 +3139,7 @@ export interface components {
              *       "z_m": 0
              *     }
              */
-            origin?: components["schemas"]["OriginDoc"];
+            origin?: components["schemas"]["Origin"];
             /**
              * @description Scene that this one is a variant of.
              * @default null
@@ -3057,10 +3169,10 @@ export interface components {
             ][];
         };
         /**
-         * MotionDoc
+         * Motion
          * @description States as columns, 0.1 s apart.
          */
-        MotionDoc: {
+        Motion: {
             heading_rad: number[];
             vx_mps: number[];
             vy_mps: number[];
@@ -3153,12 +3265,12 @@ export interface components {
             y_m: number;
         };
         /**
-         * NeighborDoc
+         * Neighbor
          * @description A lane beside this one.
          */
-        NeighborDoc: {
+        Neighbor: {
             /** @description Lines between the two, over the other lane's indices. */
-            boundaries?: components["schemas"]["BoundaryDoc"][];
+            boundaries?: components["schemas"]["Boundary"][];
             /** @description Id of the other lane. */
             lane: string;
             /** @description First and last point index on the other lane. */
@@ -3167,10 +3279,10 @@ export interface components {
             self: number[];
         };
         /**
-         * OriginDoc
+         * Origin
          * @description Position of the scene in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
          */
-        OriginDoc: {
+        Origin: {
             /** @default null */
             crs?: string | null;
             /**
@@ -3222,13 +3334,18 @@ export interface components {
         /**
          * PairChoice
          * @description Which pairs are scored.
+         *
+         *     `all`: Every pair.
+         *
+         *     `regenerated`: Pairs with at least one generated road user.
+         * @enum {string}
          */
         PairChoice: "all" | "regenerated";
         /**
-         * ParkedDoc
+         * Parked
          * @description Cars parked along kerbs and in lots: exactly one of the two.
          */
-        ParkedDoc: {
+        Parked: {
             /**
              * Format: double
              * @description Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
@@ -3253,7 +3370,7 @@ export interface components {
              * @default {}
              */
             plans?: {
-                [key: string]: components["schemas"]["MotionDoc"];
+                [key: string]: components["schemas"]["Motion"];
             };
         };
         /**
@@ -3262,12 +3379,12 @@ export interface components {
          */
         PeekReply: {
             /** @description Who would change its plan because of whom. */
-            changes: components["schemas"]["ChangeDoc"][];
+            changes: components["schemas"]["Change"][];
             /** @description The first collision of each ego with each other road user. */
-            faults: components["schemas"]["RunFaultDoc"][];
+            faults: components["schemas"]["RunFault"][];
             /** @description Motion of the others over nine seconds by id, the first state 0.1 s after the present. */
             futures: {
-                [key: string]: components["schemas"]["MotionDoc"];
+                [key: string]: components["schemas"]["Motion"];
             };
             /**
              * Format: double
@@ -3281,9 +3398,9 @@ export interface components {
          */
         PlaceBody: {
             /** @description Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here. */
-            arrivals?: components["schemas"]["ArrivalsDoc"][];
+            arrivals?: components["schemas"]["Arrivals"][];
             /** @description Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`. */
-            density?: components["schemas"]["DensityDoc"] | null;
+            density?: components["schemas"]["Density"] | null;
             /**
              * @description With `scene_id`: refuse when the scene has changed.
              * @default null
@@ -3301,14 +3418,14 @@ export interface components {
              */
             min_gap_m?: number;
             /** @description Parked cars, in addition to `density`. */
-            parked?: components["schemas"]["ParkedDoc"] | null;
+            parked?: components["schemas"]["Parked"] | null;
             /** @description Where; null is the whole map. It may reach 50 m beyond the map's box. */
-            region?: components["schemas"]["RegionDoc"] | null;
+            region?: components["schemas"]["Region"] | null;
             /**
              * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
              * @default null
              */
-            scene?: components["schemas"]["SceneDoc"] | null;
+            scene?: components["schemas"]["Scene"] | null;
             /**
              * @description A scene of this server.
              * @default null
@@ -3321,7 +3438,7 @@ export interface components {
              */
             seed?: number;
             /** @description Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest. */
-            speeds?: components["schemas"]["SpeedsDoc"] | null;
+            speeds?: components["schemas"]["Speeds"] | null;
             /**
              * Format: double
              * @description Scene time at which they start, seconds.
@@ -3349,7 +3466,7 @@ export interface components {
              * @description New road users: one state at `start_s`, the same as a fixed start, goals free. One that enters by an arm
              *     later has a track from the map's edge on, which it keeps until it reacts; a parked one has a standing track.
              */
-            agents: components["schemas"]["AgentDoc"][];
+            agents: components["schemas"]["Agent"][];
             /** @description Arms: where roads enter the map or the region, with the traffic placed on each. */
             arms: components["schemas"]["ArmDoc"][];
             /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
@@ -3381,6 +3498,11 @@ export interface components {
         /**
          * PlacementMethod
          * @description How road users are placed.
+         *
+         *     `model`: By learned rates and distributions.
+         *
+         *     `lane-sampler`: Even along lanes, at the speed limit: where there are no weights, and to compare with.
+         * @enum {string}
          */
         PlacementMethod: "model" | "lane-sampler";
         /**
@@ -3601,6 +3723,15 @@ export interface components {
         /**
          * ReactionKind
          * @description How a road user reacts to another.
+         *
+         *     `waits`: Comes to rest.
+         *
+         *     `slows`: Is slower.
+         *
+         *     `speeds_up`: Is faster.
+         *
+         *     `keeps_clear`: Takes another line.
+         * @enum {string}
          */
         ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear";
         /**
@@ -3633,15 +3764,15 @@ export interface components {
          * @description What trajectories are compared with.
          */
         Reference: components["schemas"]["Log"] | {
-            [key: string]: components["schemas"]["TrajectoryDoc"];
+            [key: string]: components["schemas"]["Trajectory"];
         };
         /**
-         * RegionDoc
+         * Region
          * @description Where centres may lie: exactly one of the two.
          */
-        RegionDoc: {
+        Region: {
             /** @description Circle. */
-            circle?: components["schemas"]["CircleDoc"] | null;
+            circle?: components["schemas"]["Circle"] | null;
             /**
              * @description Open ring of corners, metres; even-odd rule.
              * @default null
@@ -3681,6 +3812,15 @@ export interface components {
         /**
          * RelationKind
          * @description Relation of a motion to another's.
+         *
+         *     `before`: Their paths cross, and this one is there first.
+         *
+         *     `after`: Their paths cross, and this one is there second.
+         *
+         *     `follows`: Behind the other on the same way.
+         *
+         *     `gives_way_to`: Slows down or waits where their paths cross, so that the other goes first.
+         * @enum {string}
          */
         RelationKind: "before" | "after" | "follows" | "gives_way_to";
         /**
@@ -3854,10 +3994,10 @@ export interface components {
             traffic: components["schemas"]["Traffic"];
         };
         /**
-         * RoadEdgeDoc
+         * RoadEdge
          * @description The end of the road's surface.
          */
-        RoadEdgeDoc: {
+        RoadEdge: {
             /** @description Unique among road edges. */
             id: string;
             /** @description In order. */
@@ -3870,10 +4010,10 @@ export interface components {
             type?: "unknown" | "boundary" | "median" | "sidewalk";
         };
         /**
-         * RoadLineDoc
+         * RoadLine
          * @description A painted line.
          */
-        RoadLineDoc: {
+        RoadLine: {
             /** @description Unique among road lines. */
             id: string;
             /** @description In order. */
@@ -4045,7 +4185,7 @@ export interface components {
              * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
              * @default null
              */
-            scene?: components["schemas"]["SceneDoc"] | null;
+            scene?: components["schemas"]["Scene"] | null;
             /**
              * @description A scene of this server.
              * @default null
@@ -4086,10 +4226,10 @@ export interface components {
             scene_id: unknown;
         });
         /**
-         * RunFaultDoc
+         * RunFault
          * @description A fault and the road user whose it is.
          */
-        RunFaultDoc: {
+        RunFault: {
             /** @description Of a collision the one that drove into the other. */
             agent: string;
             /** @description What, when and where. */
@@ -4128,13 +4268,13 @@ export interface components {
             step_s: number;
         };
         /**
-         * SampleDoc
+         * Sample
          * @description One coherent answer for all regenerated road users.
          */
-        SampleDoc: {
+        Sample: {
             /** @description Road user's id to its futures. */
             agents: {
-                [key: string]: components["schemas"]["AgentFuturesDoc"];
+                [key: string]: components["schemas"]["AgentFutures"];
             };
             /**
              * @description Score as the API gave it.
@@ -4152,17 +4292,16 @@ export interface components {
             /** @description Of the scene. */
             id: string;
         };
-        Scene: components["schemas"]["SceneDoc"];
         /**
-         * DragTraffic scene
+         * Scene
          * @description A scene document, version 1.
          */
-        SceneDoc: {
+        Scene: {
             /**
              * @description Road users.
              * @default []
              */
-            agents?: components["schemas"]["AgentDoc"][];
+            agents?: components["schemas"]["Agent"][];
             /**
              * @description `dragtraffic.scene`.
              * @constant
@@ -4172,7 +4311,7 @@ export interface components {
              * @description Futures added by the generator.
              * @default null
              */
-            generated?: components["schemas"]["GeneratedDoc"] | null;
+            generated?: components["schemas"]["Generated"] | null;
             /**
              * @description Set by the server.
              * @default null
@@ -4199,7 +4338,7 @@ export interface components {
              *       "tags": []
              *     }
              */
-            meta?: components["schemas"]["MetaDoc"];
+            meta?: components["schemas"]["Meta"];
             /**
              * @description For people.
              * @default
@@ -4209,9 +4348,9 @@ export interface components {
              * @description Traffic signals.
              * @default []
              */
-            signals?: components["schemas"]["SignalDoc"][];
+            signals?: components["schemas"]["Signal"][];
             /** @description Steps. */
-            time: components["schemas"]["TimeDoc"];
+            time: components["schemas"]["Time"];
             /**
              * Format: uint64
              * @description 1.
@@ -4464,7 +4603,7 @@ export interface components {
              * @description The scene itself.
              * @default null
              */
-            scene?: components["schemas"]["SceneDoc"] | null;
+            scene?: components["schemas"]["Scene"] | null;
             /**
              * @description A scene of this server.
              * @default null
@@ -4502,7 +4641,7 @@ export interface components {
             thresholds?: components["schemas"]["Thresholds"];
             /** @description Motion to score; for the rest the chosen futures, else the log. */
             trajectories?: {
-                [key: string]: components["schemas"]["TrajectoryDoc"];
+                [key: string]: components["schemas"]["Trajectory"];
             };
         } & ({
             scene: unknown;
@@ -4510,10 +4649,10 @@ export interface components {
             scene_id: unknown;
         });
         /**
-         * ShownDoc
+         * Shown
          * @description The future that was shown last.
          */
-        ShownDoc: {
+        Shown: {
             /**
              * Format: uint32
              * @description Its `anchor`.
@@ -4526,10 +4665,10 @@ export interface components {
             y_m: number[];
         };
         /**
-         * SignalDoc
+         * Signal
          * @description The signal of one lane over the scene.
          */
-        SignalDoc: {
+        Signal: {
             /** @description Lane that obeys it. */
             lane: string;
             /** @description Run-length states; first steps rise. */
@@ -4582,13 +4721,22 @@ export interface components {
         /**
          * Source
          * @description Where the value of a field came from.
+         *
+         *     `user`: Fixed by the user.
+         *
+         *     `log`: From the recording.
+         *
+         *     `default`: The kind's default.
+         *
+         *     `model`: Chosen by the generator.
+         * @enum {string}
          */
         Source: "user" | "log" | "default" | "model";
         /**
-         * SpeedsDoc
+         * Speeds
          * @description Between which speeds motor vehicles start that move.
          */
-        SpeedsDoc: {
+        Speeds: {
             /**
              * Format: double
              * @description m/s; not less than `min_mps`.
@@ -4601,10 +4749,10 @@ export interface components {
             min_mps: number;
         };
         /**
-         * StartDoc
+         * Start
          * @description Start of a road user; absent or null is free.
          */
-        StartDoc: {
+        Start: {
             /**
              * Format: double
              * @description Radians, then wrapped; a request takes at most a turn either way, 6.2832.
@@ -4616,7 +4764,7 @@ export interface components {
              */
             speed_mps?: number | null;
             /** @description In place of `speed_mps`; fixes a free heading too. */
-            velocity?: components["schemas"]["VelocityDoc"] | null;
+            velocity?: components["schemas"]["Velocity"] | null;
             /**
              * Format: double
              * @description Box centre, metres; with `y_m` or not at all.
@@ -4629,10 +4777,10 @@ export interface components {
             y_m?: number | null;
         } & (unknown & unknown);
         /**
-         * StateDoc
+         * State
          * @description Place, heading and velocity of a road user at one moment, scene frame.
          */
-        StateDoc: {
+        State: {
             /** Format: double */
             heading_rad: number;
             /** Format: double */
@@ -4650,7 +4798,7 @@ export interface components {
          */
         StepBody: {
             /** @description Every ego at the end of the step. */
-            egos?: components["schemas"]["EgoDoc"][];
+            egos?: components["schemas"]["Ego"][];
             /**
              * Format: uint64
              * @description Number of the step: one more than the last. The last one again gives the same reply again.
@@ -4663,13 +4811,13 @@ export interface components {
          */
         StepReply: {
             /** @description Who changed its plan because of whom. */
-            changes: components["schemas"]["ChangeDoc"][];
+            changes: components["schemas"]["Change"][];
             /** @description Ids of those who came in. */
             entered: string[];
             /** @description Collisions and vehicles off the road that began in this step. */
-            faults: components["schemas"]["RunFaultDoc"][];
+            faults: components["schemas"]["RunFault"][];
             /** @description Those who left. */
-            left: components["schemas"]["DepartureDoc"][];
+            left: components["schemas"]["Departure"][];
             /**
              * Format: uint64
              * @description Number of the step; 0 for the start.
@@ -4677,7 +4825,7 @@ export interface components {
             number: number;
             /** @description Everybody who is there, egos too, by id. */
             states: {
-                [key: string]: components["schemas"]["StateDoc"];
+                [key: string]: components["schemas"]["State"];
             };
             /**
              * Format: double
@@ -4686,10 +4834,10 @@ export interface components {
             time_s: number;
         };
         /**
-         * StopSignDoc
+         * StopSign
          * @description A stop sign.
          */
-        StopSignDoc: {
+        StopSign: {
             /** @description Unique among stop signs. */
             id: string;
             /**
@@ -4703,6 +4851,11 @@ export interface components {
         /**
          * StreamModes
          * @description What drafts carry.
+         *
+         *     `chosen`: The chosen future of each road user.
+         *
+         *     `all`: All alternatives.
+         * @enum {string}
          */
         StreamModes: "chosen" | "all";
         /**
@@ -4955,10 +5108,10 @@ export interface components {
             ttc_s?: number;
         };
         /**
-         * TimeDoc
+         * Time
          * @description Steps of the scene.
          */
-        TimeDoc: {
+        Time: {
             /**
              * Format: uint64
              * @description The source's "current" step.
@@ -5012,10 +5165,10 @@ export interface components {
             step_ms: number[];
         };
         /**
-         * TrackDoc
+         * Track
          * @description Recorded states as columns, one value a step from `first_step`.
          */
-        TrackDoc: {
+        Track: {
             /**
              * Format: uint64
              * @description Scene step of the first value.
@@ -5084,10 +5237,10 @@ export interface components {
             who: string;
         };
         /**
-         * TrajectoryDoc
+         * Trajectory
          * @description Motion of one road user as columns, one value a step from `first_step`.
          */
-        TrajectoryDoc: {
+        Trajectory: {
             /**
              * Format: uint64
              * @description Scene step of the first value.
@@ -5108,14 +5261,19 @@ export interface components {
         /**
          * TurnAcross
          * @description Left turns (right turns in left-hand traffic) while oncoming traffic has green.
+         *
+         *     `permissive`: They have green with it and give way.
+         *
+         *     `protected`: They have a phase of their own.
+         * @enum {string}
          */
         TurnAcross: "permissive" | "protected";
         /**
-         * VelocityDoc
+         * Velocity
          * @description A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
          *     `ahead_mps` and `left_mps`.
          */
-        VelocityDoc: {
+        Velocity: {
             /**
              * Format: double
              * @description m/s along the start's heading.
@@ -5140,13 +5298,18 @@ export interface components {
         /**
          * Verdict
          * @description A person's verdict on a card.
+         *
+         *     `keep`: Good.
+         *
+         *     `reject`: Not that.
+         * @enum {string}
          */
         Verdict: "keep" | "reject";
         /**
-         * ViaDoc
+         * Via
          * @description A place that a road user passes on its way.
          */
-        ViaDoc: {
+        Via: {
             /**
              * Format: double
              * @description Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
@@ -5186,6 +5349,21 @@ export interface components {
         /**
          * WarningCode
          * @description What is unlikely.
+         *
+         *     `goal-unreachable`: No future within the limits meets the goal.
+         *
+         *     `goal-off-road`: No lane is near the goal.
+         *
+         *     `start-off-road`: No lane is near the start.
+         *
+         *     `start-overlaps`: The start is in another road user's place.
+         *
+         *     `extrapolated`: A log that ends was carried on.
+         *
+         *     `via-missed`: The shown future misses a via point.
+         *
+         *     `nothing-generated`: No road user was named, and none has to continue beyond its known motion.
+         * @enum {string}
          */
         WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "nothing-generated";
         /**
@@ -5251,6 +5429,11 @@ export interface components {
         /**
          * WishDirection
          * @description Which way of a trait is wished.
+         *
+         *     `more`: More of it; of an order or a manoeuvre: yes.
+         *
+         *     `less`: Less of it; of an order or a manoeuvre: no.
+         * @enum {string}
          */
         WishDirection: "more" | "less";
     };

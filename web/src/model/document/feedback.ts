@@ -62,7 +62,7 @@ export const earlierAnswers = (f: Feedback | null, asked: RoundInputs): readonly
   (f?.answers ?? []).filter((a) => a.round < asked.round);
 
 /** The feedback of a request. */
-export function docOf(f: Feedback | null, asked: RoundInputs): Schemas['FeedbackDoc'] {
+export function docOf(f: Feedback | null, asked: RoundInputs): Schemas['Feedback'] {
   const earlier = earlierAnswers(f, asked);
   const lean = leanFeatures(
     earlier.map((a) => a.features),

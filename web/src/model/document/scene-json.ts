@@ -12,8 +12,8 @@ type Read<T, Needed extends keyof T = never, Own = unknown> = {
 
 export type PointJson = [number, number] | [number, number, number];
 type HasPoints = { points_m: PointJson[] };
-export type LaneJson = Read<Schemas['LaneDoc'], 'id', HasPoints>;
-export type LineJson = Read<Schemas['RoadLineDoc'], never, HasPoints>;
+export type LaneJson = Read<Schemas['Lane'], 'id', HasPoints>;
+export type LineJson = Read<Schemas['RoadLine'], never, HasPoints>;
 export type AreaJson = { id?: string; polygon_m: PointJson[]; holes_m?: PointJson[][] };
 /** Lists of the schema with the parts that the page reads. */
 export interface MapJson {
@@ -23,28 +23,28 @@ export interface MapJson {
   crosswalks?: AreaJson[];
   speed_bumps?: AreaJson[];
   driveways?: AreaJson[];
-  stop_signs?: Read<Schemas['StopSignDoc'], never, { position_m: PointJson }>[];
+  stop_signs?: Read<Schemas['StopSign'], never, { position_m: PointJson }>[];
   drivable?: AreaJson[];
 }
 export type MapRef = Schemas['MapRef'];
-export type SignalJson = Read<Schemas['SignalDoc'], 'lane', { stop_m?: PointJson | null; states: [number, string][] }>;
+export type SignalJson = Read<Schemas['Signal'], 'lane', { stop_m?: PointJson | null; states: [number, string][] }>;
 export type TrackJson = Read<
-  Schemas['TrackDoc'],
+  Schemas['Track'],
   'x_m' | 'y_m' | 'heading_rad',
   { valid?: [number, number][]; vx_mps?: number[] | null; vy_mps?: number[] | null }
 >;
-export type StartJson = Read<Schemas['StartDoc']>;
+export type StartJson = Read<Schemas['Start']>;
 /** `may_cross`: ids of road edges that the road user may cross. */
-export type GoalJson = Read<Schemas['GoalDoc']>;
+export type GoalJson = Read<Schemas['Goal']>;
 /** A via point. */
-export type ViaJson = Schemas['ViaDoc'];
+export type ViaJson = Schemas['Via'];
 export type ConditionJson = Read<
-  Omit<Schemas['ConditionsDoc'], 'frame'>,
+  Omit<Schemas['Conditions'], 'frame'>,
   never,
-  { type?: Schemas['ConditionsDoc']['type']; length_m?: number; width_m?: number; start?: StartJson; goal?: GoalJson }
+  { type?: Schemas['Conditions']['type']; length_m?: number; width_m?: number; start?: StartJson; goal?: GoalJson }
 >;
 export type AgentJson = Read<
-  Schemas['AgentDoc'],
+  Schemas['Agent'],
   'id' | 'type',
   { length_m: number; width_m: number; track: TrackJson; conditions?: ConditionJson | null }
 >;
@@ -55,20 +55,20 @@ export type RelationJson = Schemas['Relation'];
 export type Manoeuvre = Schemas['Manoeuvre'];
 /** `anchor`: index of the anchor that the future follows; absent for staying at rest. */
 export type ModeJson = TrackJson &
-  Pick<Schemas['FutureDoc'], 'probability' | 'anchor' | 'faults' | 'relations' | 'manoeuvre'> & { name?: string };
+  Pick<Schemas['Future'], 'probability' | 'anchor' | 'faults' | 'relations' | 'manoeuvre'> & { name?: string };
 /** The last shown future: box centres every 0.5 s, the first 0.5 s after the start. */
-export type ShownJson = Schemas['ShownDoc'];
+export type ShownJson = Schemas['Shown'];
 export type ReactionKind = Schemas['ReactionKind'];
 /** Why a road user gave up a motion: its cause, and where it waits or is slowest. */
 export type ReactionJson = Schemas['Reaction'];
 /** `reaction`: absent for requested and for unaffected road users. */
-export type AgentFuturesJson = Omit<Schemas['AgentFuturesDoc'], 'modes'> & { modes: ModeJson[] };
-export type SampleJson = Omit<Schemas['SampleDoc'], 'agents'> & { agents: Record<string, AgentFuturesJson> };
-export type GeneratedJson = Read<Schemas['GeneratedDoc'], never, { samples: SampleJson[] }>;
+export type AgentFuturesJson = Omit<Schemas['AgentFutures'], 'modes'> & { modes: ModeJson[] };
+export type SampleJson = Omit<Schemas['Sample'], 'agents'> & { agents: Record<string, AgentFuturesJson> };
+export type GeneratedJson = Read<Schemas['Generated'], never, { samples: SampleJson[] }>;
 export type FeaturesJson = Schemas['Features'];
 export type LearnedWishJson = Schemas['LearnedWish'];
 export type RoundJson = Schemas['Round'];
-export type FeedbackDocJson = Schemas['FeedbackDoc'];
+export type FeedbackDocJson = Schemas['Feedback'];
 /** Data of the editor only: the generator's choices are in `generated`, the user's picks here. */
 export interface EditorJson {
   seed?: number;
