@@ -32,14 +32,13 @@ pub fn scene_files(inputs: &[PathBuf]) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// All scenes of a file that can be read.
+/// All scenes of a file that can be read, as the program opens them.
 ///
 /// # Errors
 /// When the file cannot be opened or no format reads it.
 pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
     let bytes = std::fs::read(path).with_context(|| format!("read {}", path.display()))?;
-    // Tables and weights were made of recordings as their trackers left them; what is joined would be others.
-    let options = formats::ImportOptions { join_identities: false, ..formats::ImportOptions::default() };
+    let options = formats::ImportOptions::default();
     let imported = formats::registry::import(&bytes, &path.to_string_lossy(), "auto", &options);
     Ok(imported?.into_iter().filter_map(Result::ok).map(|(scene, _)| scene).collect())
 }
