@@ -2,6 +2,7 @@
 import { isBlocked, type Reach } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import type { Agent, GoalSpec } from '../document/scene';
+import { PLANNING } from '../base/domain';
 import type { Pose, Vec } from '../base/geometry';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
@@ -72,4 +73,4 @@ function wordsOf(r: GoalReach, a: Agent, v: number, t: number, unit: SpeedUnit):
 }
 
 const walk = (v: number): string =>
-  v < 0.6 ? TEXTS.aSlowWalk : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
+  v < 0.6 ? TEXTS.aSlowWalk : v < 1.6 ? TEXTS.aNormalWalk : v < PLANNING.walking_mps ? TEXTS.aBriskWalk : TEXTS.running;
