@@ -64,7 +64,7 @@ export function recording() {
   const name = 'example.tfrecord.gz';
   const path = `${out}/${name}`;
   const example = here('../../../assets/scenes/demo-roundabout.json');
-  execFileSync(program, ['convert', example, '--to', 'womd', '-o', path, '--force']);
+  execFileSync(program, ['convert', example, '--to', 'womd', '-o', path, '--force'], { stdio: 'pipe' });
   return { path, name };
 }
 
