@@ -1,18 +1,28 @@
 //! Facts about road users and requests that clients need too, from the tables of the crates below: what
 //! each kind can do, what conditions may ask for, and what a request has when it does not say.
 
+use experts::generator::WAITS_STEPS;
 use experts::request::{DEFAULTS, Defaults};
+use experts::tuning::published::{
+    IN_QUEUE_M, QUEUE_GAP_M, STOP_LINE_BESIDE_M, STOP_LINE_GAP_M, STOP_LINE_TURNED_RAD, WALKING_MPS,
+};
 use formats::native::Ranges;
 use scene::geometry::ttc::LOOK_AHEAD_S;
-use scene::judge::HARSH_S;
+use scene::judge::manoeuvre::{ALONG_LANE_RAD, ON_LANE_M, ROUND_RAD, STAYS_M, TURN_RAD};
+use scene::judge::{HARSH_S, SAME_WAY_RAD};
 use scene::limits::{DrivingManner, Limits};
+use scene::preference::LEAST_APART_M;
+use scene::routes::speed::IN_THE_WAY_M;
+use scene::routes::start::{MAX_STARTS, ON_LANE_TURN_RAD, RELAXED_M};
+use scene::routes::to_goal::{self, LONGEST_ROUTE, MAX_GOAL_LANES};
 use scene::score::kinematic::HARSH_STEPS;
 use scene::score::pairs::{SAME_GAP_M, SAME_S};
 use scene::score::pet::{LEAST_ANGLE_RAD, LEAST_TRAVEL_M};
 use scene::score::{Threshold, Thresholds};
 use scene::via::VIA_WITHIN_S;
 use scene::{
-    AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, STANDING_MPS, Size, Subtype, VIA_TOLERANCE_M,
+    AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, STANDING_MPS, STEP_S, Size, Subtype,
+    VIA_TOLERANCE_M,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -136,6 +146,74 @@ pub struct Judging {
     pet_travel_m: f64,
     /// Paths that meet at less than this angle do not cross, radians.
     pet_angle_rad: f64,
+    /// A motion of less is a stay, metres.
+    stays_m: f64,
+    /// Turning by more is a turn, radians.
+    turn_rad: f64,
+    /// Turning by more is turning round, radians.
+    turn_round_rad: f64,
+    /// A lane is driven on within this of its middle, metres.
+    on_lane_m: f64,
+    /// A lane whose direction differs by more is not driven on, radians.
+    along_lane_rad: f64,
+    /// Motions whose headings differ by less go the same way, radians.
+    same_way_rad: f64,
+    /// Standing longer by less is no wait, seconds.
+    waits_s: f64,
+    /// Two cards of a round are somewhere at least so far apart, metres.
+    card_apart_m: f64,
+}
+
+/// Fixed numbers of planning by which a client can show places and ways before an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PlanningNumbers {
+    /// Front bumper to stop line, metres.
+    stop_line_gap_m: f64,
+    /// A stop line belongs to a path that passes it nearer than this, metres.
+    stop_line_beside_m: f64,
+    /// And whose direction differs from that of the line's lane by less, radians.
+    stop_line_turned_rad: f64,
+    /// Front bumper to a standing road user ahead, metres.
+    queue_gap_m: f64,
+    /// A standing road user nearer to a path than this is in the queue on it, metres.
+    in_queue_m: f64,
+    /// A road user whose centre is farther from a path is not in its way, metres.
+    in_the_way_m: f64,
+    /// A route starts on a lane at most so far from the road user, metres.
+    start_lane_m: f64,
+    /// And whose direction differs by at most this, radians.
+    start_turn_rad: f64,
+    /// Most lanes from which routes start.
+    most_starts: usize,
+    /// A goal lies on a lane at most so far away, metres.
+    goal_lane_m: f64,
+    /// Most lanes on which a goal lies.
+    most_goal_lanes: usize,
+    /// Longer routes are detours: times the straight way, and metres more.
+    longest_route: (f64, f64),
+    /// Speed cap of walkers, m/s.
+    walking_mps: f64,
+}
+
+impl PlanningNumbers {
+    /// The numbers that routes and futures are planned by.
+    pub fn current() -> Self {
+        Self {
+            stop_line_gap_m: STOP_LINE_GAP_M,
+            stop_line_beside_m: STOP_LINE_BESIDE_M,
+            stop_line_turned_rad: STOP_LINE_TURNED_RAD,
+            queue_gap_m: QUEUE_GAP_M,
+            in_queue_m: IN_QUEUE_M,
+            in_the_way_m: IN_THE_WAY_M,
+            start_lane_m: RELAXED_M,
+            start_turn_rad: ON_LANE_TURN_RAD,
+            most_starts: MAX_STARTS,
+            goal_lane_m: to_goal::ON_LANE_M,
+            most_goal_lanes: MAX_GOAL_LANES,
+            longest_route: LONGEST_ROUTE,
+            walking_mps: WALKING_MPS,
+        }
+    }
 }
 
 impl Judging {
@@ -150,6 +228,14 @@ impl Judging {
             look_ahead_s: LOOK_AHEAD_S,
             pet_travel_m: LEAST_TRAVEL_M,
             pet_angle_rad: LEAST_ANGLE_RAD,
+            stays_m: STAYS_M,
+            turn_rad: TURN_RAD,
+            turn_round_rad: ROUND_RAD,
+            on_lane_m: ON_LANE_M,
+            along_lane_rad: ALONG_LANE_RAD,
+            same_way_rad: SAME_WAY_RAD,
+            waits_s: WAITS_STEPS as f64 * STEP_S,
+            card_apart_m: LEAST_APART_M,
         }
     }
 }
@@ -177,6 +263,7 @@ pub struct Domain {
     /// What counts as an event, by name.
     thresholds: BTreeMap<&'static str, ThresholdRange>,
     judging: Judging,
+    planning: PlanningNumbers,
     /// By kind of layout and parameter.
     layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
 }
@@ -201,6 +288,7 @@ impl Domain {
             defaults: DEFAULTS,
             thresholds: Thresholds::ALL.map(range).into(),
             judging: Judging::current(),
+            planning: PlanningNumbers::current(),
             layout_ranges: layouts::ranges(),
         }
     }

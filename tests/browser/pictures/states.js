@@ -39,8 +39,17 @@ async function waiting(e) {
   throw new Error('nobody waits in the picture');
 }
 
-/** The drag pauses: all refinement steps are done. */
-const refined = (e) => e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
+/** The drag pauses: all refinement steps are done, and the futures have the names that they have at rest. */
+async function refined(e) {
+  await e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
+  // A second of frames without a new word: the names change 0.45 s after the last answer.
+  for (let last = '', same = 0; same < 6;) {
+    await e.frames(10);
+    const words = await e.text('[aria-label="Futures"]');
+    same = words === last ? same + 1 : 0;
+    last = words;
+  }
+}
 
 /** The flag is dragged, a third of the way back. */
 async function dragged(e) {
@@ -197,6 +206,8 @@ export const STATES = [
       await released(e);
       await e.letGo();
       await e.key('e');
+      // The remedy is tried on the server before it has its tick.
+      await e.settled();
       await later(e);
     },
   ],
@@ -414,6 +425,7 @@ export const STATES = [
       await e.key('c');
       await e.page.waitForSelector('.pane');
       await leave(e);
+      await e.settled();
       for (let i = 0; i < 40; i++) await e.key('.');
     },
   ],

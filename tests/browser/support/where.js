@@ -1,4 +1,5 @@
 // Requirements of these journeys on this machine, and messages for missing ones.
+import { execFileSync } from 'node:child_process';
 import { accessSync, constants, existsSync, mkdirSync, readdirSync, statSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
@@ -17,8 +18,15 @@ function runs(path) {
   }
 }
 
-/** Why no journey can run here in this browser, or false. */
+const NAMED = { CHROMIUM: chromium, FIREFOX: firefox, DRAGTRAFFIC_BIN: program };
+
+/**
+ * Why no journey can run here in this browser, or false. A program that its variable names has to be there, or a check
+ * that installed it would pass over all journeys.
+ */
 export function missing(browser = 'chromium') {
+  for (const [variable, path] of Object.entries(NAMED))
+    if (process.env[variable] && !runs(path)) throw new Error(`${variable} is ${path}, and no such program runs.`);
   const without = {
     chromium: !runs(chromium) && 'no Chromium; set CHROMIUM to its path',
     firefox: !runs(firefox) && 'no Firefox; set FIREFOX to its path',
@@ -47,6 +55,17 @@ export function recordedFile({ dense = false } = {}) {
   const name = dense ? names.toSorted((a, b) => size(b) - size(a))[0] : names[0];
   if (said && !name) throw new Error(`DRAGTRAFFIC_SAMPLES is set, but ${folder} has no .tfrecord.gz`);
   return name ? { path: `${folder}/${name}`, name } : null;
+}
+
+/** A recorded scenario file; where there is none beside the checkout, an example in the format of the recordings. */
+export function recording() {
+  const found = recordedFile();
+  if (found) return found;
+  const name = 'example.tfrecord.gz';
+  const path = `${out}/${name}`;
+  const example = here('../../../assets/scenes/demo-roundabout.json');
+  execFileSync(program, ['convert', example, '--to', 'womd', '-o', path, '--force'], { stdio: 'pipe' });
+  return { path, name };
 }
 
 export const out = here('../out');

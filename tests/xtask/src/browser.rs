@@ -1,30 +1,47 @@
-//! `browser`: the journeys through the editor, in a real browser.
+//! `browser`: the journeys through the editor, in real browsers. `web-test`: the tests of the editor, in part in one.
 
 use crate::system::SystemProgram;
 use crate::{Outcome, npm_packages, program, root, run};
 use std::process::Command;
 
-/// Runs all of them.
+/// Runs the tests of the editor, those of `web/test/browser` in Chromium: that is installed before them.
+pub fn page() -> anyhow::Result<Outcome> {
+    let chromium = CHROMIUM.find()?;
+    let mut test = Command::new("npm");
+    test.arg("test").current_dir(root().join("web"));
+    test.envs(chromium.as_ref().map(|path| ("CHROMIUM", path)));
+    Ok(match (run(&mut test)?, chromium) {
+        (Outcome::Passed, None) => {
+            Outcome::Skipped(format!("web/test/browser, the others pass: {NO_CHROMIUM}"))
+        }
+        (outcome, _) => outcome,
+    })
+}
+
+/// Runs all journeys.
 pub fn check() -> anyhow::Result<Outcome> {
     let folder = "tests/browser";
     if !root().join(folder).join("package.json").exists() {
         return Ok(Outcome::Skipped(format!("{folder} is not in this checkout")));
     }
-    let Some(chromium) = CHROMIUM.find()? else {
-        let why = "no Chromium here; install it (Debian: apt-get install chromium) or set CHROMIUM";
-        return Ok(Outcome::Skipped(why.into()));
-    };
+    let Some(chromium) = CHROMIUM.find()? else { return Ok(Outcome::Skipped(NO_CHROMIUM.into())) };
     if let failed @ Outcome::Failed(_) = npm_packages(folder)? {
         return Ok(failed);
     }
     let mut e2e = Command::new("npm");
     e2e.args(["run", "e2e"]).current_dir(root().join(folder));
-    // Without a Firefox its journey says so and is passed over.
-    if let Ok(Some(firefox)) = FIREFOX.find() {
-        e2e.env("FIREFOX", firefox);
-    }
-    run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))
+    let firefox = FIREFOX.find()?;
+    e2e.envs(firefox.as_ref().map(|path| ("FIREFOX", path)));
+    Ok(match (run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))?, firefox) {
+        (Outcome::Passed, None) => {
+            Outcome::Skipped(format!("the journey in Firefox, the others pass: {NO_FIREFOX}"))
+        }
+        (outcome, _) => outcome,
+    })
 }
+
+const NO_CHROMIUM: &str = "no Chromium here; install it (Debian: apt-get install chromium) or set CHROMIUM";
+const NO_FIREFOX: &str = "no Firefox here; install it (Debian: apt-get install firefox-esr) or set FIREFOX";
 
 const CHROMIUM: SystemProgram = SystemProgram {
     variable: "CHROMIUM",

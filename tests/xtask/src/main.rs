@@ -55,7 +55,7 @@ const CHECKS: &[Check] = &[
     ("fmt", || cargo(&["fmt", "--all", "--check"])),
     ("web-lint", || npm("web", &["run", "lint"])),
     ("web-types", || npm("web", &["run", "check"])),
-    ("web-test", || npm("web", &["test"])),
+    ("web-test", browser::page),
     ("clippy", clippy),
     // The program of a user, which has no lab; all else is as in the check before.
     ("plain", || cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])),

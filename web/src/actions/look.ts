@@ -1,5 +1,6 @@
 // Select and look: tools, selection, view, layers.
 import type { Help } from '../texts/desk/helps';
+import { JUDGING } from '../model/base/domain';
 import { nearestLanes } from '../model/document/lanemap';
 import { canChange, startPose, type Agent } from '../model/document/scene';
 import { knowsLimits } from '../draw/ground';
@@ -14,8 +15,6 @@ import { TEXTS } from '../texts/desk/actions';
 
 /** Closest zoom of "zoom to". */
 const CLOSEST = 22;
-/** Within this distance of a lane's centre a road user is on it. */
-const ON_LANE_M = 2.2;
 
 const tools = RAIL.filter((t) => !t.places).map(({ name, label, key, icon, help }) => ({
   id: `tool-${name}`,
@@ -87,7 +86,7 @@ function selectWhere(c: Context, which: (a: Agent) => boolean, none: string): vo
 function lanesOf(c: Context, a: Agent): string[] {
   const p = startPose(a);
   const fits = lanesFor(a) ?? (() => true);
-  const hit = p && nearestLanes(c.editor.scene.value!.map, p.x, p.y, p.heading, ON_LANE_M, fits)[0];
+  const hit = p && nearestLanes(c.editor.scene.value!.map, p.x, p.y, p.heading, JUDGING.on_lane_m, fits)[0];
   return hit ? [hit.lane.id] : [];
 }
 

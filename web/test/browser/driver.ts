@@ -1,4 +1,5 @@
-// A real browser against the stand-in server. Skipped, with the reason printed, where there is no Chromium.
+// A real browser against the stand-in server. Skipped, with the reason printed, where there is no Chromium; where
+// CHROMIUM names one that is not there, they fail.
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type Page } from 'playwright-core';
@@ -16,9 +17,11 @@ const FLAGS = [
   '--disable-component-update',
   '--disable-sync',
 ];
-const PLACES = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+const PLACES = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
 
-export const chromiumPath = PLACES.find((p) => p && existsSync(p)) ?? null;
+const named = process.env.CHROMIUM || null;
+if (named && !existsSync(named)) throw new Error(`CHROMIUM is ${named}, and no such program exists.`);
+export const chromiumPath = named ?? PLACES.find((p) => existsSync(p)) ?? null;
 if (!chromiumPath) console.log('Browser tests are skipped: no Chromium found (set CHROMIUM to its path).');
 
 export async function buildPage(): Promise<void> {

@@ -45,6 +45,6 @@ describe('the least time without haste', () => {
 
   it('is that of a brisk walk on foot', () => {
     const way = { line: straight(20), lanes: [], ends: [] };
-    expect(drivingTime({ type: 'pedestrian', subtype: null }, way, 2)).toBeCloseTo(10, 0);
+    expect(drivingTime({ type: 'pedestrian', subtype: null }, way, 2.2)).toBeCloseTo(20 / 2.2, 1);
   });
 });

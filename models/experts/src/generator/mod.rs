@@ -44,6 +44,7 @@ mod window_setting;
 mod workers;
 
 pub use generation::Generation;
+pub use others::WAITS_STEPS;
 pub(crate) use others::{extend_along_road, state_between};
 
 use crate::cancel::Cancel;

@@ -88,6 +88,7 @@ macro_rules! numbers {
 // Behind the macro, which both are written with.
 pub(crate) mod fixed;
 pub(crate) mod placing;
+pub mod published;
 
 tuning! {
     /// Where anchors lead and how fast.

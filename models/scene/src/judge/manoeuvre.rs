@@ -9,18 +9,18 @@ use std::collections::VecDeque;
 /// Steps between the states that are compared.
 const STRIDE: usize = 5;
 /// A motion of less is a stay, metres.
-const STAYS_M: f64 = 1.0;
+pub const STAYS_M: f64 = 1.0;
 /// Turning by more is a turn, radians: 34 degrees.
-const TURN_RAD: f64 = 0.6;
+pub const TURN_RAD: f64 = 0.6;
 /// Turning by more is turning round, radians: 150 degrees.
-const ROUND_RAD: f64 = 2.6;
+pub const ROUND_RAD: f64 = 2.6;
 /// Straight on whatever the lanes, radians and metres.
 const AHEAD_RAD: f64 = 0.1;
 const AHEAD_M: f64 = 1.2;
 /// A lane is driven on within this, metres.
-const ON_LANE_M: f64 = 2.5;
+pub const ON_LANE_M: f64 = 2.5;
 /// A lane that leads elsewhere is not driven on, radians.
-const ALONG_LANE_RAD: f64 = 0.8;
+pub const ALONG_LANE_RAD: f64 = 0.8;
 /// Most lanes that are searched between start and end.
 const MOST_LANES: usize = 64;
 /// Lane changes of one motion.

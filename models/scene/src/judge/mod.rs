@@ -2,7 +2,7 @@
 
 mod about;
 mod forcing;
-mod manoeuvre;
+pub mod manoeuvre;
 mod relations;
 mod trace;
 
@@ -10,7 +10,7 @@ pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Rela
 pub use forcing::Change;
 pub use manoeuvre::manoeuvre;
 pub use relations::relations;
-pub use trace::{SharedGround, Trace, crossing};
+pub use trace::{SAME_WAY_RAD, SharedGround, Trace, crossing};
 
 use crate::score::goal::goal_error;
 use crate::score::lane_rules::end_step;

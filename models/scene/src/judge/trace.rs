@@ -15,7 +15,7 @@ pub(super) const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
 /// Shared ground with a larger time shift is no relation, seconds.
 pub(super) const WINDOW_S: f64 = 6.0;
 /// Paths whose headings differ by less have the same direction, radians: 35 degrees.
-pub(super) const SAME_WAY_RAD: f64 = 0.61;
+pub const SAME_WAY_RAD: f64 = 0.61;
 /// Standing bumper to bumper is following too, metres.
 pub(super) const QUEUE_M: f64 = 6.0;
 /// A motion of less has no relation, metres.

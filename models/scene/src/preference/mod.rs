@@ -14,7 +14,7 @@ mod tests;
 mod wishes;
 
 pub use features::{Features, Trait};
-pub use round::{Candidate, Round, RoundCard, choose};
+pub use round::{Candidate, LEAST_APART_M, Round, RoundCard, choose};
 pub use taste::Taste;
 pub use wishes::Learned;
 

@@ -15,7 +15,7 @@ const APART_M: f64 = 1.5;
 /// ...or, of the slow, as far as they go in this time, seconds.
 const APART_S: f64 = 1.0;
 /// Least distance that makes two almost standing motions different, metres.
-const LEAST_APART_M: f64 = 0.3;
+pub const LEAST_APART_M: f64 = 0.3;
 /// Nearer than this share of it, a card is one that was judged.
 const SAME_SHARE: f64 = 0.3;
 /// Rule-keeping candidates suffice for a round if there are this many times as many as cards.

@@ -13,7 +13,7 @@ mod join;
 mod links;
 mod search;
 pub mod speed;
-mod start;
+pub mod start;
 pub mod to_goal;
 mod walks;
 

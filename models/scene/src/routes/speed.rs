@@ -10,7 +10,7 @@ const CURVATURE_WINDOW_M: f64 = 3.0;
 /// No bend asks for a cap above this, m/s.
 const TOP_SPEED_MPS: f64 = 35.0;
 /// A road user whose centre is farther from the path is no obstacle, metres.
-const IN_THE_WAY_M: f64 = 1.6;
+pub const IN_THE_WAY_M: f64 = 1.6;
 /// Nearer centres are beside or behind us, metres.
 const AHEAD_M: f64 = 2.0;
 /// Cosine below which another's direction counts as across or against ours.

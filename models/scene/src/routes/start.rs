@@ -7,15 +7,15 @@ use crate::{AgentType, wrap_angle};
 /// Farthest from a lane's centre that still counts as on it, if half its width is less, metres.
 const ON_LANE_M: f64 = 2.0;
 /// Greatest difference of heading on a lane.
-const ON_LANE_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
+pub const ON_LANE_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
 /// Farthest from a lane when none is under the road user, metres.
-const RELAXED_M: f64 = 6.0;
+pub const RELAXED_M: f64 = 6.0;
 /// Greatest difference of heading then.
 const RELAXED_TURN_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
 /// Metres of distance that a radian of heading difference is worth.
 pub(super) const METRES_PER_RAD: f64 = 3.0;
 /// Most start lanes, without those beside them.
-const MAX_STARTS: usize = 4;
+pub const MAX_STARTS: usize = 4;
 /// Added to the score of a lane beside, metres.
 const CHANGE_SCORE: f64 = 4.0;
 

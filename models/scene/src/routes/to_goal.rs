@@ -9,7 +9,7 @@ use crate::{AgentType, Vec2, wrap_angle};
 /// Most routes that are given.
 pub const MAX_GOAL_ROUTES: usize = 3;
 /// Farthest of a goal from a lane that it lies on, metres.
-const ON_LANE_M: f64 = 3.0;
+pub const ON_LANE_M: f64 = 3.0;
 /// Farthest of a goal from the lane that it is reached from, metres.
 const OFF_LANE_M: f64 = 25.0;
 /// Greatest difference between a lane's heading and the goal's.
@@ -19,11 +19,14 @@ const CLOSE_M: f64 = 1.5;
 /// Nearer goals are not worth a join, metres.
 const NO_JOIN_M: f64 = 5.0;
 /// Most goal lanes.
-const MAX_GOAL_LANES: usize = 6;
+pub const MAX_GOAL_LANES: usize = 6;
 /// Most goal lanes where lanes on both sides of the goal count.
 const MAX_NEAR_LANES: usize = 24;
 /// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
 const COST_PER_OFFSET: f64 = 20.0;
+
+/// Longest route worth finding: so many times the straight way, and so many metres more.
+pub const LONGEST_ROUTE: (f64, f64) = (1.5, 30.0);
 
 /// Query of a search for routes to a goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +58,8 @@ impl GoalQuery {
 
     /// Longest route worth finding, metres.
     fn longest_m(&self) -> f64 {
-        1.5 * self.distance_m() + 30.0
+        let (times, more_m) = LONGEST_ROUTE;
+        times * self.distance_m() + more_m
     }
 }
 

@@ -4,16 +4,14 @@ import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
 import { selectMovingCar } from '../../support/casting.js';
 import { journeys } from '../../support/journey.js';
-import { recordedFile } from '../../support/where.js';
-
-const file = recordedFile();
-if (!file) console.log('Skipped: no recorded scenario file beside this checkout, so dropping one is not tried.');
+import { recording } from '../../support/where.js';
 
 journeys('files and outages', (stage) => {
   it(
     'opens a recorded scene dropped on the picture and shows the log behind a change',
-    { timeout: 60_000, skip: !file },
+    { timeout: 60_000 },
     async () => {
+      const file = recording();
       const e = await stage.open();
       await e.begin();
       await e.drop(file.name, readFileSync(file.path));

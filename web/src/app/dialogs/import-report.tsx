@@ -63,7 +63,7 @@ export function ImportReport() {
   );
 }
 
-/** `4 files: 2 in, 1 in part, 1 cannot be read` */
+/** `4 files: 2 imported, 1 readable in part, 1 not readable` */
 function titleOf(verdicts: readonly FileVerdict[]): string {
   const part = verdicts.filter((v) => !v.ok && (v.without || v.columns)).length;
   const asked = verdicts.filter((v) => v.columns).length;

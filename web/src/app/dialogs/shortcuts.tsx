@@ -62,7 +62,7 @@ const FAMILIES: readonly (ShortcutLine & { readonly ids: RegExp })[] = [
   },
   { ids: /^(next|previous)-agent$/, label: TEXTS.nextPrevious, keys: ['Tab', 'Shift+Tab'] },
   { ids: /^(next|previous)-group$/, label: TEXTS.nextPartOfThe, keys: ['F6'] },
-  { ids: /^round-card-/, label: TEXTS.chooseACard, keys: ['1', '6'] },
+  { ids: /^round-card-/, label: TEXTS.chooseACard, keys: ['1–6'] },
   { ids: /^round-(back|on)$/, label: TEXTS.previousNextCard, keys: ['Left', 'Right'] },
   { ids: /^zoom-(in|out)$/, label: TEXTS.zoomInOut, keys: ['PageUp', 'PageDown'] },
   { ids: /^turn-picture-/, label: TEXTS.rotateView15, keys: ['Shift+PageUp', 'PageDown'] },

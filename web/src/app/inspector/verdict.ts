@@ -11,6 +11,7 @@ import { goalTimeOf, nameIn, type Agent } from '../../model/document/scene';
 import { stopsOf } from '../../model/physics/speed-profile';
 import { acceleration, metres, seconds, speedLabel } from '../../model/base/units';
 import { headline } from '../../model/words/verdict-words';
+import { walkWords } from '../../model/words/reach-words';
 import type { Editor } from '../../edit/session/editor';
 import { outOfReach, verdictsHold } from '../../edit/moves/goal-verdict';
 import { TEXTS } from '../../texts/panels/agent';
@@ -78,17 +79,9 @@ const NO_LANE: AgentVerdict = {
 function paceWords(e: Editor, a: Agent): string {
   const way = wayUntil(e.reading.motionFor(a), a.goal.time);
   const v = way / a.goal.time;
-  const how = a.type === 'pedestrian' && v > 0.2 ? `, ${WALKS.find(([most]) => v < most)![1]}` : '';
+  const how = a.type === 'pedestrian' && v > 0.2 ? walkWords(v) : '.';
   return TEXTS.pace(metres(way, 0), seconds(a.goal.time), speedLabel(v, e.view.unitOf(a)), how);
 }
-
-const WALKS = [
-  [0.9, TEXTS.aSlowWalk],
-  [1.5, TEXTS.aWalk],
-  [2.2, TEXTS.aBriskWalk],
-  [3.2, TEXTS.aJog],
-  [Infinity, TEXTS.aRun],
-] as const;
 
 /** Length of a motion up to a time, metres. */
 function wayUntil(m: Motion, time: number): number {

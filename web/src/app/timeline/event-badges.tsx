@@ -11,7 +11,7 @@ const FILL = { collision: '--collision', rule: '--near', near: '--near', short: 
 const INK = { collision: '--on-collision', rule: '--on-near', near: '--on-near', short: '--ink-2' } as const;
 
 /** Estimated width of a sign's words, with the space after them. */
-const wordsWidth = (text: string): number => text.length * 5.9 + 8;
+const wordsWidth = (text: string): number => text.length * 5.4 + 8;
 
 export function EventBadges({ axes: a }: { axes: Axes }) {
   const all = eventsShown(useApp());

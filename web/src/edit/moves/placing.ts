@@ -10,7 +10,7 @@ import {
   type Vec,
 } from '../../model/base/geometry';
 import { drivingSide } from '../../model/physics/driving-side';
-import { topSpeed } from '../../model/base/domain';
+import { PLANNING, topSpeed } from '../../model/base/domain';
 import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/base/kinds';
 import { nearestLanes, type Lane, type LaneMap } from '../../model/document/lanemap';
 import { newcomer, type Newcomer } from '../../model/document/newcomer';
@@ -86,9 +86,8 @@ function speedOn(lane: Lane | null, { kind, size }: PlacingChoice): number {
 
 /** The speed behind another road user allows a stop in time with this deceleration, m/s². */
 const EASY_BRAKING = 3;
-/** Range of the search for road users ahead, and its half width, metres. */
+/** Range of the search for road users ahead, metres. */
 const AHEAD_M = 60;
-const ASIDE_M = 1.5;
 
 /** The speed without a collision with the road user ahead on the lane. */
 function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: number): number {
@@ -100,7 +99,7 @@ function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: numb
     if (!p) continue;
     const [dx, dy] = [p.x - x, p.y - y];
     const gap = dx * c + dy * s - (length + a.length) / 2;
-    if (gap < 0 || gap > AHEAD_M || Math.abs(dy * c - dx * s) > ASIDE_M) continue;
+    if (gap < 0 || gap > AHEAD_M || Math.abs(dy * c - dx * s) > PLANNING.in_the_way_m) continue;
     const same = Math.max(0, p.speed * Math.cos(p.heading - heading));
     v = Math.min(v, Math.sqrt(same * same + 2 * EASY_BRAKING * gap));
   }

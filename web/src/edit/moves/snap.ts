@@ -1,10 +1,18 @@
 // Snapping to lanes and angles, with a visible sign; Alt disables it.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle, type Pose } from '../../model/base/geometry';
 import { armLane, namedLane, namedPlace, type LaneName } from '../../model/words/arm-names';
-import { lanesAfter, nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../../model/document/lanemap';
+import {
+  lanesAfter,
+  lanesFromStart,
+  nearestLanes,
+  SIGN_M,
+  turnOf,
+  type Lane,
+  type LaneHit,
+  type LaneMap,
+} from '../../model/document/lanemap';
 import { startPose, type Agent, type Scene } from '../../model/document/scene';
-import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from '../../model/physics/stop-gaps';
-import { JUDGING } from '../../model/base/domain';
+import { JUDGING, PLANNING } from '../../model/base/domain';
 import { TEXTS } from '../../texts/editing/picture';
 
 export interface Snapped {
@@ -23,9 +31,7 @@ const AGAINST = 2.1;
 const MARGIN_M = 0.2;
 /** A lane that it cannot or may not drive to is as good as one this much further away, metres. */
 const NOT_MINE_M = 1.5;
-/** Lanes within this distance of the start can be entered by a lane change, and lead this far, metres. */
-const BESIDE_START_M = 8;
-const SAME_WAY_RAD = Math.PI / 3;
+/** Lanes of the start lead this far, metres. */
 const AHEAD_M = 400;
 /** The current lane is preferred by this much, so that the box does not flicker between two. */
 const STAY_BONUS_M = 0.6;
@@ -39,8 +45,7 @@ export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null 
 /** Ids of the lanes that a road user can drive to from its start; null where it starts on none. */
 export function lanesAhead(map: LaneMap, a: Pick<Agent, 'type'>, start: Pose): ReadonlySet<string> | null {
   const fits = lanesFor(a);
-  const from = fits ? nearestLanes(map, start.x, start.y, start.heading, BESIDE_START_M, fits) : [];
-  const mine = from.filter((h) => Math.abs(wrapAngle(h.heading - start.heading)) < SAME_WAY_RAD);
+  const mine = fits ? lanesFromStart(map, start, fits) : [];
   return mine.length ? lanesAfter(map, mine, AHEAD_M) : null;
 }
 
@@ -100,7 +105,7 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
   const stops =
     scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) ||
     scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < SIGN_M);
-  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - BEFORE_LINE_M);
+  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - PLANNING.stop_line_gap_m);
   for (const b of scene.agents.values()) {
     if (
       b.id === a.id ||
@@ -111,7 +116,7 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
     const p = startPose(b);
     if (!p) continue;
     const on = project(lane.line, p.x, p.y);
-    if (on.d < IN_WAY_M) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
+    if (on.d < PLANNING.in_queue_m) places.push(on.s - b.length / 2 - PLANNING.queue_gap_m - a.length / 2);
   }
   const s = places
     .filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX)

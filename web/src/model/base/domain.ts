@@ -55,6 +55,13 @@ export const THRESHOLDS: Readonly<Record<string, { readonly usual: number; reado
 /** Constants of the server for events and verdicts. */
 export const JUDGING = domain.judging;
 
+/** Constants of planning, for places and ways that are shown before an answer. */
+export const PLANNING = domain.planning;
+
+/** A longer route from one place to another is a detour, metres; `straight`: their distance. */
+export const longestRoute = (straight: number): number =>
+  PLANNING.longest_route[0] * straight + PLANNING.longest_route[1];
+
 /** Accepted ranges of via points. */
 export const VIAS = domain.via;
 

@@ -1,6 +1,7 @@
 // Feedback on futures of a road user, or of the whole scene, round by round: kept and rejected cards with reasons, and
 // plain preferences. It is part of the document, and so are the inputs of the current cards: undo shows the earlier
 // ones again.
+import { JUDGING } from '../base/domain';
 import type { Schemas } from '../base/schemas';
 
 export type Features = Schemas['Features'];
@@ -143,7 +144,7 @@ export function traitOf(t: Trait): Trait {
 export const sameTrait = (a: Trait, b: Trait): boolean => traitKey(a) === traitKey(b);
 
 /** Two cards of a round are further apart than this somewhere, metres; a repeated one is nearer. */
-export const SAME_M = 0.3;
+export const SAME_M = JUDGING.card_apart_m;
 
 function samePlaces(a: Places, b: Places): boolean {
   const ids = Object.keys(a);

@@ -11,6 +11,7 @@ import {
   wrapAngle,
   type Box,
   type Line,
+  type Pose,
   type Projection,
   type Vec,
 } from '../base/geometry';
@@ -45,6 +46,9 @@ export interface LaneMap {
   readonly box: Box;
   readonly grid: Grid;
 }
+
+/** View only: a stop sign belongs to the lane that ends this near, metres. The document names lanes of few signs. */
+export const SIGN_M = 4;
 
 /** Road users may be this far beyond the map, metres: recordings and goals sometimes end there. */
 const BEYOND_M = 200;
@@ -187,6 +191,19 @@ export function nearestLanes(
   }
   return hits.sort((a, b) => a.score - b.score);
 }
+
+/**
+ * View only: lanes within this distance of the start, metres, and within this angle can be entered by a lane change.
+ * The server follows the lanes beside each other, which the document need not name.
+ */
+const BESIDE_START_M = 8;
+const ENTERED_RAD = Math.PI / 3;
+
+/** The lanes that a road user can drive on from its start, the nearest first. */
+export const lanesFromStart = (map: LaneMap, start: Pose, fits: (l: Lane) => boolean): LaneHit[] =>
+  nearestLanes(map, start.x, start.y, start.heading, BESIDE_START_M, fits).filter(
+    (hit) => Math.abs(wrapAngle(hit.heading - start.heading)) < ENTERED_RAD,
+  );
 
 /** Ids of the lanes that follow from these within a distance, themselves included, metres. */
 export function lanesAfter(map: LaneMap, from: readonly LaneHit[], far: number): ReadonlySet<string> {

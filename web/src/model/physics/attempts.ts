@@ -1,6 +1,7 @@
 // Attempts that vary numbers of a road user in turn: start speed, goal time, start place, seed.
 import { patchScene, setGoal, setStart } from '../document/commands';
 import { touching } from './boxes';
+import { JUDGING } from '../base/domain';
 import { wrapAngle, type Pose } from '../base/geometry';
 import { nearestLanes, type Lane } from '../document/lanemap';
 import { startPose, type Agent, type Scene, type StartSpec } from '../document/scene';
@@ -37,8 +38,6 @@ export const PLACE_MORE_M = 5;
 const GOLDEN = 0.6180339887498949;
 const PLASTIC = 0.7548776662466927;
 const SILVER = 0.41421356237309515;
-/** Within this distance of a lane's centre a road user starts on it. */
-const ON_LANE_M = 2.5;
 
 /** The n-th attempt; the first is the unchanged scene. Deterministic, so it can be repeated. */
 export function attempt(a: Agent, scene: Scene, may: MayChange, n: number, top: number): Attempt {
@@ -85,11 +84,11 @@ function placeAlong({ map }: Scene, a: Agent, metres: number): Pose | null {
   const { x, y, heading, speed } = now;
   const straight = { x: x + Math.cos(heading) * metres, y: y + Math.sin(heading) * metres, heading, speed };
   const fits = (l: Lane): boolean => l.kind === 'road' || (a.type === 'cyclist' && l.kind === 'bike');
-  const under = a.type === 'pedestrian' ? undefined : nearestLanes(map, x, y, heading, ON_LANE_M, fits)[0];
+  const under = a.type === 'pedestrian' ? undefined : nearestLanes(map, x, y, heading, JUDGING.on_lane_m, fits)[0];
   if (!under) return straight;
   const { lane } = under;
   const same = (l: Lane): boolean => l === lane || lane.next.includes(l.id) || lane.prev.includes(l.id);
-  const on = nearestLanes(map, straight.x, straight.y, heading, ON_LANE_M, same)[0];
+  const on = nearestLanes(map, straight.x, straight.y, heading, JUDGING.on_lane_m, same)[0];
   if (!on) return straight;
   const left = -(x - under.x) * Math.sin(under.heading) + (y - under.y) * Math.cos(under.heading);
   return {

@@ -212,10 +212,8 @@ function arrival(one: Moving, others: readonly Moving[], scene: Scene, set: Moti
   return momentAt(one, c.b, others, { value: c.gap, time: c.time, found, miss });
 }
 
-/** A signal for a road user is within this distance of its path, metres. */
+/** View only: a signal for a road user is within this distance of its path, metres. */
 const BESIDE_M = 6;
-/** Its direction differs from the road user's by less than this, radians. */
-const OWN_RAD = 0.8;
 
 /** A red-light violation in the generator's verdict, otherwise the distance to a red signal. */
 function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment | null {
@@ -234,7 +232,7 @@ function redLight(one: Moving, scene: Scene, set: MotionSet, s: Sought): Moment 
     for (let step = 0; stop && step * STEP_S <= scene.duration; step++) {
       const p = lightAt(signal, step * STEP_S) === 'stop' ? poseAtStep(one[1], step) : null;
       // Signals for other approaches do not apply.
-      const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < OWN_RAD);
+      const own = p && (into === null || Math.abs(wrapAngle(p.heading - into)) < JUDGING.along_lane_rad);
       const d = own ? Math.hypot(stop[0] - p.x, stop[1] - p.y) : Infinity;
       if (d < (best?.d ?? Infinity)) best = { d, time: step * STEP_S };
     }

@@ -1,13 +1,11 @@
 // The least time that a road user takes along a line without haste: within the speed limits, and without harsh braking,
 // steering or running.
-import { limitsOf, THRESHOLDS, type Typed } from '../base/domain';
+import { limitsOf, PLANNING, type Typed } from '../base/domain';
 import { radii, type Route } from '../document/lanemap';
 
-// View only: the time that a remedy offers, before the server has tried it. Limits, manners and the speed of running
+// View only: the time that a remedy offers, before the server has tried it. Limits, manners and the speed of walkers
 // are the server's.
 
-/** The share of what counts as running at which somebody walks fast. */
-const BRISK = 0.8;
 /** Moving off takes a moment even for a road user that has almost no way to go, m/s. */
 const LEAST_MPS = 0.5;
 
@@ -18,7 +16,7 @@ export type DrivenRoute = Pick<Route, 'line' | 'lanes' | 'ends'>;
 export function drivingTime(a: Typed, { line, lanes, ends }: DrivenRoute, v: number, end = Infinity): number {
   const { speed_mps, hurried: manner } = limitsOf(a);
   const onFoot = a.type === 'pedestrian';
-  const own = onFoot ? BRISK * THRESHOLDS.running_mps.usual : speed_mps;
+  const own = onFoot ? PLANNING.walking_mps : speed_mps;
   const limitAt = (s: number): number => lanes[ends.findIndex((end) => s <= end)]?.limit ?? Infinity;
   const bends = onFoot ? [] : radii(line);
   const n = Math.max(2, Math.floor(line.length / 2));

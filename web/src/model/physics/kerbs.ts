@@ -1,6 +1,7 @@
 // Kerbs: road edges that separate, and whether the road still leads to the other side.
-import { wrapAngle, type Point, type Pose, type Vec } from '../base/geometry';
-import { findRoute, nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
+import { longestRoute, PLANNING } from '../base/domain';
+import type { Point, Pose, Vec } from '../base/geometry';
+import { findRoute, lanesFromStart, nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
 
 /** Intersection of segment `a`-`b` with `c`-`d`, as a share of `a`-`b`; null where they do not intersect. */
 function meets(a: Vec, b: Vec, c: Vec, d: Vec): number | null {
@@ -28,14 +29,8 @@ export function firstKerb(map: LaneMap, from: Vec, to: Vec): Vec | null {
   return first <= 1 ? [from[0] + (to[0] - from[0]) * first, from[1] + (to[1] - from[1]) * first] : null;
 }
 
-/** A lane leads to places within this distance without a kerb between, metres. */
+/** View only: a lane leads to places within this distance without a kerb between, metres. */
 const BESIDE_LANE_M = 8;
-/** Lanes within this distance of the start can be entered by a lane change, metres. */
-const BESIDE_START_M = 8;
-const SAME_WAY_RAD = Math.PI / 3;
-/** Allowed detour of a route over the straight line: metres, or a share for corners. */
-const DETOUR_M = 25;
-const DETOUR_SHARE = 1.5;
 
 /** Does a lane lead from a start to a place, without a large detour? */
 export function laneLeadsTo(map: LaneMap, start: Pose, to: Point, fits: (l: Lane) => boolean): boolean {
@@ -43,10 +38,7 @@ export function laneLeadsTo(map: LaneMap, start: Pose, to: Point, fits: (l: Lane
     .filter((hit) => !firstKerb(map, [to.x, to.y], [hit.x, hit.y]))
     .slice(0, 4);
   if (!ends.length) return false;
-  const from = nearestLanes(map, start.x, start.y, start.heading, BESIDE_START_M, fits)
-    .filter((hit) => Math.abs(wrapAngle(hit.heading - start.heading)) < SAME_WAY_RAD)
-    .slice(0, 4);
-  const straight = Math.hypot(to.x - start.x, to.y - start.y);
-  const longest = Math.max(straight * DETOUR_SHARE, straight + DETOUR_M);
+  const from = lanesFromStart(map, start, fits).slice(0, PLANNING.most_starts);
+  const longest = longestRoute(Math.hypot(to.x - start.x, to.y - start.y));
   return ends.some((end) => from.some((hit) => (findRoute(map, hit, end)?.length ?? Infinity) <= longest));
 }

@@ -12,7 +12,7 @@ import {
 } from '../base/geometry';
 import type { DrivenRoute } from './driving-time';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
-import { limitsOf, THRESHOLDS, type Limits } from '../base/domain';
+import { JUDGING, limitsOf, longestRoute, PLANNING, THRESHOLDS, type Limits } from '../base/domain';
 import type { Agent, GoalSpec } from '../document/scene';
 
 /** Furthest distance in `t` seconds from speed `v`: at full acceleration, then at top speed. */
@@ -45,15 +45,8 @@ export interface GoalReach {
 }
 
 // View only, down to BEND_SHARE: a check while a goal is dragged, before the server's verdict arrives. The limits of
-// motion are the server's; these numbers decide which path it measures.
+// motion and of routes are the server's; these numbers decide how the path is measured.
 
-/** Lanes under the start and under the goal are looked for within this distance, metres, and so many of them. */
-const ON_LANE_M = 3;
-const MOST_STARTS = 4;
-const MOST_ENDS = 2;
-/** Longer routes are detours: a share of the straight line, and metres. */
-const DETOUR_SHARE = 1.9;
-const DETOUR_M = 12;
 /** A path along lanes may be shorter than the driven one by this, metres. */
 const SLACK_M = 1;
 /** Nobody brakes on a shorter path, metres. */
@@ -76,12 +69,13 @@ export function pathTo(
   if (a.type !== 'pedestrian') {
     const fit = fitsAgent(a);
     const apart = Math.hypot(goal.x - start.x, goal.y - start.y);
-    const from = nearestLanes(map, start.x, start.y, start.heading, ON_LANE_M, fit).slice(0, MOST_STARTS);
-    const to = nearestLanes(map, goal.x, goal.y, goal.heading, ON_LANE_M, fit).slice(0, MOST_ENDS);
+    const { most_starts, goal_lane_m, most_goal_lanes } = PLANNING;
+    const from = nearestLanes(map, start.x, start.y, start.heading, JUDGING.on_lane_m, fit).slice(0, most_starts);
+    const to = nearestLanes(map, goal.x, goal.y, goal.heading, goal_lane_m, fit).slice(0, most_goal_lanes);
     for (const b of to)
       for (const f of from) {
         const r = findRoute(map, f, b);
-        if (r && r.line.pts.length > 1 && r.length < DETOUR_SHARE * apart + DETOUR_M) return r;
+        if (r && r.line.pts.length > 1 && r.length < longestRoute(apart)) return r;
       }
   }
   const straight: Vec[] = [
@@ -173,9 +167,6 @@ export interface LaneStretch {
 
 // View only: which lanes are tinted. The server finds the way itself and may use others.
 
-/** A road user this near to a lane can enter it, metres and radians. */
-const TAKES_M = 5;
-const TAKES_RAD = 0.6;
 /** Limit of followed lanes. */
 const MOST_LANES = 400;
 
@@ -190,8 +181,8 @@ export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): L
   if (a.type === 'pedestrian') return [];
   const [least, most] = reachBetween(a, start, t);
   const turned = (heading: number): number => Math.abs(wrapAngle(heading - start.heading));
-  const open = nearestLanes(map, start.x, start.y, start.heading, TAKES_M, fitsAgent(a))
-    .filter((h) => turned(h.heading) < TAKES_RAD)
+  const open = nearestLanes(map, start.x, start.y, start.heading, PLANNING.start_lane_m, fitsAgent(a))
+    .filter((h) => turned(h.heading) <= PLANNING.start_turn_rad)
     .map((h) => ({ lane: h.lane, at: -h.s }));
   const seen = new Set<string>();
   const out: LaneStretch[] = [];

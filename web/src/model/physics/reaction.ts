@@ -31,16 +31,15 @@ export interface Answered {
 // View only, down to ASKED_SHARE: which words describe a change that the server gave no reason for, as after a speed
 // curve. A reaction of the server comes with its kind and cause.
 
-/** Ahead within this many metres, with at most this lateral offset and a similar heading. */
+/** Ahead within this many metres, with at most this lateral offset and going the same way. */
 const AHEAD_M = 40;
 const ASIDE_M = 2.5;
-const SAME_WAY_RAD = Math.PI / 4;
 
 /** Is the other one ahead on the same path at that time? */
 export function answersAhead(mine: Motion, other: Motion, t: number): boolean {
   const p = poseAt(mine, t),
     q = poseAt(other, t);
-  if (!p || !q || Math.abs(wrapAngle(q.heading - p.heading)) > SAME_WAY_RAD) return false;
+  if (!p || !q || Math.abs(wrapAngle(q.heading - p.heading)) > JUDGING.same_way_rad) return false;
   const dx = q.x - p.x,
     dy = q.y - p.y;
   const ahead = dx * Math.cos(p.heading) + dy * Math.sin(p.heading);
@@ -48,8 +47,6 @@ export function answersAhead(mine: Motion, other: Motion, t: number): boolean {
   return ahead > 0 && ahead < AHEAD_M && aside < ASIDE_M;
 }
 
-/** Standing longer by less than this is no wait, seconds. */
-const WAITS_S = 0.8;
 /** An arrival that differs by less is neither later nor earlier, seconds. */
 const SAME_ARRIVAL_S = 0.3;
 /** Motions nearer than this are the same, metres. */
@@ -83,7 +80,7 @@ export function guessReaction(
 function kindOf(before: Motion, after: Motion, duration: number, lost: number): { kind: ReactionKind; time: number } {
   const part = partWhereApart(before, after, duration);
   const stop = longestStop(after, part.from);
-  if (lost > 0 && stop.seconds > longestStop(before, part.from).seconds + WAITS_S)
+  if (lost > 0 && stop.seconds > longestStop(before, part.from).seconds + JUDGING.waits_s)
     return { kind: 'waits', time: stop.from };
   if (lost > SAME_ARRIVAL_S) return { kind: 'slows', time: slowest(after, part.from, part.widest) };
   if (lost < -SAME_ARRIVAL_S) return { kind: 'speeds_up', time: part.widest };

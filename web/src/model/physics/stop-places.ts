@@ -1,9 +1,9 @@
 // Stop places on a path: at a stop line, before a crosswalk, behind a standing road user.
-import { JUDGING } from '../base/domain';
+import { JUDGING, PLANNING } from '../base/domain';
 import { insidePolygon, pointAt, project, wrapAngle, type Vec } from '../base/geometry';
 import { alongOf, lineOf } from './speed-profile';
+import { SIGN_M } from '../document/lanemap';
 import type { Path } from '../document/profile';
-import { BEFORE_LINE_M, IN_WAY_M, QUEUE_GAP_M, SIGN_M } from './stop-gaps';
 import { TEXTS } from '../../texts/scene/places';
 import { startPose, type Agent, type Scene } from '../document/scene';
 
@@ -13,10 +13,7 @@ export interface StopPlace {
   readonly words: string;
 }
 
-/** View only: a stop line belongs to the path when its lane ends this near, metres, with its direction, radians. */
-const ON_WAY_M = 1.5;
-const ALONG_RAD = 0.5;
-/** Places closer than this are one: the line before the crosswalk counts. */
+/** View only: places closer than this are one: the line before the crosswalk counts. */
 const APART_M = 1;
 
 export function stopPlaces(scene: Scene, a: Agent, path: Path): StopPlace[] {
@@ -34,8 +31,9 @@ function stopLines({ map, signals }: Scene, path: Path): StopPlace[] {
     const signed = map.stopSigns.some(([x, y]) => Math.hypot(x - end.x, y - end.y) < SIGN_M);
     if (lane.inside || !(signed || lit.has(lane.id) || lane.next.some((id) => lit.has(id)))) continue;
     const on = project(line, end.x, end.y);
-    const along = Math.abs(wrapAngle(pointAt(line, on.s).heading - end.heading)) < ALONG_RAD;
-    if (on.d < ON_WAY_M && along) out.push({ s: on.s - BEFORE_LINE_M, words: TEXTS.atTheStopLine });
+    const along = Math.abs(wrapAngle(pointAt(line, on.s).heading - end.heading)) < PLANNING.stop_line_turned_rad;
+    if (on.d < PLANNING.stop_line_beside_m && along)
+      out.push({ s: on.s - PLANNING.stop_line_gap_m, words: TEXTS.atTheStopLine });
   }
   return out;
 }
@@ -45,7 +43,9 @@ function crosswalks({ map }: Scene, path: Path): StopPlace[] {
   return map.crosswalks.flatMap((area) => {
     const on = path.x.map((x, i) => insidePolygon(x, path.y[i], area));
     const i = on.findIndex((inside, k) => inside && k > 0 && !on[k - 1]);
-    return i < 0 ? [] : [{ s: edgeOf(path, along, i, area) - BEFORE_LINE_M, words: TEXTS.beforeTheCrosswalk }];
+    return i < 0
+      ? []
+      : [{ s: edgeOf(path, along, i, area) - PLANNING.stop_line_gap_m, words: TEXTS.beforeTheCrosswalk }];
   });
 }
 
@@ -71,8 +71,8 @@ function queueEnds(scene: Scene, a: Agent, path: Path): StopPlace[] {
     const p = b.id === a.id || b.type === 'pedestrian' ? null : startPose(b);
     if (!p || b.parked || Math.abs(p.speed) > JUDGING.standing_mps) continue;
     const on = project(line, p.x, p.y);
-    if (on.d < IN_WAY_M && on.s > a.length)
-      out.push({ s: on.s - b.length / 2 - QUEUE_GAP_M, words: TEXTS.behind(b.name) });
+    if (on.d < PLANNING.in_queue_m && on.s > a.length)
+      out.push({ s: on.s - b.length / 2 - PLANNING.queue_gap_m, words: TEXTS.behind(b.name) });
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // Changed motions, one sentence each.
 import type { MotionSet } from '../document/futures';
 import type { Agent, Scene } from '../document/scene';
+import { JUDGING } from '../base/domain';
 import { distances, poseAtStep, STEP_S, type Motion } from '../base/motion';
 import { num, metres, speedText, walkingUnit, type SpeedUnit } from '../base/units';
 import { changesBetween, furthest, type MotionChange } from '../physics/changes';
@@ -77,7 +78,7 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
     };
     const [s1, s0] = [gone(m), gone(a.log)];
     const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
-    if (turn > 0.6) words = TEXTS.endsTurned;
+    if (turn > JUDGING.turn_rad) words = TEXTS.endsTurned;
     else if (s1 < s0 - 2) words = TEXTS.travelsLess(metres(s0 - s1, 0));
     else if (s1 > s0 + 2) words = TEXTS.travelsMore(metres(s1 - s0, 0));
   }

@@ -145,7 +145,7 @@ function goals(left: ComparedVariant, right: ComparedVariant): ComparisonRow[] {
 
 function momentsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): DivergingMoment[] {
   const said = (e: TrafficEvent): string =>
-    e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
+    e.what === 'collision' && e.b ? TEXTS.hits(e.a.name, e.b.name) : `${e.b ? e.a.name : e.title}, ${e.short}`;
   // If there are too many the worst are listed, and of these the earliest, on either side.
   const events = [left, right]
     .flatMap((s) => counted(s.events).map((e) => ({ e, words: `${s.label}: ${said(e)}` })))

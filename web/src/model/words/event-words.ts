@@ -2,7 +2,7 @@
 import type { FaultKind } from '../document/future-facts';
 import type { Futures, MotionSet } from '../document/futures';
 import { nameIn, type Agent, type Scene } from '../document/scene';
-import { THRESHOLDS } from '../base/domain';
+import { JUDGING, THRESHOLDS } from '../base/domain';
 import { wrapAngle, type Pose } from '../base/geometry';
 import { poseAt } from '../base/motion';
 import { acceleration, degrees, metres, num, seconds, speedLabel, walkingUnit, type SpeedUnit } from '../base/units';
@@ -169,7 +169,7 @@ function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
   const p = poseAt(m, Math.max(0, t - 1)) ?? poseAt(m, t),
     q = poseAt(m, Math.min(scene.duration, t + 1)) ?? poseAt(m, t);
   const now = poseAt(m, t);
-  if (!p || !q || !now || Math.abs(now.speed) < 0.3) return TEXTS.standing;
+  if (!p || !q || !now || Math.abs(now.speed) < JUDGING.standing_mps) return TEXTS.standing;
   const turn = wrapAngle(q.heading - p.heading);
   if (turn > 0.35) return TEXTS.turningLeft;
   if (turn < -0.35) return TEXTS.turningRight;

@@ -240,14 +240,12 @@ const SHORT = [
   [KINDS.cyclist, TEXTS.cycl],
 ] as const;
 
-/** Shorter paths count as no movement, metres. */
-const STAYS_M = 1.5;
 /** Smaller movements are invisible, metres. */
 const CREEPS_M = 0.4;
 
 function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
   const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
-  if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
+  if (manoeuvre === 'stays' || pathLength(m) < JUDGING.stays_m) return false;
   return Math.abs(endPose(m).speed) < JUDGING.standing_mps;
 }
 
@@ -285,10 +283,10 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>
 /** The manoeuvre, from the shape only. */
 function shapeOf(m: Motion, onFoot: boolean): NonNullable<FutureFacts['manoeuvre']> {
   const n = m.x.length - 1;
-  if (n < 2 || pathLength(m) < STAYS_M) return 'stays';
+  if (n < 2 || pathLength(m) < JUDGING.stays_m) return 'stays';
   const turn = totalTurn(m);
-  if (Math.abs(turn) > 2.5) return 'turn_round';
-  if (Math.abs(turn) > 0.6) return turn > 0 ? 'left' : 'right';
+  if (Math.abs(turn) > JUDGING.turn_round_rad) return 'turn_round';
+  if (Math.abs(turn) > JUDGING.turn_rad) return turn > 0 ? 'left' : 'right';
   // Sideways without a turn; a long road with a slight bend is still straight on.
   const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2;
   const far = Math.hypot(m.x[n] - m.x[0], m.y[n] - m.y[0]);

@@ -2,6 +2,7 @@
 import { isBlocked, type Reach } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import type { Agent, GoalSpec } from '../document/scene';
+import { PLANNING } from '../base/domain';
 import type { Pose, Vec } from '../base/geometry';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from '../base/units';
 import { goalReach, type GoalReach } from '../physics/reach';
@@ -65,11 +66,14 @@ function wordsOf(r: GoalReach, a: Agent, v: number, t: number, unit: SpeedUnit):
     case 'ok': {
       const mean = speedLabel(along / t, unit);
       const onFoot = a.type === 'pedestrian';
-      const words = onFoot ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t)) : TEXTS.needsOnAverage(mean);
+      const words = onFoot
+        ? TEXTS.in(metres(along, 1), seconds(t), mean, walkWords(along / t))
+        : TEXTS.needsOnAverage(mean);
       return { title: TEXTS.reachable, words };
     }
   }
 }
 
-const walk = (v: number): string =>
-  v < 0.6 ? TEXTS.aSlowWalk : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
+/** The word for a pace on foot, m/s, after the number. */
+export const walkWords = (v: number): string =>
+  v < 0.6 ? TEXTS.aSlowWalk : v < 1.6 ? TEXTS.aNormalWalk : v < PLANNING.walking_mps ? TEXTS.aBriskWalk : TEXTS.running;

@@ -22,7 +22,6 @@ export interface Nameless {
 
 /** Sampling interval of a motion, seconds. */
 const EVERY_S = 0.5;
-const TURN_RAD = 0.6;
 /** Smaller differences give no name: seconds of waiting, metres of path. */
 const LEAST_S = 1.5;
 const LEAST_M = 3;
@@ -130,7 +129,12 @@ export function deedOf(scene: Scene, m: Motion): Deed {
     if (stands) waits += EVERY_S;
     last = p ?? last;
   }
-  return { way, waits, stands, turn: turned > TURN_RAD ? 'left' : turned < -TURN_RAD ? 'right' : 'straight' };
+  return {
+    way,
+    waits,
+    stands,
+    turn: turned > JUDGING.turn_rad ? 'left' : turned < -JUDGING.turn_rad ? 'right' : 'straight',
+  };
 }
 
 function usualOf(deeds: readonly Deed[]): Deed {

@@ -16,7 +16,7 @@ export const TEXTS = table('keeping', {
       other: `${count} road users are no longer on a lane: ${lost}.`,
     }),
   otherMap: (base: undefined | string) => `${base}, other map`,
-  theSceneCould: 'The scene could not be loaded. The server is not answering.',
+  theSceneCould: 'The server is not answering.',
   changedElsewhere: 'Changed elsewhere',
   discard: 'Discard',
   lastSessionRestored: 'The changes of your last session are restored.',

@@ -107,12 +107,7 @@ export const TEXTS = table('agent', {
   goalReachedInSome: (letters: string) => `Goal reached in ${letters}`,
   six: 'six',
   asRecordedNote: 'as recorded',
-  pace: (way: string, time: string, speed: string, how: string) => `${way} in ${time}: ${speed}${how}.`,
-  aSlowWalk: 'slow walk',
-  aWalk: 'walk',
-  aBriskWalk: 'brisk walk',
-  aJog: 'jog',
-  aRun: 'run',
+  pace: (way: string, time: string, speed: string, how: string) => `${way} in ${time}: ${speed}${how}`,
   goalAsRecorded: 'Goal as recorded',
   dragTheFlag: 'Drag the flag to change the goal.',
 });

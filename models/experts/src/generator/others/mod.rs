@@ -19,5 +19,6 @@ pub(super) use chain::{ChangedMotion, Reacted, caused};
 pub(super) use following::following;
 pub(super) use other::Others;
 pub(crate) use path_progress::{extend_along_road, state_between};
+pub use reaction::WAITS_STEPS;
 pub(super) use reaction::reaction_of;
 pub(super) use replanned::replanned;

@@ -8,7 +8,7 @@ use scene::motion::Trajectory;
 use scene::{AgentId, STANDING_MPS, STEP_S, State};
 
 /// Standing so many steps longer than it does anyway is waiting.
-const WAITS_STEPS: usize = 5;
+pub const WAITS_STEPS: usize = 5;
 
 /// The reaction of an agent to `cause`; the window begins at `start_step`.
 pub(super) fn reaction(own: &Reactor, way: &YieldOption, cause: AgentId, start_step: usize) -> Reaction {

@@ -1,5 +1,6 @@
 // Requests the map whenever the settings change, and makes a scene of it.
 import { effect } from '@preact/signals-core';
+import { JUDGING } from '../../../model/base/domain';
 import { drivingSide, type DrivingSide } from '../../../model/physics/driving-side';
 import { nearestLanes } from '../../../model/document/lanemap';
 import { TEMPLATE_TITLES } from '../../../model/document/layouts';
@@ -19,8 +20,6 @@ import type { SceneFile } from '../../document/scene-file';
 import { TEXTS } from '../../../texts/editing/keeping';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
-/** A road user further than this from every lane is off the lanes, metres. */
-const ON_LANE_M = 2.5;
 /** An unreachable server is retried after this. */
 const AGAIN_MS = 2000;
 
@@ -183,7 +182,7 @@ function offTheLanes(json: SceneJson): string[] {
     .filter((a) => {
       const p = startPose(a);
       if (!p || a.parked || a.type === 'pedestrian' || a.type === 'other') return false;
-      return !nearestLanes(scene.map, p.x, p.y, null, ON_LANE_M, (l) => l.kind !== 'walk').length;
+      return !nearestLanes(scene.map, p.x, p.y, null, JUDGING.on_lane_m, (l) => l.kind !== 'walk').length;
     })
     .map((a) => a.name);
 }

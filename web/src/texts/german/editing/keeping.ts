@@ -17,7 +17,7 @@ export const german: Said<typeof TEXTS> = {
       other: `${count} Verkehrsteilnehmer stehen nicht mehr auf einer Spur: ${lost}.`,
     }),
   otherMap: (base) => `${base}, andere Karte`,
-  theSceneCould: 'Die Szene ließ sich nicht laden. Der Server antwortet nicht.',
+  theSceneCould: 'Der Server antwortet nicht.',
   changedElsewhere: 'Anderswo geändert',
   discard: 'Verwerfen',
   lastSessionRestored: 'Die Änderungen der letzten Sitzung sind wiederhergestellt.',

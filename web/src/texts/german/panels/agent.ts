@@ -108,12 +108,7 @@ export const german: Said<typeof TEXTS> = {
   goalReachedInSome: (letters: string) => `Ziel erreicht in ${letters}`,
   six: 'sechs',
   asRecordedNote: 'wie aufgezeichnet',
-  pace: (way, time, speed, how) => `${way} in ${time}: ${speed}${how}.`,
-  aSlowWalk: 'langsam gegangen',
-  aWalk: 'normal gegangen',
-  aBriskWalk: 'zügig gegangen',
-  aJog: 'gejoggt',
-  aRun: 'gerannt',
+  pace: (way, time, speed, how) => `${way} in ${time}: ${speed}${how}`,
   goalAsRecorded: 'Ziel wie aufgezeichnet',
   dragTheFlag: 'Die Fahne ziehen, um das Ziel zu ändern.',
 };
