@@ -26,7 +26,7 @@ pub struct BatchUnit {
 }
 
 /// Scene, situation and number of the first unit of the two.
-struct Block {
+struct UnitBlock {
     scene: usize,
     situation: usize,
     first: u64,
@@ -37,7 +37,7 @@ pub struct UnitList<'a> {
     plan: &'a BatchPlan,
     scenes: &'a [CatalogueScene],
     seeds: Vec<u64>,
-    blocks: Vec<Block>,
+    blocks: Vec<UnitBlock>,
     count: u64,
     /// Of all that the units share: version, weights, tuning and options.
     shared: ContentHash,
@@ -52,7 +52,7 @@ impl<'a> UnitList<'a> {
             // An input that is no scene is one unit: its row says why.
             let situations = if scene.problem.is_some() { 1 } else { plan.situations.len() };
             for situation in 0..situations {
-                blocks.push(Block { scene: i, situation, first: count });
+                blocks.push(UnitBlock { scene: i, situation, first: count });
                 count += Self::size(plan, scene, situation, seeds.len() as u64);
             }
         }
