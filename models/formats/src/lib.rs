@@ -29,12 +29,13 @@
 pub mod av2;
 mod bounds;
 pub mod checks;
-mod columnar;
+pub mod columnar;
 mod commonroad;
 mod describe;
 mod driving_side;
 mod encoding;
 pub mod files;
+pub mod folder;
 pub mod format;
 pub mod foxglove;
 mod frame;

@@ -3,10 +3,10 @@
 use super::{Common, Exit, Failure, output};
 use crate::base::limits::Limits;
 use crate::routes::info;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// Flags of `openapi`, `schema` and `domain`.
+/// Flags of `openapi` and `domain`.
 #[derive(Args, Clone, Debug)]
 pub struct CheckArgs {
     /// Compare with this file; exit with 1 on a difference.
@@ -22,14 +22,37 @@ pub fn openapi(args: CheckArgs) -> Result<(), Failure> {
     show(&crate::routes::openapi::text(), args.check.as_deref(), "openapi")
 }
 
-/// Prints or checks the scene's JSON Schema.
+/// Documents with a JSON Schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SchemaOf {
+    /// Scene document.
+    Scene,
+    /// Plan of a batch.
+    Batch,
+}
+
+/// Flags of `schema`.
+#[derive(Args, Clone, Debug)]
+pub struct SchemaArgs {
+    /// Document.
+    #[arg(value_enum, default_value = "scene")]
+    document: SchemaOf,
+    #[command(flatten)]
+    check: CheckArgs,
+}
+
+/// Prints or checks a JSON Schema.
 ///
 /// # Errors
 /// Exit 1 on a difference.
-pub fn schema(args: CheckArgs) -> Result<(), Failure> {
-    let mut text = serde_json::to_string_pretty(&formats::native::schema()).unwrap_or_default();
+pub fn schema(args: SchemaArgs) -> Result<(), Failure> {
+    let (schema, command) = match args.document {
+        SchemaOf::Scene => (formats::native::schema(), "schema"),
+        SchemaOf::Batch => (batch::plan::schema(), "schema batch"),
+    };
+    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
     text.push('\n');
-    show(&text, args.check.as_deref(), "schema")
+    show(&text, args.check.check.as_deref(), command)
 }
 
 /// Prints or checks motion limits, ranges of conditions and defaults of requests.

@@ -15,6 +15,7 @@ macro_rules! examples {
 }
 
 mod backup;
+mod batch;
 mod common;
 mod config;
 mod convert;
@@ -75,6 +76,9 @@ enum Command {
     /// Generate futures of road users, towards goals or freely.
     #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
     Generate(Box<generate::GenerateArgs>),
+    /// Generate many scenes by a plan, in chunks that several processes share and that an interrupted run keeps.
+    #[command(after_help = examples!("dragtraffic batch plan.toml -o out/", "dragtraffic batch plan.toml -o out/ --shard 0/8"))]
+    Batch(batch::BatchArgs),
     /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
     #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
     Map(map::MapArgs),
@@ -96,9 +100,9 @@ enum Command {
     /// Print the OpenAPI document, or compare it with a file.
     #[command(after_help = examples!("dragtraffic openapi > assets/openapi.json", "dragtraffic openapi --check assets/openapi.json"))]
     Openapi(document::CheckArgs),
-    /// Print the JSON Schema of the scene document, or compare it with a file.
-    #[command(after_help = examples!("dragtraffic schema > scene.schema.json", "dragtraffic schema --check assets/schema/scene.v1.schema.json"))]
-    Schema(document::CheckArgs),
+    /// Print the JSON Schema of the scene document or of the plan of a batch, or compare it with a file.
+    #[command(after_help = examples!("dragtraffic schema > scene.schema.json", "dragtraffic schema batch --check assets/schema/batch.v1.schema.json"))]
+    Schema(document::SchemaArgs),
     /// Print motion limits, ranges of conditions and defaults of requests, or compare them with a file.
     #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
@@ -244,6 +248,7 @@ impl Command {
             Self::Serve(args) => serve::run(args, common),
             Self::Backup(args) => backup::run(args, common),
             Self::Generate(args) => generate::run(*args, common),
+            Self::Batch(args) => batch::run(args, common),
             Self::Map(args) => map::run(args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),

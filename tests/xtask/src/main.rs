@@ -62,9 +62,10 @@ const CHECKS: &[Check] = &[
     ("wasm", wasm::check),
     ("test", suites::check),
     ("schedules", soak::schedules),
-    ("openapi", || drift("openapi", "assets/openapi.json")),
-    ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
-    ("domain", || drift("domain", "assets/domain.json")),
+    ("openapi", || drift(&["openapi"], "assets/openapi.json")),
+    ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
+    ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),
+    ("domain", || drift(&["domain"], "assets/domain.json")),
     ("shear", || tools::check("shear", &[])),
     ("deny", || tools::check("deny", &["check", "licenses", "bans", "sources"])),
     ("dependencies", dependencies::check),
@@ -246,8 +247,8 @@ fn web_packages() -> anyhow::Result<Outcome> {
 }
 
 /// Compares a committed document with what the program prints.
-fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
-    run(Command::new(program()?).args([command, "--check", file]).current_dir(root()))
+fn drift(command: &[&str], file: &str) -> anyhow::Result<Outcome> {
+    run(Command::new(program()?).args(command).args(["--check", file]).current_dir(root()))
 }
 
 /// A program, built as `cargo test --workspace` does, with the features that only tests need, so that nothing

@@ -9,5 +9,6 @@ mod thrift;
 mod vet;
 mod write;
 
-pub(crate) use read::{ColumnValue, ParquetTable, is_parquet, names_in};
-pub(crate) use write::{Column, ColumnValues, write};
+pub use read::{ColumnValue, ParquetTable};
+pub(crate) use read::{is_parquet, names_in};
+pub use write::{Column, ColumnValues, write};

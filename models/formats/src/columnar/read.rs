@@ -54,7 +54,8 @@ enum OwnedValue {
 
 /// A value of a row, as readers of tables take it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum ColumnValue<'a> {
+#[allow(missing_docs, reason = "the names say it")]
+pub enum ColumnValue<'a> {
     Nothing,
     Flag(bool),
     Whole(i64),
@@ -63,7 +64,7 @@ pub(crate) enum ColumnValue<'a> {
 }
 
 /// A Parquet file that is being read.
-pub(crate) struct ParquetTable {
+pub struct ParquetTable {
     file: Bytes,
     reader: SerializedFileReader<Bytes>,
     names: Vec<String>,

@@ -15,7 +15,8 @@ use std::sync::Arc;
 const ZSTD_LEVEL: i32 = 3;
 
 /// Values of a column; `None` is null where the column may have none.
-pub(crate) enum ColumnValues {
+#[allow(missing_docs, reason = "the names say it")]
+pub enum ColumnValues {
     Text(Vec<Option<String>>),
     Whole(Vec<Option<i64>>),
     Number(Vec<Option<f64>>),
@@ -23,10 +24,12 @@ pub(crate) enum ColumnValues {
 }
 
 /// A column of a table.
-pub(crate) struct Column {
+pub struct Column {
+    /// Its name.
     pub name: &'static str,
     /// Every row has a value.
     pub required: bool,
+    /// One a row.
     pub values: ColumnValues,
 }
 
@@ -44,7 +47,7 @@ fn compression() -> Result<Compression, ParquetError> {
 ///
 /// # Errors
 /// Those of the library; none is expected.
-pub(crate) fn write(
+pub fn write(
     groups: impl IntoIterator<Item = Vec<Column>>,
     notes: Vec<(String, String)>,
 ) -> io::Result<Vec<u8>> {

@@ -1,8 +1,8 @@
 //! Hard braking: a vehicle with a follower brakes to a stop.
 
+use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};
-use crate::random::Stream;
 
 /// Both drive at least so fast, m/s.
 const LEAST_SPEED_MPS: f64 = 4.0;
@@ -11,9 +11,12 @@ const FARTHEST_M: f64 = 50.0;
 /// Farthest follower, seconds of its own driving.
 const FARTHEST_S: f64 = 4.0;
 /// Braking that is drawn, m/s2: from firm to what a car can do on a dry road.
-const BRAKING_MPS2: (f64, f64) = (3.5, 7.5);
+const BRAKING_MPS2: TemplateFigure =
+    TemplateFigure { name: "braking_mps2", drawn: (3.5, 7.5), allowed: (0.5, 9.0) };
 /// Time until the braking begins, seconds.
-const BEGINS_S: (f64, f64) = (0.2, 1.5);
+const BEGINS_S: TemplateFigure = TemplateFigure { name: "begins_s", drawn: (0.2, 1.5), allowed: (0.0, 8.0) };
+/// What is drawn.
+pub(super) const FIGURES: [TemplateFigure; 2] = [BRAKING_MPS2, BEGINS_S];
 
 /// Each leader with its follower, if the gap in seconds is small enough.
 pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
@@ -36,11 +39,11 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
 }
 
 /// Where it stands after braking evenly.
-pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let follower = &stage.drivers[role.other?];
-    let braking = draw.between(BRAKING_MPS2.0, BRAKING_MPS2.1);
-    let begins_s = draw.between(BEGINS_S.0, BEGINS_S.1);
+    let braking = draw.value(&BRAKING_MPS2);
+    let begins_s = draw.value(&BEGINS_S);
     let speed = driver.speed_mps();
     let after_s = on_step(begins_s + speed / braking);
     // The time is that of a step, so the distance is what belongs to it.

@@ -1,8 +1,8 @@
 //! Cut-in: a vehicle in a neighbouring lane moves close ahead of another.
 
+use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};
-use crate::random::Stream;
 
 /// Both drive at least so fast, m/s.
 const LEAST_SPEED_MPS: f64 = 3.0;
@@ -13,11 +13,14 @@ const ALIKE_RAD: f64 = 0.35;
 /// How far behind or ahead of the other it may begin, metres.
 const ALONG_M: (f64, f64) = (-15.0, 35.0);
 /// Gap behind it at the end, metres.
-const GAP_M: (f64, f64) = (1.5, 6.0);
+const GAP_M: TemplateFigure = TemplateFigure { name: "gap_m", drawn: (1.5, 6.0), allowed: (0.1, 50.0) };
 /// Time that it takes, seconds.
-const TAKES_S: (f64, f64) = (2.0, 4.5);
+const TAKES_S: TemplateFigure = TemplateFigure { name: "takes_s", drawn: (2.0, 4.5), allowed: (0.5, 9.0) };
 /// Its speed at the end, as a share of the other's.
-const SPEED_SHARE: (f64, f64) = (0.7, 1.0);
+const SPEED_SHARE: TemplateFigure =
+    TemplateFigure { name: "speed_share", drawn: (0.7, 1.0), allowed: (0.0, 1.5) };
+/// What is drawn.
+pub(super) const FIGURES: [TemplateFigure; 3] = [TAKES_S, GAP_M, SPEED_SHARE];
 /// Its mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
 const PACE: (f64, f64) = (0.5, 1.4);
 const PACE_MORE_MPS: f64 = 2.0;
@@ -37,7 +40,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
                 && along
                 && place.turn_rad.abs() < ALIKE_RAD
                 && driver.speed_mps() >= LEAST_SPEED_MPS
-                && room_m > driver.length_m() + 2.0 * GAP_M.1;
+                && room_m > driver.length_m() + 2.0 * GAP_M.drawn.1;
             let Some(beside) = before.pose_ahead(place.ahead_m).filter(|_| fits) else { continue };
             if !stage.graph.ground().crosses_an_edge(driver.state.position(), beside.position) {
                 // Best is one that has nothing to make up or to wait for.
@@ -51,11 +54,11 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
 }
 
 /// The place in the other's lane, as far ahead of where that one is by then as the gap says.
-pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let (driver, before) = (&stage.drivers[role.actor], &stage.drivers[role.other?]);
-    let after_s = on_step(draw.between(TAKES_S.0, TAKES_S.1));
-    let gap_m = draw.between(GAP_M.0, GAP_M.1);
-    let share = draw.between(SPEED_SHARE.0, SPEED_SHARE.1);
+    let after_s = on_step(draw.value(&TAKES_S));
+    let gap_m = draw.value(&GAP_M);
+    let share = draw.value(&SPEED_SHARE);
     let other_m = before.advance_m(stage.start_step, after_s);
     let goal_m = other_m + 0.5 * (driver.length_m() + before.length_m()) + gap_m;
     let pace = (goal_m - role.at_m) / after_s;

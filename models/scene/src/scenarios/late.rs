@@ -1,9 +1,9 @@
 //! Failure to yield: a vehicle that would have to wait at a junction passes without stopping. It passes a red
 //! light, a stop sign, or crosses shortly before or after a vehicle with priority.
 
+use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::{BEHIND_M, Driver, Stage};
 use super::{Pairing, Plan, on_step};
-use crate::random::Stream;
 use crate::{STEP_S, SignalState, Vec2};
 
 /// Nearest stop line, metres from the road user's centre.
@@ -20,7 +20,9 @@ const ON_THE_WAY_M: f64 = 1.0;
 /// How far past the place the goal lies, metres.
 const PAST_M: f64 = 8.0;
 /// How long before or after the other it is at the crossing, seconds.
-const APART_S: (f64, f64) = (0.5, 1.8);
+const APART_S: TemplateFigure = TemplateFigure { name: "apart_s", drawn: (0.5, 1.8), allowed: (0.0, 9.0) };
+/// What is drawn.
+pub(super) const FIGURES: [TemplateFigure; 1] = [APART_S];
 /// Slowest and fastest that it goes there, m/s.
 const SPEED_MPS: (f64, f64) = (5.0, 20.0);
 /// Mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
@@ -54,13 +56,13 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
 }
 
 /// A goal past the place, to be reached about when the other one is there.
-pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut Stream) -> Option<Plan> {
+pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let speed = driver.speed_mps();
-    let apart_s = draw.between(APART_S.0, APART_S.1) * if draw.chance(0.5) { 1.0 } else { -1.0 };
+    let apart_s = draw.value(&APART_S) * if draw.stream.chance(0.5) { 1.0 } else { -1.0 };
     let there_s = match role.other {
         Some(_) => role.at_s + apart_s,
-        None => role.at_m / speed.clamp(SPEED_MPS.0 + 2.0, SPEED_MPS.1) * draw.between(0.85, 1.15),
+        None => role.at_m / speed.clamp(SPEED_MPS.0 + 2.0, SPEED_MPS.1) * draw.stream.between(0.85, 1.15),
     };
     if there_s < 0.5 {
         return None;

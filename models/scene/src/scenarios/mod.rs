@@ -3,15 +3,19 @@
 
 mod brake;
 mod cut_in;
+mod figure;
 mod late;
 mod stage;
 #[cfg(test)]
 mod tests;
 
-use crate::random::{Key, Stream};
+use crate::random::Key;
 use crate::routes::{LaneGraph, Pose};
 use crate::{AgentId, Conditions, Goal, STEP_S, Scene};
+use figure::FigureDraw;
+pub use figure::TemplateFigure;
 use stage::Stage;
+use std::collections::BTreeMap;
 
 /// A situation by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -67,6 +71,18 @@ struct Pairing {
 }
 
 impl Template {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Brake, Self::CutIn, Self::Late];
+
+    /// The figures that it draws, and that a caller may fix.
+    pub fn figures(self) -> &'static [TemplateFigure] {
+        match self {
+            Self::Brake => &brake::FIGURES,
+            Self::CutIn => &cut_in::FIGURES,
+            Self::Late => &late::FIGURES,
+        }
+    }
+
     /// Its word.
     pub fn name(self) -> &'static str {
         match self {
@@ -86,6 +102,19 @@ impl Template {
         horizon_s: f64,
         seed: u64,
     ) -> Option<Casting> {
+        self.cast_with(scene, graph, start_step, horizon_s, seed, &BTreeMap::new())
+    }
+
+    /// As [`Self::cast`], with some figures fixed by name. The others are the same numbers as without them.
+    pub fn cast_with(
+        self,
+        scene: &Scene,
+        graph: &LaneGraph,
+        start_step: usize,
+        horizon_s: f64,
+        seed: u64,
+        fixed: &BTreeMap<String, f64>,
+    ) -> Option<Casting> {
         let stage = Stage::new(scene, graph, start_step);
         let (roles, plan): (Vec<Pairing>, Planner) = match self {
             Self::Brake => (brake::roles(&stage), brake::plan),
@@ -97,7 +126,8 @@ impl Template {
         (0..roles.len()).find_map(|turn| {
             let role = &roles[(seed as usize % roles.len() + turn) % roles.len()];
             let driver = &stage.drivers[role.actor];
-            let mut draw = Key::default().words(&[self.name(), &driver.agent.id]).number(seed).stream();
+            let stream = Key::default().words(&[self.name(), &driver.agent.id]).number(seed).stream();
+            let mut draw = FigureDraw { stream, fixed };
             let planned =
                 (0..DRAWS).find_map(|_| plan(&stage, role, &mut draw).filter(|p| p.fits(horizon_s)));
             let planned = planned?;
@@ -118,7 +148,7 @@ impl Template {
     }
 }
 
-type Planner = fn(&Stage<'_>, &Pairing, &mut Stream) -> Option<Plan>;
+type Planner = fn(&Stage<'_>, &Pairing, &mut FigureDraw<'_>) -> Option<Plan>;
 
 impl Plan {
     fn fits(&self, horizon_s: f64) -> bool {

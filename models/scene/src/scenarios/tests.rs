@@ -79,6 +79,27 @@ fn the_neighbour_cuts_in() {
 }
 
 #[test]
+fn a_fixed_figure_holds_and_the_others_stay() {
+    let (scene, graph) =
+        scene(vec![driver("own", (0.0, 0.0), (10.0, 0.0)), driver("beside", (6.0, 3.5), (10.0, 0.0))]);
+    let fixed = |name: &str, value| std::collections::BTreeMap::from([(name.to_owned(), value)]);
+    let goal = |seed, fixed| {
+        let cast = Template::CutIn.cast_with(&scene, &graph, 0, 9.0, seed, &fixed).unwrap();
+        (cast.conditions.goal.time_s.unwrap(), cast.conditions.goal.speed_mps.unwrap())
+    };
+    for seed in 0..10 {
+        let free = goal(seed, std::collections::BTreeMap::new());
+        let (time_s, speed_mps) = goal(seed, fixed("speed_share", 0.5));
+        assert_eq!((time_s, speed_mps), (free.0, 5.0), "{seed}");
+        assert_eq!(goal(seed, fixed("takes_s", 3.0)).0, 3.0, "{seed}");
+    }
+    for figure in Template::ALL.iter().flat_map(|template| template.figures()) {
+        let inside = figure.allowed.0 <= figure.drawn.0 && figure.drawn.1 <= figure.allowed.1;
+        assert!(inside, "{}", figure.name);
+    }
+}
+
+#[test]
 fn the_one_at_red_goes_through() {
     let agents = vec![driver("waits", (0.0, 0.0), (8.0, 0.0)), driver("crosses", (40.0, -40.0), (0.0, 10.0))];
     let (mut scene, graph) = scene(agents);
@@ -99,7 +120,7 @@ fn the_one_at_red_goes_through() {
 #[test]
 fn who_is_alone_plays_nothing() {
     let (scene, graph) = scene(vec![driver("alone", (0.0, 0.0), (10.0, 0.0))]);
-    for template in [Template::Brake, Template::CutIn, Template::Late] {
+    for template in Template::ALL {
         assert_eq!(template.cast(&scene, &graph, 0, 9.0, 1), None, "{}", template.name());
     }
 }

@@ -15,7 +15,10 @@ const MOST_SHOWN: usize = 18;
 
 impl GenerateRequest {
     /// Holds every number against its range.
-    pub(super) fn check_ranges(&self) -> Result<(), Problem> {
+    ///
+    /// # Errors
+    /// All that lie outside, by pointer.
+    pub fn check_ranges(&self) -> Result<(), Problem> {
         let (safe, drafts) = (MAX_SAFE_INTEGER as f64, DRAFT_MS as f64);
         let numbers = [
             ("/seed", 0.0, safe, self.seed as f64),

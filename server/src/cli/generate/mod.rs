@@ -6,8 +6,8 @@ mod asked;
 mod made;
 mod manifest;
 mod many;
-mod tell;
-mod who;
+pub mod tell;
+pub mod who;
 
 use super::inputs::{Inputs, Reading, no_ids, notes};
 use super::output::{self, Folder};

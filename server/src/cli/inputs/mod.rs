@@ -8,8 +8,8 @@ pub use find::patterns;
 
 use super::{Failure, output};
 use crate::base::netconvert::companions;
-use api::Problem;
 use api::import::{Companions, SceneFile, known as known_format};
+use api::{Code, Problem};
 use clap::Args;
 use find::Known;
 use formats::registry;
@@ -149,6 +149,49 @@ impl Source {
             return Err(Failure::input(format!("{}: no scene at that index", self.shown())));
         }
         Ok(count)
+    }
+
+    /// Reads scene after scene, and hands over what is no scene too: its name, and the problem.
+    ///
+    /// # Errors
+    /// What `take` reports.
+    pub fn each_or_problem(
+        &self,
+        take: &mut dyn FnMut(String, Result<Item, Problem>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let bytes = match std::fs::read(&self.path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let problem = Problem::new(Code::MalformedFile, format!("cannot be read: {}", error.kind()));
+                return take(self.label.clone(), Err(problem));
+            }
+        };
+        let reading = Reading::default();
+        let file_name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let many = Self::holds_many(&bytes, &reading, &file_name);
+        let (mut known, mut index, mut failure) = (Known::default(), 0, None);
+        let found = SceneFile::of(&bytes, None, &file_name, &reading.beside, (0, usize::MAX));
+        let read = found.and_then(|file| {
+            file.each(&bytes, |read| {
+                let name =
+                    if many { known.name(self.name_of(&read.scene, index)) } else { self.label.clone() };
+                index += 1;
+                let item = Item { scene: read.scene, name: name.clone(), notes: read.warnings };
+                take(name, Ok(item)).map_err(|error| {
+                    failure = Some(error);
+                    Problem::internal("a scene was not taken")
+                })
+            })
+        });
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
+        match read {
+            Err(problem) => take(self.label.clone(), Err(problem)),
+            Ok(skipped) => skipped
+                .into_iter()
+                .try_for_each(|(index, problem)| take(format!("{}-{index:06}", self.label), Err(problem))),
+        }
     }
 
     /// A scene of a file with many is called by its id in the source, else by its place.

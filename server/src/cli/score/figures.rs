@@ -2,6 +2,7 @@
 //! its lists have, and under `actor.` those of the requested road user.
 
 use super::expression::Expression;
+use batch::names::nearest;
 use scene::Scene;
 use scene::score::{AgentScore, SceneScore, Score};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -49,25 +50,9 @@ fn unknown(name: &str) -> String {
     if name == "violations" {
         return "violations is kinematic.violations now".to_owned();
     }
-    let near = names().iter().filter_map(|known| Some((distance(known, name)?, known))).min();
-    let near = near.map_or_else(String::new, |(_, known)| format!(" (did you mean {known}?)"));
+    let near = nearest(name, names().iter().map(String::as_str));
+    let near = near.map_or_else(String::new, |known| format!(" (did you mean {known}?)"));
     format!("no figure is named \"{name}\"{near}; there are {}", names().join(", "))
-}
-
-/// Letters that differ, where they are few enough for a slip.
-fn distance(a: &str, b: &str) -> Option<usize> {
-    let b: Vec<char> = b.chars().take(80).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut before = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let changed = before + usize::from(x != *y);
-            before = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(before + 1);
-        }
-    }
-    row.last().copied().filter(|d| *d <= 3)
 }
 
 /// All names, those of the scene first.
@@ -134,6 +119,11 @@ impl Figures {
             add(ACTOR, serde_json::to_value(agent));
         }
         Self(all)
+    }
+
+    /// All of them, by name.
+    pub fn all(&self) -> &BTreeMap<String, f64> {
+        &self.0
     }
 
     /// One of them; `None` where the scene does not have it.

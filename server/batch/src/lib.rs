@@ -1,0 +1,24 @@
+//! Plans of many generations, as values: what is varied, the units of work that follow, their names, and the chunks
+//! and shards that they are worked on in. Nothing here opens a file or starts the engine.
+//!
+//! ```
+//! use batch::plan::BatchPlan;
+//!
+//! let plan = BatchPlan::parse("scenes = ['logs/']\nsituations = [{ template = 'brake' }]\nseeds = 4").unwrap();
+//! assert_eq!(plan.seeds.list(), [0, 1, 2, 3]);
+//!
+//! let wrong = BatchPlan::parse("scenes = ['logs/']\nseed = 4").unwrap_err();
+//! assert!(wrong[0].to_string().contains("did you mean seeds?"), "{}", wrong[0]);
+//! ```
+
+pub mod catalogue;
+pub mod chunk;
+pub mod distribution;
+pub mod draws;
+pub mod fault;
+pub mod names;
+pub mod plan;
+pub mod row;
+pub mod shard;
+pub mod situation;
+pub mod unit;

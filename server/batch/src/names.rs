@@ -1,0 +1,41 @@
+//! Names that are close to each other, for hints at a slip.
+
+/// Letters of a name that are compared.
+const MOST_LETTERS: usize = 80;
+/// Most letters that a slip changes.
+const SLIP: usize = 3;
+
+/// The known name that a slip turned into `name`; `None` where none is close enough.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let close = known.into_iter().filter_map(|known| Some((distance(known, name)?, known)));
+    close.min().map(|(_, known)| known)
+}
+
+/// Letters that differ, where they are few enough for a slip.
+fn distance(a: &str, b: &str) -> Option<usize> {
+    let b: Vec<char> = b.chars().take(MOST_LETTERS).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut before = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let changed = before + usize::from(x != *y);
+            before = row[j + 1];
+            row[j + 1] = changed.min(row[j] + 1).min(before + 1);
+        }
+    }
+    row.last().copied().filter(|d| *d <= SLIP)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_slip_has_a_neighbour_and_another_word_has_none() {
+        let known = ["seeds", "scenes", "where"];
+        assert_eq!(nearest("seed", known), Some("seeds"));
+        assert_eq!(nearest("sceens", known), Some("scenes"));
+        assert_eq!(nearest("something_else", known), None);
+    }
+}

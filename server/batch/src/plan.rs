@@ -1,0 +1,376 @@
+//! The plan of a batch: what a user writes.
+
+use crate::draws;
+use crate::fault::PlanFault;
+use crate::situation::BatchSituation;
+use api::GenerateRequest;
+use api::generate::request::ReactChoice;
+use formats::native::{self, MAX_SAFE_INTEGER};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Most seeds of a plan.
+const MOST_SEEDS: u64 = 100_000;
+/// Most situations of a plan.
+const MOST_SITUATIONS: usize = 1_000;
+/// Most units in a chunk.
+const MOST_IN_CHUNK: u64 = 100_000;
+
+/// Scenes x situations x draws x seeds, and what is kept of the results.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "DragTraffic batch plan")]
+pub struct BatchPlan {
+    /// Files, folders and patterns such as `logs/**/*.json`, in any format; relative to the folder of the plan.
+    #[schemars(length(min = 1))]
+    pub scenes: Vec<String>,
+    /// What happens in each scene. Without one, all road users are generated freely.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub situations: Vec<BatchSituation>,
+    /// A count from 0 on, or a list. Each draw is generated once for each seed.
+    #[serde(default)]
+    pub seeds: BatchSeeds,
+    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
+    #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
+    pub filter: Option<String>,
+    /// How the numbers of a situation are chosen.
+    #[serde(default)]
+    pub sampling: BatchSampling,
+    /// Options of every generation.
+    #[serde(default)]
+    pub generate: BatchOptions,
+    /// Units in a chunk, the part of the work that is written at once.
+    #[serde(default = "chunk_units")]
+    #[schemars(range(min = 1, max = 100000))]
+    pub chunk_units: u64,
+}
+
+fn chunk_units() -> u64 {
+    500
+}
+
+/// Seeds: a count, or a list.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum BatchSeeds {
+    /// 0, 1, 2, ...
+    Count(u64),
+    /// These.
+    List(Vec<u64>),
+}
+
+impl Default for BatchSeeds {
+    fn default() -> Self {
+        Self::Count(1)
+    }
+}
+
+impl BatchSeeds {
+    /// All of them.
+    pub fn list(&self) -> Vec<u64> {
+        match self {
+            Self::Count(count) => (0..*count).collect(),
+            Self::List(list) => list.clone(),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for BatchSeeds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct SeedsVisitor;
+        impl<'de> Visitor<'de> for SeedsVisitor {
+            type Value = BatchSeeds;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a count or a list of seeds")
+            }
+
+            fn visit_u64<E: Error>(self, count: u64) -> Result<BatchSeeds, E> {
+                Ok(BatchSeeds::Count(count))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seeds: A) -> Result<BatchSeeds, A::Error> {
+                let mut list = Vec::new();
+                while let Some(seed) = seeds.next_element()? {
+                    list.push(seed);
+                }
+                Ok(BatchSeeds::List(list))
+            }
+        }
+        deserializer.deserialize_any(SeedsVisitor)
+    }
+}
+
+impl JsonSchema for BatchSeeds {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "BatchSeeds".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let seed = json_schema!({"type": "integer", "minimum": 0, "maximum": MAX_SAFE_INTEGER});
+        json_schema!({
+            "anyOf": [
+                {"type": "integer", "minimum": 1, "maximum": MOST_SEEDS},
+                {"type": "array", "items": seed, "minItems": 1, "maxItems": MOST_SEEDS, "uniqueItems": true}
+            ]
+        })
+    }
+}
+
+/// How the numbers of a situation are chosen.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BatchSampling {
+    /// A grid takes every combination; random draws are independent of each other.
+    pub method: SamplingMethod,
+    /// Random draws for each scene, situation and road user.
+    #[schemars(range(min = 1, max = 1000000))]
+    pub draws: u64,
+    /// Seed of the random draws.
+    #[schemars(range(max = 9007199254740991u64))]
+    pub seed: u64,
+}
+
+impl Default for BatchSampling {
+    fn default() -> Self {
+        Self { method: SamplingMethod::Grid, draws: 10, seed: 0 }
+    }
+}
+
+/// How the numbers of a situation are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SamplingMethod {
+    /// Every combination of the values.
+    Grid,
+    /// Independent draws.
+    Random,
+}
+
+/// Options of every generation.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BatchOptions {
+    /// Let the other road users react.
+    pub react: bool,
+    /// Scene time of the start, seconds.
+    #[schemars(range(min = 0.0, max = 59.9))]
+    pub start_s: f64,
+    /// Time to generate, seconds.
+    #[schemars(range(min = 0.5, max = 20.0))]
+    pub horizon_s: f64,
+    /// Replan interval, seconds: 3, 6 or 9.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replan_interval_s: Option<f64>,
+    /// Futures that are planned for each road user.
+    #[schemars(range(min = 1, max = 6))]
+    pub modes: u64,
+    /// Scale of the noise, which makes seeds differ.
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub diversity: f64,
+    /// Refinement steps.
+    #[schemars(range(max = 100))]
+    pub steps: u64,
+}
+
+impl Default for BatchOptions {
+    fn default() -> Self {
+        let GenerateRequest { start_s, horizon_s, replan_interval_s, modes, diversity, steps, .. } =
+            GenerateRequest::default();
+        Self { react: true, start_s, horizon_s, replan_interval_s, modes, diversity, steps }
+    }
+}
+
+impl BatchOptions {
+    /// The request of one unit, without its conditions: one sample, scored.
+    pub fn request(&self, seed: u64) -> GenerateRequest {
+        let Self { react, start_s, horizon_s, replan_interval_s, modes, diversity, steps } = *self;
+        GenerateRequest {
+            react: ReactChoice::Whether(react),
+            start_s,
+            horizon_s,
+            replan_interval_s,
+            seed,
+            samples: 1,
+            modes,
+            diversity,
+            steps,
+            score: true,
+            ..GenerateRequest::default()
+        }
+    }
+}
+
+impl BatchPlan {
+    /// Reads a plan from TOML.
+    ///
+    /// # Errors
+    /// Its faults, each with its path; an unknown member has the name that was probably meant.
+    pub fn parse(text: &str) -> Result<Self, Vec<PlanFault>> {
+        let whole = |detail: String| vec![PlanFault::new("", detail)];
+        let table: toml::Table = text.parse().map_err(|error: toml::de::Error| whole(error.to_string()))?;
+        let json = serde_json::to_vec(&table).map_err(|error| whole(error.to_string()))?;
+        Self::read(&json)
+    }
+
+    /// Reads a plan from JSON, its form in the results.
+    ///
+    /// # Errors
+    /// Its faults, each with its path.
+    pub fn read(json: &[u8]) -> Result<Self, Vec<PlanFault>> {
+        let mut plan: Self = native::from_json(json).map_err(PlanFault::of_read)?;
+        if plan.situations.is_empty() {
+            plan.situations.push(BatchSituation::default());
+        }
+        let faults = plan.faults();
+        if faults.is_empty() { Ok(plan) } else { Err(faults) }
+    }
+
+    fn faults(&self) -> Vec<PlanFault> {
+        let mut faults = Vec::new();
+        let mut fault = |path: &str, detail: String| faults.push(PlanFault::new(path, detail));
+        if self.scenes.is_empty() {
+            fault("scenes", "at least one file, folder or pattern expected".into());
+        }
+        let seeds = match &self.seeds {
+            BatchSeeds::Count(count) => *count,
+            BatchSeeds::List(list) => list.len() as u64,
+        };
+        if !(1..=MOST_SEEDS).contains(&seeds) {
+            fault("seeds", format!("1 to {MOST_SEEDS} seeds expected"));
+        } else {
+            let list = self.seeds.list();
+            if list.iter().any(|seed| *seed > MAX_SAFE_INTEGER) {
+                fault("seeds", format!("a seed is at most {MAX_SAFE_INTEGER}"));
+            }
+            if list.iter().collect::<BTreeSet<_>>().len() < list.len() {
+                fault("seeds", "a seed is given twice".into());
+            }
+        }
+        if !(1..=1_000_000).contains(&self.sampling.draws) {
+            fault("sampling.draws", "1 to 1000000 expected".into());
+        }
+        if self.sampling.seed > MAX_SAFE_INTEGER {
+            fault("sampling.seed", format!("at most {MAX_SAFE_INTEGER} expected"));
+        }
+        if !(1..=MOST_IN_CHUNK).contains(&self.chunk_units) {
+            fault("chunk_units", format!("1 to {MOST_IN_CHUNK} expected"));
+        }
+        if self.situations.len() > MOST_SITUATIONS {
+            fault("situations", format!("at most {MOST_SITUATIONS} expected"));
+        }
+        if !(0.0..=59.9).contains(&self.generate.start_s) {
+            fault("generate.start_s", format!("{} is outside 0 to 59.9", self.generate.start_s));
+        }
+        if let Err(problem) = self.generate.request(0).check_ranges() {
+            faults.extend(PlanFault::of_problem("generate", &problem));
+        }
+        let mut names = BTreeSet::new();
+        for (i, situation) in self.situations.iter().enumerate().take(MOST_SITUATIONS) {
+            let path = format!("situations[{i}]");
+            situation.check(&path, &mut faults);
+            if !names.insert(situation.name()) {
+                let detail = format!("another situation is called {}; give each a name", situation.name());
+                faults.push(PlanFault::new(format!("{path}.name"), detail));
+            }
+            draws::check(situation, &self.sampling, &path, &mut faults);
+        }
+        faults
+    }
+}
+
+/// JSON Schema (2020-12) of a plan.
+pub fn schema() -> Schema {
+    schemars::generate::SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<BatchPlan>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BatchPlan;
+
+    fn faults(text: &str) -> Vec<String> {
+        let plan = format!("scenes = ['a.json']\n{text}");
+        BatchPlan::parse(&plan).unwrap_err().iter().map(ToString::to_string).collect()
+    }
+
+    fn fault(text: &str) -> String {
+        let all = faults(text);
+        assert_eq!(all.len(), 1, "{all:?}");
+        all[0].clone()
+    }
+
+    #[test]
+    fn a_plan_says_all_of_it_and_has_a_form_that_is_read_again() {
+        let text = r#"
+            scenes = ["logs/", "more/*.json"]
+            seeds = [3, 5]
+            where = "collisions == 0"
+            chunk_units = 20
+            [sampling]
+            method = "random"
+            draws = 4
+            seed = 9
+            [generate]
+            horizon_s = 6
+            [[situations]]
+            template = "cut-in"
+            parameters = { gap_m = { uniform = [2, 4] } }
+            [[situations]]
+            name = "faster"
+            agents = ["@vehicles"]
+            goal = { ahead_m = { choice = [20, 40] }, speed_mps = 12 }
+        "#;
+        let plan = BatchPlan::parse(text).unwrap();
+        assert_eq!(plan.seeds.list(), [3, 5]);
+        assert_eq!(plan.situations[1].dimensions().len(), 2);
+        assert_eq!(BatchPlan::read(&serde_json::to_vec(&plan).unwrap()).unwrap(), plan);
+        assert_eq!(BatchPlan::parse("scenes = ['a']").unwrap().situations[0].name(), "free");
+    }
+
+    #[test]
+    fn faults_have_a_path_and_slips_a_hint() {
+        assert!(
+            fault("sede = 1").starts_with("sede: unknown field `sede`")
+                && fault("sede = 1").contains("mean seeds?")
+        );
+        let deep = fault("[[situations]]\nagents = ['6']\ngoal = { sped_mps = 4 }");
+        assert!(
+            deep.starts_with("situations[0].goal.sped_mps: ") && deep.contains("mean speed_mps?"),
+            "{deep}"
+        );
+        let kind = fault("[[situations]]\ntemplate = 'cutin'");
+        assert!(kind.starts_with("situations[0].template: ") && kind.contains("mean cut-in?"), "{kind}");
+        let figure = fault("[[situations]]\ntemplate = 'cut-in'\nparameters = { gap = 3 }");
+        assert!(figure.contains("parameters.gap: ") && figure.contains("mean gap_m?"), "{figure}");
+        assert!(fault("seeds = 'x'").contains("a count or a list of seeds"));
+        assert!(fault("[generate]\nhorizon_s = 90").starts_with("generate.horizon_s: "));
+        assert!(fault("seeds = [1, 1]").contains("given twice"));
+        assert!(fault("seeds = 0").contains("1 to 100000 seeds"));
+        assert!(fault("x = [").contains("line"));
+        let speed = fault(
+            "[[situations]]\nagents = ['6']\ngoal = { speed_mps = { uniform = [5, 200], points = 3 } }",
+        );
+        assert_eq!(speed, "situations[0].goal.speed_mps: 200 is outside 0 to 60");
+        assert!(
+            fault("[[situations]]\ngoal = { speed_mps = 4 }").starts_with("situations[0].agents: who gets")
+        );
+        let points = fault("[[situations]]\nagents = ['6']\ngoal = { speed_mps = { uniform = [5, 9] } }");
+        assert!(
+            points.starts_with("situations[0].goal.speed_mps: ") && points.contains("points"),
+            "{points}"
+        );
+        assert!(
+            fault("[[situations]]\ntemplate = 'brake'\n[[situations]]\ntemplate = 'brake'")
+                .contains("give each a name")
+        );
+        assert_eq!(faults("chunk_units = 0\nseeds = 0").len(), 2);
+    }
+}

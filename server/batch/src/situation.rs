@@ -1,0 +1,328 @@
+//! What happens in the scenes of a plan: a template with parameters, or conditions of single road users.
+
+use crate::distribution::Distribution;
+use crate::fault::PlanFault;
+use crate::names::nearest;
+use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc};
+use scene::scenarios::Template;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What a situation without name is called where nobody is asked for anything.
+const FREE: &str = "free";
+/// Longest name, in characters.
+const MOST_NAME: usize = 60;
+
+/// One situation.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BatchSituation {
+    /// Name in the results: letters, digits, - and _. Default: the template's, or `free`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Test situation that the scene is searched for. The actor is picked from the scene; the seed decides which.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "templates")]
+    pub template: Option<String>,
+    /// Figures of the template by name; those absent are drawn by the seed.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub parameters: BTreeMap<String, Distribution>,
+    /// Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
+    /// Each is generated in units of its own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub agents: Vec<String>,
+    /// Goal.
+    #[serde(skip_serializing_if = "is_default")]
+    pub goal: GoalRanges,
+    /// Start.
+    #[serde(skip_serializing_if = "is_default")]
+    pub start: StartRanges,
+    /// Length of the road user, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<Distribution>,
+    /// Width of the road user, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<Distribution>,
+}
+
+/// Fields of a goal; those absent are free.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GoalRanges {
+    /// Box centre in the frame of the scene, metres; with `y_m`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_m: Option<Distribution>,
+    /// Box centre in the frame of the scene, metres; with `x_m`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_m: Option<Distribution>,
+    /// Heading in the frame of the scene, radians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heading_rad: Option<Distribution>,
+    /// Metres along the heading of the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ahead_m: Option<Distribution>,
+    /// Metres to the left of the heading of the start; 0 with `ahead_m` alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_m: Option<Distribution>,
+    /// Radians from the heading of the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn_rad: Option<Distribution>,
+    /// Metres per second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_mps: Option<Distribution>,
+    /// Scene time, seconds; the end of the horizon when free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<Distribution>,
+}
+
+/// Fields of a start; those absent are the recording's.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StartRanges {
+    /// Box centre in the frame of the scene, metres; with `y_m`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_m: Option<Distribution>,
+    /// Box centre in the frame of the scene, metres; with `x_m`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_m: Option<Distribution>,
+    /// Heading in the frame of the scene, radians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heading_rad: Option<Distribution>,
+    /// Metres per second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_mps: Option<Distribution>,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+fn templates(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<&str> = Template::ALL.iter().map(|template| template.name()).collect();
+    json_schema!({"type": ["string", "null"], "enum": names})
+}
+
+/// A number of a situation that is drawn.
+pub struct Dimension<'a> {
+    /// Path in the situation, such as `goal.speed_mps`.
+    pub path: String,
+    /// Where its values come from.
+    pub distribution: &'a Distribution,
+}
+
+impl BatchSituation {
+    /// What it is called in the results.
+    pub fn name(&self) -> &str {
+        self.name.as_deref().or(self.template.as_deref()).unwrap_or(FREE)
+    }
+
+    /// Its template.
+    pub fn template(&self) -> Option<Template> {
+        Template::ALL.into_iter().find(|template| self.template.as_deref() == Some(template.name()))
+    }
+
+    /// The numbers that are drawn, in a fixed order.
+    pub fn dimensions(&self) -> Vec<Dimension<'_>> {
+        let parameters = self
+            .parameters
+            .iter()
+            .map(|(name, distribution)| Dimension { path: format!("parameters.{name}"), distribution });
+        let conditions = self.conditions().into_iter().filter_map(|(path, distribution)| {
+            Some(Dimension { path: path.to_owned(), distribution: distribution.as_ref()? })
+        });
+        parameters.chain(conditions).collect()
+    }
+
+    fn conditions(&self) -> [(&'static str, &Option<Distribution>); 14] {
+        let Self { goal, start, length_m, width_m, .. } = self;
+        [
+            ("goal.x_m", &goal.x_m),
+            ("goal.y_m", &goal.y_m),
+            ("goal.heading_rad", &goal.heading_rad),
+            ("goal.ahead_m", &goal.ahead_m),
+            ("goal.left_m", &goal.left_m),
+            ("goal.turn_rad", &goal.turn_rad),
+            ("goal.speed_mps", &goal.speed_mps),
+            ("goal.time_s", &goal.time_s),
+            ("start.x_m", &start.x_m),
+            ("start.y_m", &start.y_m),
+            ("start.heading_rad", &start.heading_rad),
+            ("start.speed_mps", &start.speed_mps),
+            ("length_m", length_m),
+            ("width_m", width_m),
+        ]
+    }
+
+    /// The conditions of a road user, `own` with the drawn numbers in place of its own.
+    pub fn applied(&self, own: ConditionsDoc, drawn: &BTreeMap<String, f64>) -> ConditionsDoc {
+        let of = |path: &str| drawn.get(path).copied();
+        let mut conditions = own;
+        if self.goal != GoalRanges::default() {
+            let goal = GoalDoc {
+                x_m: of("goal.x_m"),
+                y_m: of("goal.y_m"),
+                heading_rad: of("goal.heading_rad"),
+                ahead_m: of("goal.ahead_m"),
+                // Straight ahead by default.
+                left_m: of("goal.left_m").or(of("goal.ahead_m").map(|_| 0.0)),
+                turn_rad: of("goal.turn_rad"),
+                speed_mps: of("goal.speed_mps"),
+                time_s: of("goal.time_s"),
+                ..GoalDoc::default()
+            };
+            conditions.frame = self.goal.is_relative().then_some(GoalFrame::Agent);
+            conditions.goal = Some(goal);
+        }
+        if self.start != StartRanges::default() {
+            conditions.start = Some(StartDoc {
+                x_m: of("start.x_m"),
+                y_m: of("start.y_m"),
+                heading_rad: of("start.heading_rad"),
+                speed_mps: of("start.speed_mps"),
+                velocity: None,
+            });
+        }
+        conditions.length_m = of("length_m").or(conditions.length_m);
+        conditions.width_m = of("width_m").or(conditions.width_m);
+        conditions
+    }
+
+    /// The drawn parameters of the template, by their names there.
+    pub fn parameters_of(&self, drawn: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
+        let named =
+            |(path, value): (&String, &f64)| Some((path.strip_prefix("parameters.")?.to_owned(), *value));
+        drawn.iter().filter_map(named).collect()
+    }
+
+    /// Every fault of it; `path` is its place in the plan.
+    pub(crate) fn check(&self, path: &str, faults: &mut Vec<PlanFault>) {
+        self.check_name(path, faults);
+        self.check_template(path, faults);
+        let under = |member: &str| format!("{path}.{member}");
+        let mut fault = |member: &str, detail: &str| faults.push(PlanFault::new(under(member), detail));
+        let asks = self.conditions().iter().any(|(_, distribution)| distribution.is_some());
+        if self.template.is_some() && (asks || !self.agents.is_empty()) {
+            fault(
+                "template",
+                "a template picks the road user and its goal; agents and conditions exclude it",
+            );
+        } else if asks && self.agents.is_empty() {
+            fault(
+                "agents",
+                "who gets the conditions? ids, @all, @moving, @vehicles, @pedestrians, @cyclists or @ego",
+            );
+        }
+        let GoalRanges { x_m, y_m, heading_rad, ahead_m, left_m, .. } = &self.goal;
+        if x_m.is_some() != y_m.is_some() {
+            fault("goal", "x_m and y_m are fixed together or not at all");
+        }
+        if left_m.is_some() && ahead_m.is_none() {
+            fault("goal.left_m", "left_m needs ahead_m beside it");
+        }
+        if self.goal.is_relative() && (x_m.is_some() || heading_rad.is_some()) {
+            fault(
+                "goal",
+                "ahead_m, left_m and turn_rad are from the start, x_m, y_m and heading_rad of the scene",
+            );
+        }
+        if self.start.x_m.is_some() != self.start.y_m.is_some() {
+            fault("start", "x_m and y_m are fixed together or not at all");
+        }
+        for (member, distribution) in self.conditions() {
+            if let Some(distribution) = distribution {
+                distribution.check(&under(member), range(member), faults);
+            }
+        }
+    }
+
+    fn check_name(&self, path: &str, faults: &mut Vec<PlanFault>) {
+        let named = |name: &String| {
+            (1..=MOST_NAME).contains(&name.len())
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+        };
+        if self.name.as_ref().is_some_and(|name| !named(name)) {
+            let detail = format!("1 to {MOST_NAME} letters, digits, - and _ expected");
+            faults.push(PlanFault::new(format!("{path}.name"), detail));
+        }
+    }
+
+    fn check_template(&self, path: &str, faults: &mut Vec<PlanFault>) {
+        let hint = |name: &str, known: &[&'static str]| {
+            let near = nearest(name, known.iter().copied());
+            let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+            format!("\"{name}\" is unknown{near}; there are {}", known.join(", "))
+        };
+        let template = self.template();
+        if let (Some(name), None) = (&self.template, template) {
+            let known: Vec<&str> = Template::ALL.iter().map(|template| template.name()).collect();
+            faults.push(PlanFault::new(format!("{path}.template"), hint(name, &known)));
+            return;
+        }
+        let figures = template.map_or(&[][..], Template::figures);
+        for (name, distribution) in &self.parameters {
+            let path = format!("{path}.parameters.{name}");
+            match figures.iter().find(|figure| figure.name == name) {
+                Some(figure) => distribution.check(&path, figure.allowed, faults),
+                None if template.is_none() => {
+                    faults.push(PlanFault::new(path, "parameters belong to a template"));
+                }
+                None => {
+                    let known: Vec<&str> = figures.iter().map(|figure| figure.name).collect();
+                    faults.push(PlanFault::new(path, hint(name, &known)));
+                }
+            }
+        }
+    }
+}
+
+impl GoalRanges {
+    /// Is it from the start of the road user, in place of the scene?
+    fn is_relative(&self) -> bool {
+        self.ahead_m.is_some() || self.left_m.is_some() || self.turn_rad.is_some()
+    }
+}
+
+/// The range of a condition, as its document has it.
+fn range(member: &str) -> (f64, f64) {
+    let schema = match member.split_once('.') {
+        Some(("goal", _)) => schemars::schema_for!(GoalDoc),
+        Some(_) => schemars::schema_for!(StartDoc),
+        None => schemars::schema_for!(ConditionsDoc),
+    };
+    let name = member.rsplit('.').next().unwrap_or(member);
+    if name.ends_with("_rad") {
+        let most = api::generate::request::MOST_ANGLE_RAD;
+        return (-most, most);
+    }
+    let bound =
+        |bound: &str| schema.pointer(&format!("/properties/{name}/{bound}")).and_then(|value| value.as_f64());
+    (bound("minimum").unwrap_or(f64::MIN), bound("maximum").unwrap_or(f64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BatchSituation, range};
+    use formats::native::ConditionsDoc;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn ranges_are_those_of_the_documents() {
+        assert_eq!(range("goal.speed_mps"), (0.0, 60.0));
+        assert_eq!(range("length_m"), (0.2, 25.0));
+        assert_eq!(range("start.x_m"), (-10_000.0, 10_000.0));
+    }
+
+    #[test]
+    fn drawn_numbers_replace_the_parts_that_are_varied() {
+        let situation: BatchSituation =
+            serde_json::from_str(r#"{"agents":["6"],"goal":{"ahead_m":40},"width_m":2}"#).unwrap();
+        let own: ConditionsDoc = serde_json::from_str(r#"{"start":{"speed_mps":3},"width_m":1.8}"#).unwrap();
+        let drawn = BTreeMap::from([("goal.ahead_m".to_owned(), 40.0), ("width_m".to_owned(), 2.0)]);
+        let applied = serde_json::to_value(situation.applied(own, &drawn)).unwrap();
+        let expected = serde_json::json!({
+            "start": {"speed_mps": 3.0}, "width_m": 2.0, "frame": "agent", "goal": {"ahead_m": 40.0, "left_m": 0.0}
+        });
+        assert_eq!(applied, expected);
+    }
+}

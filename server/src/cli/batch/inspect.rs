@@ -1,0 +1,203 @@
+//! What stands in a folder of results: counted, made again in part, or merged.
+
+use super::folder::{BatchFolder, not_reproducible};
+use super::record::BatchRecord;
+use super::tally::OutcomeTally;
+use super::worker::UnitWorker;
+use crate::cli::score::figures;
+use crate::cli::values::whole;
+use crate::cli::{Common, Failure, output, parallel};
+use batch::chunk::{self, BatchChunk};
+use batch::row::{self, BatchRow, UnitOutcome};
+use batch::unit::UnitList;
+use clap::Args;
+use formats::native::MAX_SAFE_INTEGER;
+use scene::random::Key;
+use serde_json::json;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+/// Flags of `batch status`.
+#[derive(Args, Clone, Debug)]
+pub struct StatusArgs {
+    /// Folder of the results.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Flags of `batch verify`.
+#[derive(Args, Clone, Debug)]
+pub struct VerifyArgs {
+    /// Folder of the results.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Number of units to make again.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(1, 1_000_000))]
+    units: u64,
+    /// Seed of the choice of units.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, MAX_SAFE_INTEGER))]
+    seed: u64,
+}
+
+/// Flags of `batch merge`.
+#[derive(Args, Clone, Debug)]
+pub struct MergeArgs {
+    /// Folder of the results.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+/// The chunks of a folder, those that are there and how many there should be.
+struct DoneChunks {
+    done: Vec<(BatchChunk, String)>,
+    all: u64,
+}
+
+impl DoneChunks {
+    fn of(folder: &BatchFolder, record: &BatchRecord, list: &UnitList<'_>) -> Self {
+        let (mut done, mut all) = (Vec::new(), 0);
+        for chunk in chunk::chunks(list.len(), record.plan.chunk_units) {
+            let name = chunk.name(list);
+            all += 1;
+            if folder.has(&name) {
+                done.push((chunk, name));
+            }
+        }
+        Self { done, all }
+    }
+}
+
+fn rows(folder: &BatchFolder, chunk: &str) -> Result<Vec<BatchRow>, Failure> {
+    let path = folder.table(chunk);
+    let bytes = output::read(&path)?;
+    row::read(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+}
+
+/// Prints how far a batch is.
+///
+/// # Errors
+/// Exit 3 for a folder without results, or with a table that cannot be read.
+pub fn status(args: &StatusArgs) -> Result<(), Failure> {
+    let folder = BatchFolder::new(&args.folder)?;
+    let record = BatchRecord::of(&folder)?;
+    let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
+    let chunks = DoneChunks::of(&folder, &record, &list);
+    let mut tally = OutcomeTally::default();
+    for (_, name) in &chunks.done {
+        rows(&folder, name)?.iter().for_each(|row| tally.add(row));
+    }
+    let (done, all, units) = (chunks.done.len(), chunks.all, list.len());
+    if args.json {
+        let status = json!({
+            "scenes": record.scenes.len(), "units": units, "units_done": tally.units(),
+            "chunks": all, "chunks_done": done, "tally": tally,
+        });
+        return output::print(format!("{status:#}\n").as_bytes());
+    }
+    let mut text = format!("{} of {units} units done, {done} of {all} chunks\n", tally.units());
+    for outcome in UnitOutcome::ALL {
+        text.push_str(&format!("{:<12} {}\n", outcome.name(), tally.of(outcome)));
+    }
+    for (code, count) in &tally.problems {
+        text.push_str(&format!("  {code} {count}\n"));
+    }
+    output::print(text.as_bytes())
+}
+
+/// Makes some units again and compares.
+///
+/// # Errors
+/// Exit 1 for a unit that is another one now, 3, 7, 8.
+pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
+    let folder = BatchFolder::new(&args.folder)?;
+    let record = BatchRecord::of(&folder)?;
+    let operations = common.operations_on(1)?;
+    record.check(&folder, None, &operations.generator.hashes())?;
+    let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
+    let chunks = DoneChunks::of(&folder, &record, &list);
+    let worker = UnitWorker::new(&folder, &record, &list, &operations)?;
+    let mut by_chunk: BTreeMap<usize, BTreeSet<u64>> = BTreeMap::new();
+    for (chunk, unit) in sample(&chunks, args.units, args.seed) {
+        by_chunk.entry(chunk).or_default().insert(unit);
+    }
+    let items: Vec<(usize, BTreeSet<u64>)> = by_chunk.into_iter().collect();
+    let check = |(at, units): &(usize, BTreeSet<u64>)| -> Result<usize, Failure> {
+        let Some((chunk, name)) = chunks.done.get(*at) else { return Ok(0) };
+        let rows = rows(&folder, name)?;
+        let cases = output::read(&folder.cases(name))?;
+        let cases: BTreeSet<&str> =
+            std::str::from_utf8(&cases).unwrap_or_default().split_inclusive('\n').collect();
+        for number in units {
+            let end = worker.end(*number)?;
+            let stored = rows.get((number - chunk.units.start) as usize);
+            let listed = end.line.as_ref().is_none_or(|line| cases.contains(line.as_str()));
+            if stored != Some(&end.row) || !listed {
+                return Err(not_reproducible(&format!("unit {number} of chunk {name} has another result")));
+            }
+        }
+        Ok(units.len())
+    };
+    let (mut equal, mut failure) = (0, None);
+    parallel::in_order(&items, parallel::cores(), check, |_, checked| match checked {
+        Ok(count) => equal += count,
+        Err(error) => drop(failure.get_or_insert(error)),
+    });
+    match failure {
+        Some(failure) => Err(failure),
+        None => output::print(format!("{equal} units made again: all equal\n").as_bytes()),
+    }
+}
+
+/// Some units that are done, each once: place of the chunk among those that are done, and number of the unit.
+fn sample(chunks: &DoneChunks, count: u64, seed: u64) -> BTreeSet<(usize, u64)> {
+    let units: Vec<(usize, u64)> = (chunks.done.iter().enumerate())
+        .flat_map(|(at, (chunk, _))| chunk.units.clone().map(move |number| (at, number)))
+        .collect();
+    if count >= units.len() as u64 {
+        return units.into_iter().collect();
+    }
+    let mut stream = Key::default().words(&["batch verify"]).number(seed).stream();
+    let mut chosen = BTreeSet::new();
+    while (chosen.len() as u64) < count {
+        chosen.extend(units.get(stream.below(units.len())).copied());
+    }
+    chosen
+}
+
+/// Writes the tables of the whole batch.
+///
+/// # Errors
+/// Exit 1 when one cannot be written, 3.
+pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
+    let folder = BatchFolder::new(&args.folder)?;
+    let record = BatchRecord::of(&folder)?;
+    let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
+    let chunks = DoneChunks::of(&folder, &record, &list);
+    let (mut tally, mut kept, mut lines) = (OutcomeTally::default(), Vec::new(), Vec::new());
+    for (_, name) in &chunks.done {
+        let rows = rows(&folder, name)?;
+        rows.iter().for_each(|row| tally.add(row));
+        kept.extend(rows.into_iter().filter(|row| row.outcome == UnitOutcome::Kept));
+        lines.extend(output::read(&folder.cases(name))?);
+    }
+    let names: Vec<&String> = chunks.done.iter().map(|(_, name)| name).collect();
+    let manifest = json!({
+        "format": "dragtraffic.batch-manifest", "version": 1,
+        "complete": chunks.done.len() as u64 == chunks.all,
+        "units": list.len(), "units_done": tally.units(), "cases": kept.len(),
+        "tally": tally, "chunks": names,
+    });
+    output::write(Some(&folder.at("cases.jsonl")), &lines, true)?;
+    output::write(Some(&folder.at("cases.parquet")), &row::table(&kept, figures::names())?, true)?;
+    output::write(Some(&folder.at("manifest.json")), format!("{manifest:#}\n").as_bytes(), true)?;
+    common.say(&format!(
+        "{} cases of {} units: {}",
+        kept.len(),
+        tally.units(),
+        folder.at("cases.parquet").display()
+    ));
+    Ok(())
+}

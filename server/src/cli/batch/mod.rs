@@ -1,0 +1,71 @@
+//! `dragtraffic batch`: a plan of scenes, situations and seeds to a folder of results, in chunks that any number of
+//! processes work on without knowing each other.
+
+mod folder;
+mod inspect;
+mod record;
+mod run;
+mod scenes;
+mod tally;
+mod worker;
+
+use super::{Common, Failure};
+use batch::shard::BatchShard;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// Flags of `batch`.
+#[derive(Args, Clone, Debug)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct BatchArgs {
+    #[command(subcommand)]
+    command: Option<BatchCommand>,
+    #[command(flatten)]
+    run: BatchRunArgs,
+}
+
+/// Flags of a run.
+#[derive(Args, Clone, Debug)]
+pub struct BatchRunArgs {
+    /// Plan of the batch, TOML: scenes, situations, seeds. `dragtraffic schema batch` prints its JSON Schema.
+    #[arg(value_name = "PLAN.toml", required = true)]
+    plan: Option<PathBuf>,
+    /// Folder of the results. The same command continues an interrupted run: chunks that are there are not made
+    /// again.
+    #[arg(short, long, value_name = "DIR", required = true)]
+    output: Option<PathBuf>,
+    /// Work on one of N equal shares of the chunks: I/N, I from 0 to N - 1. Default: the share of a Slurm array
+    /// or of an Indexed Job of Kubernetes, else all.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<BatchShard>,
+    /// Units processed in parallel. Default: one per core.
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=512))]
+    jobs: Option<u16>,
+}
+
+/// Commands on a folder of results.
+#[derive(Subcommand, Clone, Debug)]
+enum BatchCommand {
+    /// Count the units that are done, by outcome.
+    #[command(after_help = examples!("dragtraffic batch status out/", "dragtraffic batch status out/ --json"))]
+    Status(inspect::StatusArgs),
+    /// Make some units again and compare them with the results, byte by byte.
+    #[command(after_help = examples!("dragtraffic batch verify out/", "dragtraffic batch verify out/ --units 200 --seed 7"))]
+    Verify(inspect::VerifyArgs),
+    /// Write manifest.json, cases.jsonl and cases.parquet from the chunks that are there.
+    #[command(after_help = examples!("dragtraffic batch merge out/", "dragtraffic batch merge out/ --quiet"))]
+    Merge(inspect::MergeArgs),
+}
+
+/// Runs a plan, or looks at its results.
+///
+/// # Errors
+/// Exit 1 for results that are not reproducible, 2, 3, 7, 8 for a folder of another batch.
+pub fn run(args: BatchArgs, common: &Common) -> Result<(), Failure> {
+    match args.command {
+        None => run::run(&args.run, common),
+        Some(BatchCommand::Status(args)) => inspect::status(&args),
+        Some(BatchCommand::Verify(args)) => inspect::verify(&args, common),
+        Some(BatchCommand::Merge(args)) => inspect::merge(&args, common),
+    }
+}

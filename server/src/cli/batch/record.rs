@@ -1,0 +1,114 @@
+//! `plan.json`: what a folder of results is about. It is written once, before the first chunk.
+
+use super::folder::BatchFolder;
+use crate::cli::{Exit, Failure};
+use batch::catalogue::CatalogueScene;
+use batch::plan::BatchPlan;
+use formats::folder::Creation;
+use scene::ContentHash;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Word of the document.
+const FORMAT: &str = "dragtraffic.batch";
+
+/// The document.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BatchRecord {
+    format: String,
+    version: u32,
+    /// Version of the program.
+    program: String,
+    /// Hashes of weights and tuning.
+    pub engine: BTreeMap<String, String>,
+    /// Hash of the plan with the names of its inputs, which are not in the results.
+    plan_sha256: String,
+    /// The plan without the names of its inputs.
+    pub plan: BatchPlan,
+    /// What the inputs held when the run began.
+    pub scenes: Vec<CatalogueScene>,
+}
+
+impl BatchRecord {
+    /// Of a plan and what its inputs hold.
+    pub fn new(plan: &BatchPlan, engine: BTreeMap<String, String>, scenes: Vec<CatalogueScene>) -> Self {
+        Self {
+            format: FORMAT.into(),
+            version: 1,
+            program: env!("CARGO_PKG_VERSION").into(),
+            engine,
+            plan_sha256: ContentHash::of(plan).hex(),
+            plan: BatchPlan { scenes: Vec::new(), ..plan.clone() },
+            scenes,
+        }
+    }
+
+    /// The record of a folder; `None` where none is there.
+    ///
+    /// # Errors
+    /// Exit 3 for a file that is none.
+    pub fn read(folder: &BatchFolder) -> Result<Option<Self>, Failure> {
+        let path = folder.record();
+        let wrong = |reason: String| Failure::input(format!("{}: {reason}", path.display()));
+        let bytes = match std::fs::read(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            result => result.map_err(|error| wrong(error.to_string()))?,
+        };
+        let record: Self = serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))?;
+        if record.format == FORMAT && record.version == 1 {
+            Ok(Some(record))
+        } else {
+            Err(wrong(format!("{FORMAT}, version 1, is expected")))
+        }
+    }
+
+    /// The record of a folder with results.
+    ///
+    /// # Errors
+    /// Exit 3 where there is none.
+    pub fn of(folder: &BatchFolder) -> Result<Self, Failure> {
+        let missing = || Failure::input(format!("{}: no results of a batch in this folder", folder.shown()));
+        Self::read(folder)?.ok_or_else(missing)
+    }
+
+    /// Puts it into its folder.
+    ///
+    /// # Errors
+    /// Exit 8 when another one is there, 1 when it cannot be written.
+    pub fn write(&self, folder: &BatchFolder) -> Result<(), Failure> {
+        let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
+        bytes.push(b'\n');
+        match folder.create(&folder.record(), &bytes)? {
+            Creation::New | Creation::Equal => Ok(()),
+            Creation::Different => Err(another(folder, "another plan or other inputs")),
+        }
+    }
+
+    /// Refuses a folder of another plan, or one made by another engine.
+    ///
+    /// # Errors
+    /// Exit 8.
+    pub fn check(
+        &self,
+        folder: &BatchFolder,
+        plan: Option<&BatchPlan>,
+        engine: &BTreeMap<String, String>,
+    ) -> Result<(), Failure> {
+        if plan.is_some_and(|plan| ContentHash::of(plan).hex() != self.plan_sha256) {
+            return Err(another(folder, "another plan"));
+        }
+        if self.engine != *engine {
+            return Err(another(folder, "other weights"));
+        }
+        if self.program != env!("CARGO_PKG_VERSION") {
+            return Err(another(folder, &format!("version {} of the program", self.program)));
+        }
+        Ok(())
+    }
+}
+
+fn another(folder: &BatchFolder, of: &str) -> Failure {
+    let message = format!("{} has results of {of}; give another folder", folder.shown());
+    Failure::new(Exit::OutputExists, message)
+}

@@ -1,0 +1,271 @@
+//! Batches: equal results whatever the threads, shards and interruptions; failures as rows; plans that make no sense.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
+
+use dragtraffic_tests::program::{program, root};
+use dragtraffic_tests::scenes::street;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// Two scenes and a file that is none; 2 x (2 seeds + 6 road users x 2 speeds x 2 seeds) + 1 units.
+const PLAN: &str = r#"
+scenes = ["scenes/*.json"]
+seeds = 2
+where = "collisions == 0"
+chunk_units = 6
+[generate]
+horizon_s = 2
+steps = 1
+[[situations]]
+template = "cut-in"
+parameters = { takes_s = 2 }
+[[situations]]
+name = "speeds"
+agents = ["@vehicles"]
+goal = { ahead_m = 20, speed_mps = { choice = [6, 14] } }
+"#;
+/// Units of the plan.
+const UNITS: u64 = 2 * (2 + 6 * 2 * 2) + 1;
+
+/// A folder with a plan and its scenes.
+fn prepared() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("scenes")).unwrap();
+    for (name, steps) in [("a.json", 31), ("b.json", 41)] {
+        std::fs::write(at("scenes").join(name), street(6, steps).to_string()).unwrap();
+    }
+    std::fs::write(at("scenes/broken.json"), r#"{"format":"dragtraffic.scene","version":1,"#).unwrap();
+    std::fs::write(at("plan.toml"), PLAN).unwrap();
+    folder
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(program());
+    command.arg("batch").args(arguments).current_dir(folder);
+    for name in ["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
+    told(&command(folder, arguments).output().unwrap(), arguments, code)
+}
+
+fn told(output: &Output, arguments: &[&str], code: i32) -> (String, String) {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {told}");
+    (text(&output.stdout), told)
+}
+
+/// Every file below a folder with its bytes, hidden ones too.
+fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let (mut files, mut folders) = (BTreeMap::new(), vec![folder.to_path_buf()]);
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                files.insert(path.strip_prefix(folder).unwrap().to_owned(), std::fs::read(&path).unwrap());
+            }
+        }
+    }
+    files
+}
+
+/// Names of the files that differ, or that one of two trees lacks.
+fn differences(first: &Path, second: &Path) -> Vec<PathBuf> {
+    let (first, second) = (tree(first), tree(second));
+    let names = first.keys().chain(second.keys());
+    names.filter(|name| first.get(*name) != second.get(*name)).cloned().collect()
+}
+
+#[test]
+fn the_schema_accepts_a_plan_and_refuses_a_slip() {
+    let folder = prepared();
+    let base = folder.path();
+    ends(base, &["plan.toml", "-o", "out", "--shard", "9/10"], 0);
+    let schema = std::fs::read_to_string(root().join("assets/schema/batch.v1.schema.json")).unwrap();
+    let (schema, record) =
+        (json(&schema), json(&std::fs::read_to_string(base.join("out/plan.json")).unwrap()));
+    let mut plan = record["plan"].clone();
+    // The names of the inputs are not in the results.
+    assert_eq!(plan["scenes"], serde_json::json!([]));
+    plan["scenes"] = serde_json::json!(["scenes/*.json"]);
+    assert!(jsonschema::is_valid(&schema, &plan), "{plan}");
+    for (at, wrong) in [("/sampling", "drawz"), ("", "sedes"), ("/situations/1/goal", "sped_mps")] {
+        let mut slip = plan.clone();
+        slip.pointer_mut(at).unwrap()[wrong] = 1.into();
+        assert!(!jsonschema::is_valid(&schema, &slip), "{slip}");
+    }
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
+    let folder = prepared();
+    let base = folder.path();
+    ends(base, &["plan.toml", "-o", "one", "--jobs", "1"], 0);
+    ends(base, &["plan.toml", "-o", "two", "--jobs", "2"], 0);
+    assert_eq!(differences(&base.join("one"), &base.join("two")), [PathBuf::new(); 0]);
+    // A share by the flag, one by the variables of Slurm, one by those of Kubernetes.
+    ends(base, &["plan.toml", "-o", "shards", "--shard", "2/3"], 0);
+    let (text, _) = ends(base, &["status", "shards", "--json"], 0);
+    let done = json(&text)["units_done"].as_u64().unwrap();
+    assert!(done > 0 && done < UNITS, "{text}");
+    let variables: [&[(&str, &str)]; 2] = [
+        &[("SLURM_ARRAY_TASK_ID", "1"), ("SLURM_ARRAY_TASK_MIN", "1"), ("SLURM_ARRAY_TASK_COUNT", "3")],
+        &[("JOB_COMPLETION_INDEX", "1"), ("JOB_COMPLETION_COUNT", "3")],
+    ];
+    for variables in variables {
+        let arguments = ["plan.toml", "-o", "shards"];
+        let output = command(base, &arguments).envs(variables.iter().copied()).output().unwrap();
+        assert!(told(&output, &arguments, 0).1.contains("by the environment"));
+    }
+    assert_eq!(differences(&base.join("one"), &base.join("shards")), [PathBuf::new(); 0]);
+
+    let (text, _) = ends(base, &["status", "one", "--json"], 0);
+    let status = json(&text);
+    let of = |outcome: &str| status["tally"]["outcomes"][outcome].as_u64().unwrap_or(0);
+    assert_eq!((status["units"].as_u64(), status["units_done"].as_u64()), (Some(UNITS), Some(UNITS)));
+    // The file that is no scene is a row.
+    assert_eq!(
+        (of("failed"), status["tally"]["problems"]["malformed-json"].as_u64()),
+        (1, Some(1)),
+        "{text}"
+    );
+    assert!(of("kept") > 0, "{text}");
+    let (text, _) = ends(base, &["verify", "one", "--units", "8"], 0);
+    assert_eq!(text, "8 units made again: all equal\n");
+    let before = tree(&base.join("one"));
+    let (_, told) = ends(base, &["plan.toml", "-o", "one"], 0);
+    assert!(told.contains(" 0 of ") && tree(&base.join("one")) == before, "{told}");
+
+    ends(base, &["merge", "one"], 0);
+    let manifest = json(&std::fs::read_to_string(base.join("one/manifest.json")).unwrap());
+    let cases = std::fs::read_to_string(base.join("one/cases.jsonl")).unwrap();
+    assert_eq!((&manifest["complete"], manifest["cases"].as_u64()), (&Value::Bool(true), Some(of("kept"))));
+    assert_eq!(cases.lines().count() as u64, of("kept"));
+    for line in cases.lines() {
+        let case = json(line);
+        assert!(line.len() < 4_096 && case["figures"]["collisions"] == 0.0, "{line}");
+        let scene = format!("one/scenes/{}.json.zst", case["scene"].as_str().unwrap());
+        assert!(base.join(scene).is_file(), "{line}");
+    }
+    // Made again at will.
+    let merged = tree(&base.join("one"));
+    ends(base, &["merge", "one"], 0);
+    assert!(tree(&base.join("one")) == merged);
+}
+
+/// Starts a run and kills it without mercy once so many chunks are there; false when it had ended by itself.
+fn killed(folder: &Path, chunks: usize) -> bool {
+    let mut child = started(folder);
+    let running = loop {
+        match child.try_wait().unwrap() {
+            Some(_) => break false,
+            None if tables(folder) >= chunks => break true,
+            None => std::thread::sleep(Duration::from_millis(2)),
+        }
+    };
+    // A process that has ended cannot be killed.
+    let _ = child.kill();
+    child.wait().unwrap();
+    running
+}
+
+/// Number of chunks that are there.
+fn tables(folder: &Path) -> usize {
+    let Ok(entries) = std::fs::read_dir(folder.join("out/chunks")) else { return 0 };
+    entries.filter(|entry| entry.as_ref().unwrap().path().extension().unwrap() == "parquet").count()
+}
+
+fn started(folder: &Path) -> Child {
+    command(folder, &["plan.toml", "-o", "out", "--quiet"]).stderr(Stdio::null()).spawn().unwrap()
+}
+
+#[test]
+fn a_killed_run_goes_on_and_two_at_once_agree() {
+    let folder = prepared();
+    let base = folder.path();
+    // Every unit is a chunk: many moments between two files.
+    std::fs::write(base.join("plan.toml"), PLAN.replace("chunk_units = 6", "chunk_units = 1")).unwrap();
+    ends(base, &["plan.toml", "-o", "whole"], 0);
+    let kills = [0, 1, 3, 4, 9, 10, 17, 26, 33].iter().filter(|chunks| killed(base, **chunks)).count();
+    let (before, _) = ends(base, &["status", "out", "--json"], 0);
+    let done = json(&before)["units_done"].as_u64().unwrap();
+    assert!(kills >= 5 && done >= 26, "{kills} kills, {done} units");
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), [PathBuf::new(); 0]);
+
+    std::fs::remove_dir_all(base.join("out")).unwrap();
+    let mut both = [started(base), started(base)];
+    for child in &mut both {
+        assert!(child.wait().unwrap().success());
+    }
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), [PathBuf::new(); 0]);
+}
+
+#[test]
+fn a_chunk_with_other_bytes_and_another_plan_are_refused() {
+    let folder = prepared();
+    let base = folder.path();
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    let chunks = base.join("out/chunks");
+    let mut names: Vec<PathBuf> = std::fs::read_dir(&chunks).unwrap().map(|e| e.unwrap().path()).collect();
+    names.sort();
+    let [cases, table] = [&names[0], &names[1]];
+    assert!(cases.extension().unwrap() == "jsonl" && table.extension().unwrap() == "parquet", "{names:?}");
+    let good = std::fs::read(cases).unwrap();
+    // The table is not there, so the chunk is made again, and its cases are others.
+    std::fs::write(cases, b"{}\n").unwrap();
+    std::fs::remove_file(table).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "out"], 1);
+    assert!(told.contains("not-reproducible: ") && told.contains(".jsonl"), "{told}");
+    assert_eq!(std::fs::read(cases).unwrap(), b"{}\n", "nothing is replaced");
+    std::fs::write(cases, &good).unwrap();
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    std::fs::write(cases, b"{}\n").unwrap();
+    let (_, told) = ends(base, &["verify", "out", "--units", "1000"], 1);
+    assert!(told.contains("not-reproducible: "), "{told}");
+
+    std::fs::write(base.join("plan.toml"), PLAN.replace("seeds = 2", "seeds = 3")).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "out"], 8);
+    assert!(told.contains("another plan"), "{told}");
+}
+
+#[test]
+fn plans_that_make_no_sense_are_refused_with_their_place() {
+    let folder = prepared();
+    let base = folder.path();
+    for (from, to, said) in [
+        ("seeds = 2", "seds = 2", "plan.toml: seds: unknown field `seds`"),
+        ("seeds = 2", "seds = 2", "did you mean seeds?"),
+        ("speed_mps =", "sped_mps =", "situations[1].goal.sped_mps: "),
+        ("takes_s", "take_s", "did you mean takes_s?"),
+        ("@vehicles", "@cars", "situations[1].agents[0]: an id or one of @all"),
+        ("collisions == 0", "colisions == 0", "where: column 1: no figure is named \"colisions\""),
+        ("horizon_s = 2", "horizon_s = 200", "generate.horizon_s: "),
+        ("scenes/*.json", "none/*.json", "no file matches"),
+        ("seeds = 2", "seeds = ", "line 3"),
+    ] {
+        std::fs::write(base.join("plan.toml"), PLAN.replace(from, to)).unwrap();
+        let (_, told) = ends(base, &["plan.toml", "-o", "out"], 3);
+        assert!(told.contains(said), "{said}: {told}");
+    }
+    assert!(!base.join("out/plan.json").exists());
+    ends(base, &["status", "out"], 3);
+    ends(base, &["plan.toml"], 2);
+    ends(base, &["plan.toml", "-o", "out", "--shard", "3/3"], 2);
+}
