@@ -118,7 +118,7 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     let base = folder.path();
     ends(base, &["plan.toml", "-o", "one", "--jobs", "1"], 0);
     ends(base, &["plan.toml", "-o", "two", "--jobs", "2"], 0);
-    assert_eq!(differences(&base.join("one"), &base.join("two")), [PathBuf::new(); 0]);
+    assert_eq!(differences(&base.join("one"), &base.join("two")), Vec::<PathBuf>::new());
     // A share by the flag, one by the variables of Slurm, one by those of Kubernetes.
     ends(base, &["plan.toml", "-o", "shards", "--shard", "2/3"], 0);
     let (text, _) = ends(base, &["status", "shards", "--json"], 0);
@@ -133,7 +133,7 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
         let output = command(base, &arguments).envs(variables.iter().copied()).output().unwrap();
         assert!(told(&output, &arguments, 0).1.contains("by the environment"));
     }
-    assert_eq!(differences(&base.join("one"), &base.join("shards")), [PathBuf::new(); 0]);
+    assert_eq!(differences(&base.join("one"), &base.join("shards")), Vec::<PathBuf>::new());
 
     let (text, _) = ends(base, &["status", "one", "--json"], 0);
     let status = json(&text);
@@ -207,14 +207,14 @@ fn a_killed_run_goes_on_and_two_at_once_agree() {
     let done = json(&before)["units_done"].as_u64().unwrap();
     assert!(kills >= 5 && done >= 26, "{kills} kills, {done} units");
     ends(base, &["plan.toml", "-o", "out"], 0);
-    assert_eq!(differences(&base.join("whole"), &base.join("out")), [PathBuf::new(); 0]);
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
 
     std::fs::remove_dir_all(base.join("out")).unwrap();
     let mut both = [started(base), started(base)];
     for child in &mut both {
         assert!(child.wait().unwrap().success());
     }
-    assert_eq!(differences(&base.join("whole"), &base.join("out")), [PathBuf::new(); 0]);
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
 }
 
 #[test]

@@ -324,7 +324,9 @@ fn networked(scenes: [&Scene; 2], codes: &BTreeSet<&str>, format: &str) -> Resul
         }
     }
     prop_assert_eq!(lights < before.signals.len(), codes.contains("no-signals"));
-    prop_assert_eq!(lights, after.signals.len());
+    // A way that the reader draws across a gap may have the signal of the lane before it.
+    let own = after.signals.iter().filter(|signal| back.values().any(|lane| lane.id == signal.lane));
+    prop_assert_eq!(lights, own.count());
     Ok(())
 }
 

@@ -91,8 +91,8 @@ pub struct Subject {
 
 impl Subject {
     /// A scene that comes with the call and goes with it.
-    pub fn passing(scene: Scene) -> Self {
-        Self { scene: Arc::new(scene), standings: None, held: None }
+    pub fn passing(scene: impl Into<Arc<Scene>>) -> Self {
+        Self { scene: scene.into(), standings: None, held: None }
     }
 
     fn standing(opened: Opened, held: Option<String>) -> Self {

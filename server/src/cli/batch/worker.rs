@@ -6,9 +6,9 @@ use crate::base::clock;
 use crate::cli::Failure;
 use crate::cli::generate::tell;
 use crate::cli::score::figures::{FigureFilter, Figures};
+use api::generate::GenerationAnswer;
 use api::generate::request::{AgentChoice, ReactChoice};
-use api::generate::{GenerationAnswer, GenerationRun};
-use api::{GenerateRequest, Operations, Problem};
+use api::{GenerateRequest, Operations, Problem, Subject};
 use batch::catalogue::UnitProblem;
 use batch::row::{BatchRow, KeptCase, UnitOutcome};
 use batch::unit::{BatchUnit, UnitList};
@@ -168,7 +168,7 @@ impl<'a> UnitWorker<'a> {
     fn answered(
         &self,
         unit: &BatchUnit,
-        scene: &Scene,
+        scene: &Arc<Scene>,
         roles: Roles,
     ) -> Result<(Roles, GenerationAnswer), Problem> {
         let mut request: GenerateRequest = self.record.plan.generate.request(unit.seed);
@@ -178,9 +178,9 @@ impl<'a> UnitWorker<'a> {
             // All are generated, and nobody is left to react.
             None => request.react = ReactChoice::Whether(false),
         }
-        let Operations { generator, limits, clock, .. } = self.operations;
-        let plan = request.plan(scene, limits, generator)?;
-        let answered = plan.start(generator, Cancel::default(), *clock).and_then(GenerationRun::answer)?;
+        let about = Subject::passing(Arc::clone(scene));
+        let generation = self.operations.generate(&request, &about, Cancel::default())?;
+        let answered = generation.answer()?;
         Ok((roles, answered))
     }
 
