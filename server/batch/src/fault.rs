@@ -1,6 +1,6 @@
 //! What is wrong with a plan, and where.
 
-use crate::names::nearest;
+use crate::names::hint;
 use api::Problem;
 use formats::ReadError;
 use std::fmt;
@@ -59,10 +59,7 @@ fn hinted(detail: &str) -> String {
     let (true, Some(found)) = (detail.starts_with("unknown "), names.next()) else {
         return detail.to_owned();
     };
-    match nearest(found, names) {
-        Some(meant) => format!("{detail} (did you mean {meant}?)"),
-        None => detail.to_owned(),
-    }
+    format!("{detail}{}", hint(found, names))
 }
 
 #[cfg(test)]

@@ -6,9 +6,14 @@ const MOST_LETTERS: usize = 80;
 const SLIP: usize = 3;
 
 /// The known name that a slip turned into `name`; `None` where none is close enough.
-pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let close = known.into_iter().filter_map(|known| Some((distance(known, name)?, known)));
     close.min().map(|(_, known)| known)
+}
+
+/// The hint that follows a name that is unknown; empty where no known name is close.
+pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(name, known).map_or_else(String::new, |meant| format!(" (did you mean {meant}?)"))
 }
 
 /// Letters that differ, where they are few enough for a slip.

@@ -190,6 +190,11 @@ impl Default for BatchOptions {
 }
 
 impl BatchOptions {
+    /// Scene step of the start.
+    pub fn start_step(&self) -> usize {
+        self.request(0).start_step()
+    }
+
     /// The request of one unit, without its conditions: one sample, scored.
     pub fn request(&self, seed: u64) -> GenerateRequest {
         let Self { react, start_s, horizon_s, replan_interval_s, modes, diversity, steps } = *self;

@@ -2,7 +2,7 @@
 
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
-use crate::names::nearest;
+use crate::names::hint;
 use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc};
 use scene::scenarios::Template;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -248,15 +248,17 @@ impl BatchSituation {
     }
 
     fn check_template(&self, path: &str, faults: &mut Vec<PlanFault>) {
-        let hint = |name: &str, known: &[&'static str]| {
-            let near = nearest(name, known.iter().copied());
-            let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
-            format!("\"{name}\" is unknown{near}; there are {}", known.join(", "))
+        let unknown = |name: &str, known: &[&'static str]| {
+            format!(
+                "\"{name}\" is unknown{}; there are {}",
+                hint(name, known.iter().copied()),
+                known.join(", ")
+            )
         };
         let template = self.template();
         if let (Some(name), None) = (&self.template, template) {
             let known: Vec<&str> = Template::ALL.iter().map(|template| template.name()).collect();
-            faults.push(PlanFault::new(format!("{path}.template"), hint(name, &known)));
+            faults.push(PlanFault::new(format!("{path}.template"), unknown(name, &known)));
             return;
         }
         let figures = template.map_or(&[][..], Template::figures);
@@ -269,7 +271,7 @@ impl BatchSituation {
                 }
                 None => {
                     let known: Vec<&str> = figures.iter().map(|figure| figure.name).collect();
-                    faults.push(PlanFault::new(path, hint(name, &known)));
+                    faults.push(PlanFault::new(path, unknown(name, &known)));
                 }
             }
         }

@@ -2,14 +2,17 @@
 
 use crate::cli::{Exit, Failure};
 use batch::catalogue::CatalogueScene;
+use batch::chunk::BatchChunk;
+use batch::unit::UnitList;
 use formats::folder::{self, Creation};
 use formats::native;
 use scene::{ContentHash, Scene};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Compression level of the scenes.
 const ZSTD_LEVEL: i32 = 3;
-/// Largest document of a scene, bytes: what is longer is no scene that was written here.
+/// Largest document of a scene, bytes.
 const MOST_SCENE: usize = 1 << 30;
 
 /// A folder of results.
@@ -55,6 +58,19 @@ impl BatchFolder {
     /// Is a chunk there?
     pub fn has(&self, chunk: &str) -> bool {
         self.table(chunk).exists()
+    }
+
+    /// Each of these chunks with its name, and whether it is there.
+    pub fn look_up(
+        &self,
+        chunks: impl Iterator<Item = BatchChunk>,
+        list: &UnitList<'_>,
+    ) -> impl Iterator<Item = (BatchChunk, String, bool)> {
+        chunks.map(|chunk| {
+            let name = chunk.name(list);
+            let is_there = self.has(&name);
+            (chunk, name, is_there)
+        })
     }
 
     /// Creates a file, unless it is there.
@@ -104,8 +120,11 @@ impl BatchFolder {
         let path = self.scene(&entry.sha256);
         let wrong = |reason: String| Failure::input(format!("{}: {reason}", path.display()));
         let packed = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
-        let unpacked =
-            zstd::stream::decode_all(packed.as_slice()).map_err(|error| wrong(error.to_string()))?;
+        let mut unpacked = Vec::new();
+        let decoder = zstd::stream::read::Decoder::new(packed.as_slice());
+        decoder
+            .and_then(|decoder| decoder.take(MOST_SCENE as u64 + 1).read_to_end(&mut unpacked))
+            .map_err(|error| wrong(error.to_string()))?;
         if unpacked.len() > MOST_SCENE || ContentHash::of_bytes(&unpacked).hex() != entry.sha256 {
             return Err(wrong("the content is not the one of its name".into()));
         }

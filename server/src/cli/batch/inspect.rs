@@ -59,10 +59,10 @@ struct DoneChunks {
 impl DoneChunks {
     fn of(folder: &BatchFolder, record: &BatchRecord, list: &UnitList<'_>) -> Self {
         let (mut done, mut all) = (Vec::new(), 0);
-        for chunk in chunk::chunks(list.len(), record.plan.chunk_units) {
-            let name = chunk.name(list);
+        let chunks = chunk::chunks(list.len(), record.plan.chunk_units);
+        for (chunk, name, is_there) in folder.look_up(chunks, list) {
             all += 1;
-            if folder.has(&name) {
+            if is_there {
                 done.push((chunk, name));
             }
         }

@@ -51,13 +51,12 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     };
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
     let worker = UnitWorker::new(&folder, &record, &list, &operations)?;
-    let chunks = chunk::chunks(list.len(), record.plan.chunk_units).filter(|chunk| shard.has(chunk.number));
     let mut open: Vec<OpenChunk> = Vec::new();
     let mut all = 0;
-    for chunk in chunks {
-        let name = chunk.name(&list);
+    let chunks = chunk::chunks(list.len(), record.plan.chunk_units).filter(|chunk| shard.has(chunk.number));
+    for (chunk, name, is_there) in folder.look_up(chunks, &list) {
         all += 1;
-        if !folder.has(&name) {
+        if !is_there {
             open.push(OpenChunk { chunk, name, taken: OnceLock::new() });
         }
     }

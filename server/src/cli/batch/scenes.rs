@@ -9,7 +9,7 @@ use api::Problem;
 use batch::catalogue::{CatalogueScene, UnitProblem};
 use batch::fault::PlanFault;
 use batch::plan::BatchPlan;
-use scene::{AgentType, ContentHash, STEP_S, Scene};
+use scene::{AgentType, ContentHash, Scene};
 use std::path::Path;
 
 /// Whom each situation of a plan concerns; `None` for one that names nobody.
@@ -51,7 +51,7 @@ pub fn read(
     if let Some(missing) = sources.iter().find(|source| !source.path.exists()) {
         return Err(Failure::input(format!("{}: no such file", missing.shown())));
     }
-    let start_step = (plan.generate.start_s / STEP_S).round() as usize;
+    let start_step = plan.generate.start_step();
     let progress = Progress::new("inputs", sources.len() as u64, common.quiet);
     let mut scenes = Vec::new();
     let mut failure = None;

@@ -16,7 +16,7 @@ use experts::Cancel;
 use formats::native::{ConditionsDoc, Members};
 use lru::LruCache;
 use scene::scenarios::Casting;
-use scene::{Conditions, STEP_S, Scene};
+use scene::{Conditions, Scene};
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -150,10 +150,15 @@ impl<'a> UnitWorker<'a> {
         let options = &self.record.plan.generate;
         if let Some(template) = situation.template() {
             let graph = self.operations.generator.maps().graph(&scene.map);
-            let start_step = (options.start_s / STEP_S).round() as usize;
             let fixed = situation.parameters_of(&unit.drawn);
-            let casting =
-                template.cast_with(scene, &graph, start_step, options.horizon_s, unit.seed, &fixed)?;
+            let casting = template.cast_with(
+                scene,
+                &graph,
+                options.start_step(),
+                options.horizon_s,
+                unit.seed,
+                &fixed,
+            )?;
             let conditions = ConditionsDoc::from_conditions(&casting.conditions);
             let conditions = BTreeMap::from([(casting.actor.clone(), conditions)]);
             return Some(Roles { actor: Some(casting.actor.clone()), casting: Some(casting), conditions });

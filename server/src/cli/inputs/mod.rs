@@ -8,7 +8,7 @@ pub use find::patterns;
 
 use super::{Failure, output};
 use crate::base::netconvert::companions;
-use api::import::{Companions, SceneFile, known as known_format};
+use api::import::{Companions, ReadScene, SceneFile, known as known_format};
 use api::{Code, Problem};
 use clap::Args;
 use find::Known;
@@ -135,9 +135,7 @@ impl Source {
             let found = read.scenes.len() + read.skipped.len();
             let numbers = (at..).filter(|i| read.skipped.iter().all(|(skipped, _)| skipped != i));
             for (index, imported) in numbers.zip(read.scenes) {
-                let name =
-                    if many { known.name(self.name_of(&imported.scene, index)) } else { self.label.clone() };
-                take(Item { scene: imported.scene, name, notes: imported.warnings })?;
+                take(self.item(many, &mut known, index, imported))?;
                 count += 1;
             }
             if found < most || !many {
@@ -173,11 +171,9 @@ impl Source {
         let found = SceneFile::of(&bytes, None, &file_name, &reading.beside, (0, usize::MAX));
         let read = found.and_then(|file| {
             file.each(&bytes, |read| {
-                let name =
-                    if many { known.name(self.name_of(&read.scene, index)) } else { self.label.clone() };
+                let item = self.item(many, &mut known, index, read);
                 index += 1;
-                let item = Item { scene: read.scene, name: name.clone(), notes: read.warnings };
-                take(name, Ok(item)).map_err(|error| {
+                take(item.name.clone(), Ok(item)).map_err(|error| {
                     failure = Some(error);
                     Problem::internal("a scene was not taken")
                 })
@@ -192,6 +188,12 @@ impl Source {
                 .into_iter()
                 .try_for_each(|(index, problem)| take(format!("{}-{index:06}", self.label), Err(problem))),
         }
+    }
+
+    /// A scene with its name: that of the file, or its own where the file has many.
+    fn item(&self, many: bool, known: &mut Known, index: usize, read: ReadScene) -> Item {
+        let name = if many { known.name(self.name_of(&read.scene, index)) } else { self.label.clone() };
+        Item { scene: read.scene, name, notes: read.warnings }
     }
 
     /// A scene of a file with many is called by its id in the source, else by its place.

@@ -2,7 +2,7 @@
 //! its lists have, and under `actor.` those of the requested road user.
 
 use super::expression::Expression;
-use batch::names::nearest;
+use batch::names::hint;
 use scene::Scene;
 use scene::score::{AgentScore, SceneScore, Score};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -50,9 +50,8 @@ fn unknown(name: &str) -> String {
     if name == "violations" {
         return "violations is kinematic.violations now".to_owned();
     }
-    let near = nearest(name, names().iter().map(String::as_str));
-    let near = near.map_or_else(String::new, |known| format!(" (did you mean {known}?)"));
-    format!("no figure is named \"{name}\"{near}; there are {}", names().join(", "))
+    let meant = hint(name, names().iter().map(String::as_str));
+    format!("no figure is named \"{name}\"{meant}; there are {}", names().join(", "))
 }
 
 /// All names, those of the scene first.
