@@ -4,6 +4,7 @@ import { choose, patchScene, setGoal } from '../../src/model/document/commands';
 import type { TrafficEvent } from '../../src/model/words/event-words';
 import { emptyMotion, type Futures, type MotionSet } from '../../src/model/document/futures';
 import { comparisonOf } from '../../src/model/words/comparison';
+import { comparisonRows } from '../../src/model/words/comparison-table';
 import { motionFrom, type Motion } from '../../src/model/base/motion';
 import { readScene } from '../../src/model/document/scene-reader';
 import { sceneKey, startPose, type Agent, type Scene } from '../../src/model/document/scene';
@@ -180,14 +181,16 @@ describe('the difference of variants', () => {
 
   it('is listed with the moment of divergence', () => {
     const side = (label: string, m: Motion) => ({ label, scene: s, set: setOf(s, { [a.id]: m }), events: [] });
-    const p = comparisonOf(side('1', on), side('4', stops));
+    const [first, fourth] = [side('1', on), side('4', stops)];
+    const p = comparisonOf(first, fourth);
     expect(p.diverging.map((x) => x.agent.id)).toEqual([a.id]);
     expect(p.same).toBe(p.all - 1);
     expect(p.moments).toHaveLength(1);
     expect(p.moments[0].words).toBe(`${a.name} stops only in 4`);
     expect(p.moments[0].time).toBeGreaterThan(1);
     expect(p.moments[0].time).toBeLessThan(2.2);
-    expect(p.rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });
+    const rows = comparisonRows(first, fourth, p.diverging);
+    expect(rows.find((r) => r.what === a.name)).toMatchObject({ differs: true });
     expect(comparisonOf(side('1', on), side('2', on)).moments).toEqual([]);
     // If there are too many, the worst of both sides are listed, whichever side they are on.
     const happens = (kind: TrafficEvent['kind'], time: number) =>

@@ -2,6 +2,7 @@
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/base/units';
 import type { DivergingMoment } from '../../model/words/comparison';
+import { comparisonRows } from '../../model/words/comparison-table';
 import type { Compared, WholeCard } from '../../edit/tools/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
@@ -47,7 +48,7 @@ export default function ComparePanel() {
             </tr>
           </thead>
           <tbody>
-            {comparison.rows.map((r) => (
+            {comparisonRows(left, right, comparison.diverging).map((r) => (
               <tr key={r.what} class={r.differs ? 'differs' : ''}>
                 <th scope="row">{r.what}</th>
                 <td>{r.left}</td>

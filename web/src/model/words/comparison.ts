@@ -1,15 +1,13 @@
 // Differences between two variants: changed road users, since when, and the outcome.
 import { JUDGING } from '../base/domain';
 import { compareMarks } from '../document/future-facts';
-import { meetsGoal, motionOf } from '../physics/playback';
+import { motionOf } from '../physics/playback';
 import { counted } from '../physics/events';
-import { summary, type TrafficEvent } from './event-words';
+import type { TrafficEvent } from './event-words';
 import type { MotionSet } from '../document/futures';
 import { toLocal, type Vec } from '../base/geometry';
 import { poseAt, STEP_S, type Motion } from '../base/motion';
-import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from '../document/scene';
-import { metres, num, seconds } from '../base/units';
 import { TEXTS } from '../../texts/scene/comparison';
 
 export interface ComparedVariant {
@@ -27,13 +25,6 @@ export interface DivergingMoment {
   readonly at: Vec;
 }
 
-export interface ComparisonRow {
-  readonly what: string;
-  readonly left: string;
-  readonly right: string;
-  readonly differs: boolean;
-}
-
 /** A road user with different motions. */
 export interface Diverging {
   readonly agent: Agent;
@@ -48,7 +39,6 @@ export interface Diverging {
 export interface Comparison {
   /** The largest distance first. */
   readonly diverging: readonly Diverging[];
-  readonly rows: readonly ComparisonRow[];
   readonly moments: readonly DivergingMoment[];
   /** Number of road users with equal motions. */
   readonly same: number;
@@ -58,7 +48,6 @@ export interface Comparison {
 /** Motions further apart than this differ, metres. */
 const APART_M = 1;
 const MOST_MOMENTS = 6;
-const MOST_ROWS = 5;
 /** A stop or slowdown within this many seconds of the divergence counts. */
 const SOON_S = 4;
 const SLOWS_MPS = 1;
@@ -68,7 +57,6 @@ export function comparisonOf(left: ComparedVariant, right: ComparedVariant): Com
   const diverging = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
   return {
     diverging,
-    rows: rowsOf(left, right, diverging),
     moments: momentsOf(left, right, diverging),
     same: all.length - diverging.length,
     all: all.length,
@@ -92,53 +80,6 @@ function partedOf(left: ComparedVariant, right: ComparedVariant, agent: Agent): 
     far = Math.max(far, d);
   }
   return since < 0 ? null : { agent, left: m, right: n, far, since };
-}
-
-// -------------------------------------------------------------- the table
-
-const row = (what: string, left: string, right: string): ComparisonRow => ({
-  what,
-  left,
-  right,
-  differs: left !== right,
-});
-
-function rowsOf(left: ComparedVariant, right: ComparedVariant, diverging: readonly Diverging[]): ComparisonRow[] {
-  const gap = ({ set }: ComparedVariant): string => (set.score?.pet == null ? '–' : seconds(set.score.pet));
-  const events = (s: ComparedVariant): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
-  const closing = ({ set }: ComparedVariant): string => (set.score?.minTtc == null ? '–' : seconds(set.score.minTtc));
-  return [
-    row(TEXTS.events, events(left), events(right)),
-    ...diverging.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
-    row(TEXTS.minPet, gap(left), gap(right)),
-    row(TEXTS.minTtc, closing(left), closing(right)),
-    ...goals(left, right),
-  ];
-}
-
-function deeds(scene: Scene, { agent, left, right }: Diverging): ComparisonRow {
-  const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
-  const [p, q] = [deedWords(a), deedWords(b)];
-  return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
-}
-
-const TURNS = { left: TEXTS.turnsLeft, right: TEXTS.turnsRight } as const;
-
-function deedWords(d: Deed): string {
-  if (d.waits >= 1) return d.stands ? TEXTS.stoppedS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
-  return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TURNS[d.turn];
-}
-
-function goals(left: ComparedVariant, right: ComparedVariant): ComparisonRow[] {
-  const words = (s: ComparedVariant, id: string): string => {
-    const a = s.scene.agents.get(id);
-    const met = a ? meetsGoal(s.set, a) : null;
-    return met === null ? TEXTS.unknown : met ? TEXTS.reached : TEXTS.missed;
-  };
-  return [...left.scene.agents.values()]
-    .filter((a) => a.goal.pos)
-    .slice(0, 2)
-    .map((a) => row(TEXTS.goalOf(a.name), words(left, a.id), words(right, a.id)));
 }
 
 // -------------------------------------------------------------- the moments
