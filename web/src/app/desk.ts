@@ -23,7 +23,7 @@ import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMen
 import { listenToPage } from './page-input';
 import { keepInSight } from './sheet/in-sight';
 import { drawPage } from './shell';
-import { coach } from './watching';
+import { coach } from './coach-steps';
 
 function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;

@@ -1,26 +1,5 @@
-// Automatic follow-ups: the first-minute hint, the crash report, the wait for an unreachable server.
-import { effect } from '@preact/signals-core';
+// Automatic follow-ups: the crash report, the wait for an unreachable server.
 import type { Opening } from '../actions/context';
-import { hasGoal } from '../model/document/scene';
-
-/** The three-step hint follows the user's actions and closes for good after the first drop. */
-export function coach({ editor, ui }: Opening): void {
-  let opened = ui.drawer.peek() === 'scenes';
-  effect(() => {
-    const a = editor.agent.value;
-    const dragging = editor.drag.active.value;
-    if (a && opened) {
-      opened = false;
-      if (ui.drawer.peek() === 'scenes') ui.showDrawer(null);
-    }
-    if (!ui.coach.peek()) return;
-    if (ui.coach.peek() === 1 && a) ui.coachTo(2);
-    if (ui.coach.peek() === 2 && !a && !dragging) ui.coachTo(1);
-    if (ui.coach.peek() === 2 && dragging) ui.coachTo(3);
-    // A goal set by keys makes the drag hint unnecessary.
-    if (ui.coach.peek() > 1 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
-  });
-}
 
 /** An uncaught error is reported once; changes are saved already. */
 export function reportCrashes({ editor }: Opening): void {
