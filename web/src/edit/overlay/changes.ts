@@ -3,7 +3,7 @@ import type { Pen } from '../../draw/pen';
 import type { Pose } from '../../model/base/geometry';
 import { poseAt } from '../../model/base/motion';
 import type { Agent } from '../../model/document/scene';
-import { tag, type Labels } from '../../draw/labels';
+import { pill, type Labels } from '../../draw/labels';
 import { paintGhost, paintRing } from '../../draw/handles';
 import { colourKey, stamp } from '../../draw/sprites';
 import { trail } from '../../draw/strokes';
@@ -51,18 +51,18 @@ export class ChangesOverlay {
     }
   }
 
-  paintChangeLabels(g: Pen, v: View): void {
+  /** Ids of the labelled ones. */
+  paintChangeLabels(g: Pen, v: View): string[] {
     const { editor: e } = this;
-    if (!e.view.showBefore.value || e.playhead.playing.value) return;
+    const labelled: string[] = [];
+    if (!e.view.showBefore.value || e.playhead.playing.value) return labelled;
     for (const ch of e.answers.changes.value.slice(0, LABELS)) {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
-      if (p && v.shows(p.x, p.y))
-        tag(g, this.labels, v.to(p.x, p.y), `${ch.name} ${ch.words}`, {
-          leader: colours().ink,
-          radii: [44, 60, 84, 110],
-          must: false,
-        });
+      const style = { leader: colours().ink, radii: [44, 60, 84, 110], must: false };
+      if (p && v.shows(p.x, p.y) && pill(g, this.labels, ...v.to(p.x, p.y), `${ch.name} ${ch.words}`, style))
+        labelled.push(ch.id);
     }
+    return labelled;
   }
 }

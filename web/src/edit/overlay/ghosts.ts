@@ -6,8 +6,8 @@ import { STEP_S } from '../../model/base/motion';
 import type { Agent } from '../../model/document/scene';
 import { Fades, type Faded } from '../../draw/fades';
 import { paintWaiting, paintWay, type GhostStyle } from '../../draw/ghosts';
-import { pill, tag, type Labels } from '../../draw/labels';
-import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../../draw/sprites';
+import { tag, type Labels } from '../../draw/labels';
+import { boxOnScreen, colourKey, stamp } from '../../draw/sprites';
 import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
@@ -71,33 +71,13 @@ export class GhostOverlay {
     this.labels.block(x - 2, y - 2, w + 4, h + 4);
   }
 
-  /** A short cause for each of the most affected, and their names at their own boxes. */
+  /** A short cause for each of the most affected. */
   paintLabels(g: Pen, v: View): void {
-    const first = this.shown.filter((s) => s.here).slice(0, LABELS);
-    for (const { ghost: c, alpha } of first) {
+    for (const { ghost: c, alpha } of this.shown.filter((s) => s.here).slice(0, LABELS)) {
       const at = v.to(c.place.x, c.place.y);
       g.globalAlpha = alpha;
       tag(g, this.labels, at, c.words, { leader: colours().ink, radii: [38, 52, 70, 92, 120] });
       g.globalAlpha = 1;
     }
-    for (const { ghost: c } of first) this.name(g, v, c);
-  }
-
-  private name(g: Pen, v: View, c: Change): void {
-    const a = this.agentOf(c);
-    const p = a && (this.poseNow(a) ?? c.place);
-    if (!a || !p) return;
-    const [l] = sizeOnScreen(a, v.z);
-    const half = boxOnScreen(v, a, p).h / 2;
-    pill(g, this.labels, ...v.to(p.x, p.y), c.name, {
-      weight: 500,
-      must: false,
-      tries: [
-        [-24, -half - 26],
-        [-24, half + 6],
-        [l / 2 + 8, -10],
-        [-l / 2 - 60, -10],
-      ],
-    });
   }
 }

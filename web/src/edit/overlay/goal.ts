@@ -176,7 +176,7 @@ export class GoalOverlay {
   }
 
   /** Painted after the handles, which would cover it. */
-  labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
+  labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>, quiet: boolean): void {
     const c = colours();
     const [x, y] = v.to(nearest.x, nearest.y);
     const start = startPose(a);
@@ -192,7 +192,7 @@ export class GoalOverlay {
       bg: c.goal,
       fg: c.surface,
     });
-    if (far && far.beyond > 1 && a.goal.pos)
+    if (!quiet && far && far.beyond > 1 && a.goal.pos)
       tag(
         g,
         this.labels,
@@ -203,9 +203,11 @@ export class GoalOverlay {
   }
 
   /** A dotted line from the flag to the pointer, while a kerb holds the flag back. */
-  private paintLag(g: Pen, v: View, { from, to, touch }: Lag): void {
+  private paintLag(g: Pen, v: View, { from, to, touch }: Lag, quiet: boolean): void {
     const hand = v.to(to[0], to[1]);
     paintString(g, v.to(from[0], from[1]), hand);
+    // The line of keys has it too, except for a finger.
+    if (quiet && !touch) return;
     const tries = [
       [20, -10],
       [20, 12],
@@ -214,11 +216,13 @@ export class GoalOverlay {
     tag(g, this.labels, hand, touch ? TEXTS.holdToCross : TEXTS.altToCross, { tries });
   }
 
-  dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null): void {
+  /** `quiet`: without the place and the way, which the panel has. */
+  dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null, quiet: boolean): void {
     const d = this.editor.drag.info.value;
     if (!d || d.grip.handle !== 'body') return;
     const c = colours();
-    if (d.lag) this.paintLag(g, v, d.lag);
+    if (d.lag) this.paintLag(g, v, d.lag, quiet);
+    if (quiet) return;
     const p = d.grip.part === 'goal' ? goal : startPose(a);
     if (!p) return;
     const [x, y] = v.to(p.x, p.y);

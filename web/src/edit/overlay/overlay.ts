@@ -20,8 +20,10 @@ import { EventsOverlay } from './events';
 import { GhostOverlay } from './ghosts';
 import { GoalOverlay } from './goal';
 import { HoveredOverlay } from './hovered';
+import { NamesOverlay } from './named';
 import { shownPose } from '../moves/moves';
 import { paintPins, paintPinWords } from './pins';
+import { QuietDrag } from './quiet-drag';
 import { SeveralOverlay } from './several';
 import type { ToolOverlay } from './tool-overlay';
 import { VerdictOverlay } from './verdicts';
@@ -52,6 +54,8 @@ export class Overlay {
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
   private readonly hovered: HoveredOverlay;
+  private readonly names: NamesOverlay;
+  private readonly quiet: QuietDrag;
 
   constructor(
     private readonly editor: Editor,
@@ -68,6 +72,8 @@ export class Overlay {
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
     this.several = new SeveralOverlay(editor, this.labels, poseNow);
     this.hovered = new HoveredOverlay(editor);
+    this.names = new NamesOverlay(editor, this.labels, poseNow);
+    this.quiet = new QuietDrag(editor);
   }
 
   /** Painted place of the time tag, for the pointer. */
@@ -130,7 +136,8 @@ export class Overlay {
     if (beside) paintBeside(g, v, beside, e.playhead.time.value);
     if (e.view.showBefore.value && !beside) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
-    if (a) this.paintSelected(g, v, a);
+    const quiet = this.quiet.is(a);
+    if (a) this.paintSelected(g, v, a, quiet);
     else this.hovered.stop();
     if (beside?.tried) paintTried(g, v, this.labels, beside, scene, (of) => e.view.unitOf(of));
     if (beside) paintMeeting(g, v, this.labels, beside, e.playhead.time.value);
@@ -138,9 +145,10 @@ export class Overlay {
       this.several.paint(g, v);
       for (const tool of this.tools) tool.paint?.(g, v, this.labels);
     }
-    this.ghosts.paintLabels(g, v);
+    if (!quiet) this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
-    this.changes.paintChangeLabels(g, v);
+    const labelled = this.changes.paintChangeLabels(g, v);
+    if (!beside) this.names.paint(g, v, labelled);
     this.paintMeasure(g, v);
   }
 
@@ -183,7 +191,7 @@ export class Overlay {
     paintRing(g, v, a, p, colours().select, 1.5);
   }
 
-  private paintSelected(g: Pen, v: View, a: Agent): void {
+  private paintSelected(g: Pen, v: View, a: Agent, quiet: boolean): void {
     const { editor: e } = this;
     const c = colours();
     const start = startPose(a);
@@ -222,24 +230,25 @@ export class Overlay {
       const drag = e.drag.info.value?.grip;
       if (drag?.part === 'start' && drag.handle === 'heading')
         tag(g, this.labels, h.knob, `${Math.round((start.heading * 180) / Math.PI)}°`, {});
-      tag(g, this.labels, h.tip, (a.start.speed === null ? '≈ ' : '') + speedLabel(start.speed, unit), {
-        tries: [
-          [-22, -32],
-          [-22, 14],
-          [14, -10],
-        ],
-      });
+      if (!quiet || drag?.handle === 'speed')
+        tag(g, this.labels, h.tip, (a.start.speed === null ? '≈ ' : '') + speedLabel(start.speed, unit), {
+          tries: [
+            [-22, -32],
+            [-22, 14],
+            [14, -10],
+          ],
+        });
     }
     if (!atStart && now && !e.playhead.playing.value)
       tag(g, this.labels, v.to(now.x, now.y), speedLabel(now.speed, e.view.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
-    if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
+    if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest, quiet);
     paintVias(g, this.labels, v, e, a);
     for (const tool of this.tools) tool.paintSelected?.(g, v, this.labels, a);
-    this.paintWords(g, v, a);
+    this.paintWords(g, v, a, quiet);
     this.paintLetters(g, v, a);
     if (!e.drag.info.value) paintPinWords(g, this.labels, v, pins);
-    this.goal.dragLabels(g, v, a, goal);
+    this.goal.dragLabels(g, v, a, goal, quiet);
     this.paintKeyed(g, v, a);
   }
 
@@ -328,10 +337,10 @@ export class Overlay {
     return e.playhead.time.value > 0.05 || this.isDecided;
   }
 
-  private paintWords(g: Pen, v: View, a: Agent): void {
+  private paintWords(g: Pen, v: View, a: Agent, quiet: boolean): void {
     const f = this.editor.reading.futures.value;
     if (!f || !this.six) return;
-    this.verdicts.paintRoadWay(g, v, a);
+    this.verdicts.paintRoadWay(g, v, a, quiet);
     this.verdicts.paintWords(g, v, f, this.judged(a, f), this.tooFar(a) ? 1 : undefined);
   }
 

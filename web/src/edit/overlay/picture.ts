@@ -25,6 +25,10 @@ import { TEXTS } from '../../texts/editing/picture';
 
 const REACT_MS = 320;
 
+/** Are all moving road users named? By the layer, or from a near view. */
+export const namesAll = (e: Pick<Editor, 'view'>, v: View): boolean =>
+  v.z > 16 || (v.z >= 5 && e.view.layers.value.labels);
+
 export class Picture {
   private map: MapPicture | null = null;
   /** Last painted places of road users and their names, in pixels: labels avoid them. */
@@ -173,7 +177,7 @@ export class Picture {
     g.globalAlpha = 1;
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     this.paintMarks(g, v, shown);
-    const names = e.view.layers.value.labels || v.z > 16 ? this.nameLabels(g, v, shown) : [];
+    const names = namesAll(e, v) ? this.nameLabels(g, v, shown) : [];
     this.taken = new Taken([...shown.map(([a, p]) => boxOnScreen(v, a, p)), ...names]);
   }
 
@@ -226,7 +230,6 @@ export class Picture {
 
   private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): Rect[] {
     const names: Rect[] = [];
-    if (v.z < 5) return names;
     const labels = new Labels(v.w, v.h);
     for (const [, p] of shown) {
       const [x, y] = v.to(p.x, p.y);

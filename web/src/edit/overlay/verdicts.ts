@@ -90,8 +90,8 @@ export class VerdictOverlay {
     if (way.to) blockFlag(this.labels, v.to(way.to.x, way.to.y), v.grip);
   }
 
-  /** The goal of that route, hollow: a click takes it. */
-  paintRoadWay(g: Pen, v: View, a: Agent): void {
+  /** The goal of that route, hollow: a click takes it. `quiet`: without its words, which the panel has. */
+  paintRoadWay(g: Pen, v: View, a: Agent, quiet: boolean): void {
     const way = roadWay(this.editor, a);
     if (!way) return;
     const c = colours();
@@ -100,6 +100,7 @@ export class VerdictOverlay {
       paintGhost(g, v, a, to, c.goal, c['goal-soft'], [4, 3]);
       paintFlag(g, this.labels, v.to(to.x, to.y), c.goal, true, v.grip);
     }
+    if (quiet) return;
     const [wx, wy] = to ? [to.x, to.y] : path[path.length >> 1];
     const tries = [
       [34, -26],
