@@ -11,6 +11,8 @@ import { TEXTS } from '../../texts/scene/names';
 /** Inputs of a name. */
 export interface Nameable {
   readonly motion: Motion;
+  /** Relative weight. The likeliest is named first, so that names do not depend on the order of the letters. */
+  readonly probability?: number;
   readonly about?: FutureFacts | null;
 }
 
@@ -56,6 +58,17 @@ export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: fals
 
 /** Names for those without one, distinct from the others, which keep theirs. */
 export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (FutureName | null)[]): FutureName[] {
+  const likelihood = (i: number): number => modes[i].probability ?? 0;
+  const order = modes.map((_, i) => i).sort((i, k) => likelihood(k) - likelihood(i) || i - k);
+  const names = nameInOrder(
+    order.map((i) => modes[i]),
+    who,
+    order.map((i) => kept[i]),
+  );
+  return modes.map((_, i) => names[order.indexOf(i)]);
+}
+
+function nameInOrder(modes: readonly Nameable[], who: Naming, kept: readonly (FutureName | null)[]): FutureName[] {
   const list = new NameList(modes, kept);
   const said = candidates(modes, who);
   // The most informative property first; one that it does not distinguish is named by another.
