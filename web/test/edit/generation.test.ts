@@ -593,10 +593,51 @@ describe('the shown future of a drag', () => {
     rest();
     const hits = judged(six('1').modes as ModeJson[], ['2', '17'], true);
     generator.last.on.final(final({ chosen: 2, modes: hits }), 12);
-    expect(editor.answers.remark.peek()).toEqual({ id: '1', words: 'C is shown: A hits Car 2.' });
+    expect(editor.answers.remark.peek()).toEqual({
+      id: '1',
+      words: 'C is shown: A hits Car 2; B has a higher cost for all road users together.',
+    });
     expect(editor.notices.toast.peek()?.text).toBe('Goal of Car 1 moved.');
     dragTo(20);
     expect(editor.answers.remark.peek()).toBeNull();
+  });
+
+  it('stays that of the preview when an answer for an earlier place of the flag arrives later', async () => {
+    editor.commits.run(setOthers('react'));
+    rest();
+    dragTo(10);
+    const own = generator.last;
+    own.on.final(final(sent('BACDEF', 0)), 12);
+    await Promise.resolve();
+    dragTo(20);
+    const earlier = generator.last;
+    dragTo(10);
+    const chances = () => editor.reading.futures.peek()!.modes.map((m) => m.probability);
+    others.last.on.final(final(sent('FBACDE', 2)), 20);
+    const previewed = chances();
+    earlier.on.draft(draft(sent('CDEFAB', 0)), 5, 5, 10);
+    earlier.on.final(final(sent('CDEFAB', 0)), 12);
+    expect(chances()).toEqual(previewed);
+    // The flag has moved: the drag's own answers are shown again.
+    dragTo(25);
+    generator.last.on.final(final(sent('CDEFAB', 0)), 12);
+    expect(chances()).not.toEqual(previewed);
+  });
+
+  it('has equal names in the drag and at rest, whatever its letter', async () => {
+    editor.commits.run(setOthers('react'));
+    rest();
+    dragTo(10);
+    generator.last.on.final(final(sent('BACDEF', 0)), 12);
+    await Promise.resolve();
+    others.last.on.final(final(sent('FEDCBA', 2)), 20);
+    vi.advanceTimersByTime(1000);
+    const named = () => Object.fromEntries(editor.reading.futures.peek()!.modes.map((m) => [String(m.anchor), m.name]));
+    const [letters, inTheDrag] = [anchors(), named()];
+    editor.drag.end(goal(10));
+    rest();
+    expect(anchors()).not.toEqual(letters);
+    expect(named()).toEqual(inTheDrag);
   });
 
   it('is taken over from the preview, ranked and explained', async () => {

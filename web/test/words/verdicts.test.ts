@@ -13,7 +13,8 @@ import { readFutures, withNames, readGenerated } from '../../src/model/words/nam
 import { metAnew, withMeetingsOf } from '../../src/model/physics/verdict-updates';
 import { heldStill } from '../../src/model/base/motion';
 import { nameIn, startPose, withAgents } from '../../src/model/document/scene';
-import { headline, placeWord, whyAnother, whyNotLikeliest, type Walker } from '../../src/model/words/verdict-words';
+import { headline, placeWord, type Walker } from '../../src/model/words/verdict-words';
+import { whyAnother, whyNotLikeliest } from '../../src/model/words/why-shown';
 import { generatedJson, writeScene } from '../../src/model/document/scene-writer';
 import { FrozenNames } from '../../src/edit/asking/frozen-names';
 import { outcome } from '../../src/edit/asking/outcome-words';
@@ -117,14 +118,14 @@ describe('verdicts', () => {
   it('are summed up by the worst of the shown one, and by letter', () => {
     expect(headline(six(), 0, 8, who)).toEqual({
       mark: 'rule',
-      title: 'Over the median at 3.2 s, goal reached',
-      words: 'A, B, C and D cross the median. E reaches the goal by road. F misses the goal.',
+      title: 'Reaches the goal, but crosses the median at 3.2 s',
+      words: 'A to D cross the median. E reaches the goal by road. F misses the goal.',
       at: 3.2,
     });
     expect(headline(six(true), 0, 8, who)).toMatchObject({
       mark: 'collision',
-      title: 'Hits Car 2 at 5.4 s, goal reached',
-      words: 'A hits Car 2. B, C and D cross the median. E reaches the goal by road. F misses the goal.',
+      title: 'Reaches the goal, but hits Car 2 at 5.4 s',
+      words: 'A hits Car 2. B to D cross the median. E reaches the goal by road. F misses the goal.',
     });
     expect(headline(six(), 4, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
     expect(headline(six(), 5, 8, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
@@ -369,14 +370,20 @@ describe('letters and ranks', () => {
 
   it('report why another is shown than the one before', () => {
     const f = six(true);
-    expect([whyNotLikeliest(f, 2, nameOf), whyNotLikeliest(f, 0, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
+    expect([whyNotLikeliest(f, 1, nameOf), whyNotLikeliest(f, 0, nameOf)]).toEqual(['B is shown: A hits Car 2', null]);
+    // All likelier ones are in the reason, those without a worse fault too.
+    expect(whyNotLikeliest(f, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
+    expect(whyNotLikeliest(f, 2, nameOf)).toBe(
+      'C is shown: A hits Car 2; B has a higher cost for all road users together',
+    );
     const alike = { ...f, modes: f.modes.map((m) => ({ ...m, about: f.modes[2].about })) };
     expect(whyNotLikeliest(alike, 1, nameOf)).toBe(
       'B is shown: lower cost for all road users together than A, the likeliest',
     );
-    expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
-    expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B crosses the median');
-    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: more likely than C');
+    expect(whyAnother(f, 0, 1, nameOf)).toBe('B is shown: A hits Car 2');
+    expect(whyAnother(f, 3, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
+    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: A hits Car 2; C is less likely');
+    expect(whyAnother(alike, 1, 0, nameOf)).toBe('A is shown: more likely than B');
     expect(whyAnother(f, -1, 0, nameOf)).toBe('A is shown: the previous future is gone');
     expect(whyAnother(f, 3, 3, nameOf)).toBeNull();
   });
@@ -467,7 +474,7 @@ describe('events', () => {
     expect(met.modes.map((m) => m.about!.faults.map((x) => [x.kind, x.with]))).toEqual([[['collision', '2']], []]);
     expect(met.modes[0].sent!.faults).toHaveLength(1);
     expect(met.modes[1]).toBe(f.modes[1]);
-    expect(headline(met, 0, 8, who)!.title).toMatch(/^Hits Car 2 at 3\.\d s, goal reached$/);
+    expect(headline(met, 0, 8, who)!.title).toMatch(/^Reaches the goal, but hits Car 2 at 3\.\d s$/);
     expect(headline(met, 1, 8, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
     // Removed again, no fault remains; an unchanged one is skipped; no road user meets itself.
     expect(metAnew(own, met, there(400)).modes[0].about!.faults).toEqual([]);

@@ -7,7 +7,7 @@ import { Icon } from '../parts/icons';
 import { coversHand } from './keep-clear';
 import { TEXTS } from '../../texts/desk/hud';
 
-const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseOthersReact];
+const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseToReact];
 /** Half width of the hint with all steps and with one, and its extent from its edge, up and down. */
 const HALF_WIDTH_PX = 340;
 const HALF_STEP_PX = 200;

@@ -7,7 +7,8 @@ import { takePin, unpin } from '../../model/document/pins';
 import { endsBefore } from '../../model/base/motion';
 import { goalTimeOf, hasGoal, nameIn, touched, type Agent, type Pin, type Scene } from '../../model/document/scene';
 import { seconds } from '../../model/base/units';
-import { placeWord, whyNotLikeliest } from '../../model/words/verdict-words';
+import { placeWord } from '../../model/words/verdict-words';
+import { whyNotLikeliest } from '../../model/words/why-shown';
 import { perform } from '../../actions/registry';
 import { verdictsHold } from '../../edit/moves/goal-verdict';
 import { takeFuture } from '../../edit/moves/moves';
@@ -30,7 +31,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     if (editor.reading.outdated.value) return TEXTS.beforeTheLastChange;
     if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
     const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
-    if (hasGoal(a.goal)) return TEXTS.of(n);
+    if (hasGoal(a.goal)) return TEXTS.byRank(n);
     return editor.reading.replays.value ? TEXTS.noneChosenYet(n) : TEXTS.noGoalSet(n);
   });
   return (
@@ -42,7 +43,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
       <FutureList agent={agent} />
       <Remark agent={agent} />
       <ActionButton id="rounds" class="line rounds" size={15} withKey>
-        {TEXTS.compareInRounds}
+        {TEXTS.keepOrReject}
       </ActionButton>
     </section>
   );

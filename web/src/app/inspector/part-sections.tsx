@@ -93,7 +93,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   const place = useComputed(() => {
     const a = agent.value;
     const drag = editor.reading.throttle.read(() => editor.drag.info.value);
-    if (drag?.grip.part === 'goal' && drag.lane) return drag.lane.place;
+    if (drag?.grip.part === 'goal' && drag.lane) return drag.lane.name;
     if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asRecordedNote;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;

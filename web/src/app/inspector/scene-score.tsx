@@ -29,21 +29,22 @@ function figures(e: Editor): (readonly [string, string])[] {
   const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
   const events = counted(e.reading.events.value);
   const hits = events.filter((ev) => ev.kind === 'collision').length;
-  // Without an event in the scene a small gap is one of the recording.
-  const seconds = (s: number, least: number): string =>
-    `${num(s, 1)} s${!events.length && s < least ? ` · ${TEXTS.inTheRecording}` : ''}`;
+  // A small time of two road users that both follow their recording is no result of an edit.
   const ttc = threshold(scene, 'ttc_s');
+  const seconds = (s: number, isRecorded: boolean): string =>
+    `${num(s, 1)} s${isRecorded && s < ttc ? `, ${TEXTS.fromTheRecording}` : ''}`;
   const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
   const reached = goals.filter((a) => meetsGoal(set, a)).length;
   const far = all.flatMap((a) =>
     set.driving.has(a.id) ? (comparedWithLog(a, e.reading.motionFor(a), scene.duration) ?? []) : [],
   );
   const furthest = far.reduce((most, c) => Math.max(most, c.d), 0);
-  const { minTtc, pet } = set.score;
+  const { minTtc, minTtcPair, pet } = set.score;
+  const recordedPair = minTtcPair?.every((id) => !set.driving.has(id)) ?? false;
   return [
     [TEXTS.collisionsPer, num(hits / Math.max(1, all.length), 2)],
-    [TEXTS.minimumTtc, minTtc === null ? TEXTS.none : seconds(minTtc, ttc)],
-    ...(pet == null ? [] : [[TEXTS.minimumPet, seconds(pet, ttc)] as const]),
+    [TEXTS.minimumTtc, minTtc === null ? TEXTS.none : seconds(minTtc, recordedPair)],
+    ...(pet == null ? [] : [[TEXTS.minimumPet, seconds(pet, !set.driving.size)] as const]),
     ...(goals.length ? [[TEXTS.goalsReached, TEXTS.countOf(reached, goals.length)] as const] : []),
     ...(furthest > 0 ? [[TEXTS.largestDistance, metres(furthest, 1)] as const] : []),
   ];

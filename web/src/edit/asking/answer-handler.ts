@@ -16,7 +16,7 @@ import { goesOneWay } from '../../model/document/reaction-records';
 import { readFutures, withNames } from '../../model/words/named-futures';
 import { findChanges } from '../../model/words/change-words';
 import { nameIn, sceneKey, startPose, touchedIn, type Agent, type Scene } from '../../model/document/scene';
-import { whyAnother, whyNotLikeliest } from '../../model/words/verdict-words';
+import { whyAnother, whyNotLikeliest } from '../../model/words/why-shown';
 import type { Handlers } from '../../net/generator';
 import { inWords } from '../../net/refusal';
 import type { DraftEvent, FinalEvent, Problem } from '../../net/types';
@@ -170,7 +170,7 @@ export class AnswerHandler {
         return false;
       }
       const id = subject && e.agents[subject] && editor.selection.peek() === subject ? subject : null;
-      const drawn = id !== null && !this.#knownBetter(scene) && this.#draw(id, e.agents[id], step, steps, at.keep);
+      const drawn = id !== null && !this.#knownBetter && this.#draw(id, e.agents[id], step, steps, at.keep);
       editor.answers.report({ kind: 'refining', step, steps, ms });
       return drawn;
     });
@@ -245,12 +245,18 @@ export class AnswerHandler {
    */
   #isForOthersToSay(scene: Scene, reach: Reach): boolean {
     if (!this.editor.drag.active.peek()) return false;
-    return this.#knownBetter(scene) || (scene.others === 'react' && isBlocked(reach));
+    return this.#knownBetter || (scene.others === 'react' && isBlocked(reach));
   }
 
-  /** Has a reaction preview of this document replaced the answer of the drag's own question? */
-  #knownBetter(scene: Scene): boolean {
-    return this.#previewed !== null && this.editor.drag.active.peek() && this.#previewed.key === sceneKey(scene);
+  /** Is a reaction preview of the shown document on screen? Answers of the drag's own questions are less exact. */
+  get #knownBetter(): boolean {
+    const scene = this.editor.scene.peek();
+    return (
+      this.#previewed !== null &&
+      this.editor.drag.active.peek() &&
+      scene !== null &&
+      this.#previewed.key === sceneKey(scene)
+    );
   }
 
   /** During a drag a collision with a road user that would give way is not shown. */
@@ -301,7 +307,7 @@ export class AnswerHandler {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach && !this.#isForOthersToSay(scene, reach)) editor.answers.judge(id, reach);
       if (!dragging && !editor.answers.motion.peek().stale) editor.answers.look(id, f, reach);
-      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) this.#show(scene.agents.get(id)!, f);
+      else if (editor.selection.peek() === id && !this.#knownBetter) this.#show(scene.agents.get(id)!, f);
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;

@@ -71,6 +71,7 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       })),
     ],
     minTtc: s.min_ttc_s,
+    minTtcPair: s.min_ttc_pair,
     pet: s.pet_s,
     petOf: petsOf(reply),
     offroadShare: s.offroad_share,

@@ -175,6 +175,8 @@ export interface Score {
   readonly nearMisses: readonly NearMiss[];
   readonly stretches?: readonly LastingFault[];
   readonly minTtc: number | null;
+  /** Ids of the two with that time to collision. */
+  readonly minTtcPair?: readonly string[] | null;
   /** Least time between one road user leaving a place and another arriving there, seconds. */
   readonly pet?: number | null;
   /** The same for each road user of such a pair. */

@@ -1,6 +1,5 @@
 // Faults of futures in words: one at the place, one in a headline, and a summary by letter.
 import {
-  compareFaults,
   faultMark,
   leavesRoad,
   markOf,
@@ -10,7 +9,7 @@ import {
   type Mark,
 } from '../document/future-facts';
 import { THRESHOLDS } from '../base/domain';
-import { LETTERS, rankOf, type Futures } from '../document/futures';
+import { LETTERS, type Futures } from '../document/futures';
 import type { LaneMap } from '../document/lanemap';
 import type { NameOf } from '../document/scene';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
@@ -110,7 +109,7 @@ export function headline(f: Futures, chosen: number, goalTime: number | null, wh
     toGoal && all && only
       ? only(seconds(worst.time))
       : toGoal
-        ? TEXTS.butReached(capitalised(word), at)
+        ? TEXTS.butReached(doesWhat(worst, who.nameOf), at)
         : `${capitalised(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
   return { mark, title, words, at: worst.time };
 }
@@ -137,7 +136,7 @@ function reachedBy(f: Futures, open: readonly number[]): string {
 /** Futures that no road user follows are planned only for the first planning window. */
 function openWords(f: Futures, open: readonly number[]): string {
   const until = seconds(lastStep(f.modes[open[0]].motion) * STEP_S);
-  return TEXTS.plannedUpTo(and(open.map((i) => LETTERS[i])), open.length, until);
+  return TEXTS.plannedUpTo(lettersOf(open), open.length, until);
 }
 
 // -------------------------------------------------------------- summary by letter
@@ -145,33 +144,57 @@ function openWords(f: Futures, open: readonly number[]): string {
 const and = (list: readonly string[]): string =>
   list.length < 2 ? list.join('') : TEXTS.and(list.slice(0, -1).join(', '), list.at(-1));
 
-interface FaultGroup {
+/** `A, C and D`; three or more in a row are `A to D`. */
+function lettersOf(indexes: readonly number[]): string {
+  const runs: number[][] = [];
+  for (const i of indexes) {
+    const run = runs.at(-1);
+    if (run && run.at(-1) === i - 1) run.push(i);
+    else runs.push([i]);
+  }
+  return and(
+    runs.flatMap((run) =>
+      run.length > 2 ? [TEXTS.through(LETTERS[run[0]], LETTERS[run.at(-1)!])] : run.map((i) => LETTERS[i]),
+    ),
+  );
+}
+
+export interface FaultGroup {
   readonly key: string;
-  readonly letters: string[];
+  readonly futures: number[];
   /** `cross the median` and `crosses the median`. */
   readonly many: string;
   readonly one: string;
 }
 
-/** `A, B, C and D cross the median. E reaches the goal by road. F stops short.` */
+/** `A to D cross the median. E reaches the goal by road. F stops short.` */
 function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker): string {
   const named = f.modes[chosen].about?.faults[0]?.kind ?? null;
   const offRoad = f.modes.some((m) => m.about?.faults.some(leavesRoad));
+  const list = grouped(f.modes, (i) => groupOf(f, i, f.modes[i].about ?? null, { named, offRoad, hasGoal, who }));
+  if (list.length === 1 && list[0].futures.length === f.modes.length) {
+    const [{ key, many, futures }] = list;
+    return key === 'ok' || futures.length < 2 ? '' : TEXTS.all(SIX[futures.length], many);
+  }
+  return list.map((g) => `${sentence(g)}.`).join(' ');
+}
+
+/** The futures by what they do, in the order of their letters. */
+export function grouped(modes: Futures['modes'], of: (i: number) => FaultGroup | null): FaultGroup[] {
   const groups = new Map<string, FaultGroup>();
-  f.modes.forEach((m, i) => {
-    const g = groupOf(f, i, m.about ?? null, { named, offRoad, hasGoal, who });
+  modes.forEach((_, i) => {
+    const g = of(i);
     if (!g) return;
     const known = groups.get(g.key) ?? g;
     groups.set(g.key, known);
-    known.letters.push(LETTERS[i]);
+    known.futures.push(i);
   });
-  const list = [...groups.values()];
-  if (list.length === 1 && list[0].letters.length === f.modes.length) {
-    const [{ key, many, letters }] = list;
-    return key === 'ok' || letters.length < 2 ? '' : TEXTS.all(SIX[letters.length], many);
-  }
-  return list.map((g) => `${and(g.letters)} ${g.letters.length > 1 ? g.many : g.one}.`).join(' ');
+  return [...groups.values()];
 }
+
+/** `A to D cross the median` */
+export const sentence = ({ futures, many, one }: FaultGroup): string =>
+  `${lettersOf(futures)} ${futures.length > 1 ? many : one}`;
 
 interface VerdictContext {
   /** The kind that the headline names already. */
@@ -181,9 +204,10 @@ interface VerdictContext {
   readonly who: Walker;
 }
 
-const group = (key: string, many: string, one: string): FaultGroup => ({ key, letters: [], many, one });
+export const group = (key: string, many: string, one: string): FaultGroup => ({ key, futures: [], many, one });
 
-function groupOf(f: Futures, i: number, about: FutureFacts | null, said: VerdictContext): FaultGroup | null {
+/** The group of a future by its worst fault; null where nothing is to be said. */
+export function groupOf(f: Futures, i: number, about: FutureFacts | null, said: VerdictContext): FaultGroup | null {
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
@@ -247,39 +271,9 @@ export function crossingWords(map: LaneMap, edges: readonly string[]): typeof TE
   return edges.every((id) => medians.has(id)) ? TEXTS.thisMedian : TEXTS.thisKerb;
 }
 
-// -------------------------------------------------------------- reasons for another future
-
-/** Why the future at `shown` is shown instead of the one at `was`: the worse fault of that one; null without one. */
-function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
-  const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
-  if (!old || !now || compareFaults(old, now) >= 0) return null;
-  const [worst] = old.faults;
-  return TEXTS.isShown(LETTERS[shown], LETTERS[was], WHY[faultMark(worst)](worst, nameOf));
-}
-
-/** Why the shown future is not the likeliest; null where it is. */
-export function whyNotLikeliest(f: Futures, shown: number, nameOf: NameOf): string | null {
-  const first = f.modes.findIndex((_, i) => rankOf(f.modes, i) === 1);
-  if (first === shown || !f.modes[first]?.about || !f.modes[shown]) return null;
-  return whyNot(f, first, shown, nameOf) ?? TEXTS.costsLess(LETTERS[shown], LETTERS[first]);
-}
-
-/** Why another future is shown than the bold one before, in any case. */
-export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
-  const [old, now] = [f.modes[was], f.modes[shown]];
-  if (!now || was === shown) return null;
-  if (!old) return TEXTS.previousIsGone(LETTERS[shown]);
-  const plain = now.probability > old.probability ? TEXTS.isLikelier : TEXTS.wasInTheDrag;
-  return whyNot(f, was, shown, nameOf) ?? plain(LETTERS[shown], LETTERS[was]);
-}
-
-const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
-  collision: placeWord,
-  rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
-  near: (f, nameOf) => TEXTS.nearlyHits(somebody(f, nameOf)),
-  short: (f, nameOf) => TEXTS.ends(placeWord(f, nameOf)),
-  ok: () => '',
-};
+/** What a future with this fault does, as a verb. */
+const doesWhat = (f: Fault, nameOf: NameOf): string =>
+  faultMark(f) === 'near' ? TEXTS.nearlyHits(somebody(f, nameOf)) : (RULE_VERBS[f.kind] ?? placeWord(f, nameOf));
 
 const RULE_VERBS: Partial<Record<FaultKind, string>> = {
   red_light: TEXTS.runsARedLight,
@@ -291,4 +285,5 @@ const RULE_VERBS: Partial<Record<FaultKind, string>> = {
   speeding: TEXTS.exceedsTheLimit,
   running: TEXTS.runs,
   askew: TEXTS.endsAskew,
+  via_missed: TEXTS.missesAVia,
 };

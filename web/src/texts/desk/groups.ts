@@ -8,7 +8,7 @@ export const GROUP_TITLES = table('groups', {
   edit: 'Copy, lock and delete',
   move: 'Move and turn',
   goal: 'Set goals, choose futures',
-  rounds: 'Compare in rounds',
+  rounds: 'Keep or reject futures',
   time: 'Play and step through time',
   variants: 'Make and compare variants',
   scene: 'Open, save and share',

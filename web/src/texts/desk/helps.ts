@@ -96,7 +96,7 @@ export const HELPS = table('helps', {
   theRoadUsers: 'Adds the previewed road users to the scene; closes an open outline first',
   anotherSeed: 'Another seed; pinned road users stay. Click one in the preview to pin it.',
   keysActOnThisCard: 'Keys act on this card, and playback shows it',
-  keepAndReject: 'Compare futures of one road user or of the whole scene in rounds; new ones follow your choices',
+  keepAndReject: 'Keep or reject the futures of one road user or of the whole scene; the next six follow your answers',
   withoutReactions: 'Futures of one road user, without reactions of others',
   eachCardIs: 'Each card is a future of all road users together',
   theNextRound: 'The next round continues from it; press again to clear',

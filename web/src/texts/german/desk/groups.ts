@@ -8,7 +8,7 @@ export const german: Said<typeof GROUP_TITLES> = {
   edit: 'Kopieren, sperren, löschen',
   move: 'Bewegen und drehen',
   goal: 'Ziele setzen, Zukünfte wählen',
-  rounds: 'In Runden vergleichen',
+  rounds: 'Zukünfte behalten oder verwerfen',
   time: 'Abspielen, Zeit wählen',
   variants: 'Varianten erzeugen, vergleichen',
   scene: 'Öffnen, sichern, teilen',
