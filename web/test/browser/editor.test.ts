@@ -513,8 +513,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 40, y - 60]);
     await d.page.waitForSelector('.hint.near');
     expect(await d.text('.hint')).toBe(
-      'Over the median at 3.2 s, goal reached\n' +
-        'A, B, C and D cross the median. E reaches the goal by road. F misses the goal.',
+      'Reaches the goal, but crosses the median at 3.2 s\n' +
+        'A to D cross the median. E reaches the goal by road. F misses the goal.',
     );
     const marks = () =>
       d.page.locator('.fu .mk').evaluateAll((all) => all.map((e) => e.className.replace('mk', '').trim()));
