@@ -6,7 +6,7 @@ import { group, grouped, groupOf, sentence, type Walker } from './verdict-words'
 import { TEXTS } from '../../texts/scene/verdicts';
 
 /** Key of those without a worse fault. */
-const NO_WORSE = 'no worse';
+const NO_WORSE = 'no-worse';
 
 /**
  * Why the future at `shown` is shown instead of the likelier ones and of the one at `was`: their worse faults, and cost
@@ -25,7 +25,7 @@ function whyNotOthers(f: Futures, shown: number, nameOf: NameOf, was = shown): s
       return groupOf(f, i, about, { named: null, offRoad: false, hasGoal: false, who });
     return isLikelier
       ? group(NO_WORSE, TEXTS.haveHigherCost, TEXTS.hasHigherCost)
-      : group(`${NO_WORSE}, was`, TEXTS.isLessLikely, TEXTS.isLessLikely);
+      : group(`${NO_WORSE}-was`, TEXTS.isLessLikely, TEXTS.isLessLikely);
   });
   const [worse, others] = [false, true].map((no) => all.filter((g) => g.key.startsWith(NO_WORSE) === no));
   return worse.length ? TEXTS.isShown(LETTERS[shown], [...worse, ...others].map(sentence).join('; ')) : null;

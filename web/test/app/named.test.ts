@@ -6,7 +6,7 @@ import type { Editor } from '../../src/edit/session/editor';
 import { setGoal } from '../../src/model/document/commands';
 import type { ModeJson } from '../../src/model/document/scene-json';
 import { judged } from '../standin/judged.mjs';
-import { finalWith, late, Session, six } from './session';
+import { finalWith, late, Session, six } from '../edit/session';
 
 let s: Session;
 let editor: Editor;
