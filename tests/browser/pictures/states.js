@@ -41,7 +41,7 @@ async function waiting(e) {
 
 /** The drag pauses: all refinement steps are done, and the futures have the names that they have at rest. */
 async function refined(e) {
-  await e.until(() => document.querySelector('[aria-label="Futures"] small').textContent === 'of six');
+  await e.until(() => document.querySelector('[aria-label="Futures"] small').textContent.startsWith('six, #1'));
   // A second of frames without a new word: the names change 0.45 s after the last answer.
   for (let last = '', same = 0; same < 6;) {
     await e.frames(10);
