@@ -1,4 +1,5 @@
 // The scene in four figures: collisions, closest approach, goals reached, distance from the recording.
+import type { ComponentChildren } from 'preact';
 import { counted } from '../../model/physics/events';
 import { comparedWithLog } from '../../model/words/change-words';
 import { meetsGoal } from '../../model/physics/playback';
@@ -23,7 +24,7 @@ export function SceneScore() {
   );
 }
 
-function figures(e: Editor): (readonly [string, string])[] {
+function figures(e: Editor): (readonly [string, ComponentChildren])[] {
   const [scene, set] = [e.scene.value, e.answers.motion.value];
   if (!scene?.agents.size || !set.score || set.stale) return [];
   const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
@@ -31,8 +32,11 @@ function figures(e: Editor): (readonly [string, string])[] {
   const hits = events.filter((ev) => ev.kind === 'collision').length;
   // A small time of two road users that both follow their recording is no result of an edit.
   const ttc = threshold(scene, 'ttc_s');
-  const seconds = (s: number, isRecorded: boolean): string =>
-    `${num(s, 1)} s${isRecorded && s < ttc ? `, ${TEXTS.fromTheRecording}` : ''}`;
+  const seconds = (s: number, isRecorded: boolean): ComponentChildren => (
+    <>
+      {num(s, 1)} s{isRecorded && s < ttc ? <small> {TEXTS.inTheRecording}</small> : null}
+    </>
+  );
   const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
   const reached = goals.filter((a) => meetsGoal(set, a)).length;
   const far = all.flatMap((a) =>

@@ -28,7 +28,7 @@ export const TEXTS = table('inspector', {
   noSignals: 'no signals',
   licence: (licence: string) => `Licence: ${licence}`,
   score: 'Score',
-  fromTheRecording: 'from the recording',
+  inTheRecording: 'in the recording',
   collisionsPer: 'Collisions per road user',
   minimumTtc: 'Minimum TTC',
   none: 'none',

@@ -30,7 +30,7 @@ export const german: Said<typeof TEXTS> = {
   noSignals: 'keine Ampeln',
   licence: (licence: string) => `Lizenz: ${licence}`,
   score: 'Bewertung',
-  fromTheRecording: 'aus der Aufzeichnung',
+  inTheRecording: 'in der Aufzeichnung',
   collisionsPer: 'Zusammenstöße je Verkehrsteilnehmer',
   minimumTtc: 'Kleinste TTC',
   none: 'keine',
