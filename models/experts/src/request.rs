@@ -110,6 +110,8 @@ pub struct Refining {
     pub start: usize,
     /// The networks are shown the way downhill in the scene's energy and take their share of it.
     pub repulsion: bool,
+    /// The networks attend to the drafts of the agents that each draft meets.
+    pub attention: bool,
     /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
     /// those of a first sample that is chosen.
     pub resolve_overlaps: bool,
@@ -117,7 +119,7 @@ pub struct Refining {
 
 impl Default for Refining {
     fn default() -> Self {
-        Self { start: schedule::START, repulsion: true, resolve_overlaps: true }
+        Self { start: schedule::START, repulsion: true, attention: true, resolve_overlaps: true }
     }
 }
 

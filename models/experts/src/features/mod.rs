@@ -7,6 +7,7 @@ pub mod agent;
 mod ahead;
 pub mod block;
 mod encode;
+pub mod encounters;
 pub mod tables;
 mod tangent;
 #[cfg(test)]

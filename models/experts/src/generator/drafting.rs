@@ -8,14 +8,14 @@ use super::duplicate_modes;
 use super::joint_drafts::JointDrafts;
 use super::noise::NoiseKey;
 use super::overlaps::resolve_overlaps;
-use super::repulsion::{outlines, repulsions};
+use super::repulsion::{outlines, surroundings};
 use super::sampling::widen;
 use super::slot::Slot;
 use super::trajectory::may_rest;
 use super::window_setting::WindowSetting;
 use crate::features::stays_in_the_world;
 use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
-use crate::planning::{MODES, Modes, RESIDUAL};
+use crate::planning::{MODES, Modes};
 use crate::request::{GenerateError, Request, Shown};
 use crate::tuning::fixed::drafting::STAYS_ABOVE;
 use crate::weights::EXPERTS;
@@ -164,21 +164,17 @@ pub(super) fn refine(
     let drawn = sample > 0 || stages.shown != Shown::Chosen;
     let resolves = drawn && stages.refining.resolve_overlaps && step == levels.len();
     let energy = of.energy();
-    let obstacles = if stages.refining.repulsion || resolves {
-        outlines(others.sweeps(), energy.tuning)
-    } else {
-        Vec::new()
-    };
-    let repulsions = if stages.refining.repulsion {
-        repulsions(&energy, setting.workers(), actors, &drafts, &obstacles)
-    } else {
-        vec![[[0.0; RESIDUAL]; MODES]; actors.len()]
-    };
+    let obstacles = outlines(others.sweeps(), energy.tuning);
+    let attending = attending(setting, batches)?;
+    let (workers, refining) = (setting.workers(), &stages.refining);
+    let seen = surroundings(&energy, workers, (actors, &drafts), &obstacles, (refining, &attending));
     let results = setting.workers().map(batches, |batch| {
         let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].plain()).collect();
-        let repulsion: Vec<Modes> = batch.actors.iter().map(|i| repulsions[*i]).collect();
+        let repulsion: Vec<Modes> = batch.actors.iter().map(|i| seen[*i].repulsion).collect();
+        let encounters: Vec<_> = batch.actors.iter().map(|i| seen[*i].encounters.clone()).collect();
         let expert = setting.resources.expert(batch.agent_type)?;
-        Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, &repulsion, level, None)?)
+        let inputs = (&*repulsion, &*encounters);
+        Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, inputs, level, None)?)
     });
     for (batch, result) in batches.iter().zip(results) {
         for (i, modes) in batch.actors.iter().zip(result?) {
@@ -190,6 +186,17 @@ pub(super) fn refine(
         resolve_overlaps(&energy, actors, &mut drafts, &obstacles);
     }
     Ok(drafts)
+}
+
+/// The types whose experts attend to encounters.
+fn attending(setting: &WindowSetting<'_>, batches: &[Batch]) -> Result<Vec<AgentType>, GenerateError> {
+    let mut found = Vec::new();
+    for batch in batches {
+        if !found.contains(&batch.agent_type) && setting.resources.expert(batch.agent_type)?.attends() {
+            found.push(batch.agent_type);
+        }
+    }
+    Ok(found)
 }
 
 /// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.

@@ -8,14 +8,16 @@ use super::motion::{Places, Sweep};
 use super::slot::Slot;
 use super::trajectory::{as_it_is, places};
 use super::workers::WorkerPool;
+use crate::features::encounters::{Encounters, encounters};
 use crate::planning::pullback::Pullback;
-use crate::planning::{INSTANTS, MODES, Modes, RESIDUAL, Residual};
+use crate::planning::{INSTANTS, Modes, Residual};
+use crate::request::Refining;
 use crate::tuning::OverlapTuning;
 use scene::geometry::direction;
 use scene::geometry::overlap_energy::{
     Bounds, Growth, MovingBox, OverlapEnergy, Poses, absent, carried_back, carried_on, overlap_energy,
 };
-use scene::{Size, Vec2};
+use scene::{AgentType, Size, Vec2};
 
 /// Boxes farther apart than this do not matter to each other, metres.
 const NEAR_M: f32 = 1.0;
@@ -152,28 +154,51 @@ fn energy_among(
     overlap_energy(own, half, obstacles, Growth::Square)
 }
 
-/// The repulsion of every mode of every actor: the refiner's input.
-pub(super) fn repulsions(
+/// What the refiner sees of the others beside an actor's modes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Surroundings {
+    /// The way downhill in the energy of overlapping boxes.
+    pub(super) repulsion: Modes,
+    /// Those that each mode meets.
+    pub(super) encounters: Encounters,
+}
+
+/// The surroundings of every actor's modes, where all others move along their leading drafts. Only actors of the
+/// `attending` types have encounters.
+pub(super) fn surroundings(
     energy: &SceneEnergy<'_>,
     workers: &WorkerPool,
-    actors: &[PlannedActor],
-    drafts: &[Drafts],
+    (actors, drafts): (&[PlannedActor], &[Drafts]),
     background: &[Outline],
-) -> Vec<Modes> {
+    (refining, attending): (&Refining, &[AgentType]),
+) -> Vec<Surroundings> {
+    let looks = refining.attention && !attending.is_empty();
+    if !refining.repulsion && !looks {
+        return vec![Surroundings::default(); actors.len()];
+    }
     let leading = leading_outlines(actors, drafts, energy.tuning);
     let indices: Vec<usize> = (0..actors.len()).collect();
     workers.map(&indices, |&i| {
-        let actor = &actors[i];
+        let (actor, mut seen) = (&actors[i], Surroundings::default());
         if actor.rests {
-            return [[0.0; RESIDUAL]; MODES];
+            return seen;
         }
         let others = leading.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
         let others: Vec<&Outline> = others.chain(background).collect();
-        std::array::from_fn(|mode| {
-            let slot = Slot::new(mode);
-            let found = energy.downhill(actor, slot, slot.of(&drafts[i].modes), &others, Terms::Boxes);
-            found.map_or([0.0; RESIDUAL], |(_, downhill)| downhill)
-        })
+        for slot in Slot::all() {
+            let residual = slot.of(&drafts[i].modes);
+            if looks && attending.contains(&actor.plan.present.agent_type) {
+                let own = poses_of(&places(&actor.plan, slot, residual).map(Some));
+                let boxes = others.iter().map(|o| MovingBox { poses: &o.now.poses, half: o.half });
+                seen.encounters[slot.index()] = encounters(&own, half_of(&actor.plan.present.size), boxes);
+            }
+            if refining.repulsion
+                && let Some((_, downhill)) = energy.downhill(actor, slot, residual, &others, Terms::Boxes)
+            {
+                seen.repulsion[slot.index()] = downhill;
+            }
+        }
+        seen
     })
 }
 
@@ -215,6 +240,7 @@ fn poses_of(places: &Places) -> Poses<INSTANTS> {
 mod tests {
     use super::*;
     use crate::generator::samples::car_on_a_street;
+    use crate::planning::RESIDUAL;
     use crate::tuning::SHIPPED;
     use scene::Goal;
 

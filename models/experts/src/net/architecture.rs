@@ -24,14 +24,21 @@ pub struct Architecture {
     pub width: usize,
     /// Multi-context-gating blocks.
     pub gating_blocks: usize,
-    /// Blocks of the refiner.
+    /// MLP blocks of a refiner without attention.
     pub refiner_blocks: usize,
+    /// Pairs of attention in their place: to what a draft meets, then to the context. 0 in the shipped weights.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub refiner_attention: usize,
     /// Heads of every attention.
     pub heads: usize,
     /// Scale of a draw's noise, percent of 1 m/s2 along and 1 m across.
     pub noise_percent: u32,
     /// Hash of the tables of features that the expert was trained on.
     pub features: String,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Default for Architecture {
@@ -41,6 +48,7 @@ impl Default for Architecture {
             width: 128,
             gating_blocks: 4,
             refiner_blocks: 2,
+            refiner_attention: 0,
             heads: 4,
             noise_percent: 100,
             features: tables_hash(),
@@ -73,6 +81,9 @@ impl Architecture {
             return refuse(format!("noise of {} percent; 1 to 1000 can be", self.noise_percent));
         }
         let sizes = [self.width, self.gating_blocks, self.refiner_blocks, self.heads];
+        if self.refiner_attention > 16 {
+            return refuse(format!("{} pairs of attention; 0 to 16 can be", self.refiner_attention));
+        }
         if sizes.iter().any(|&size| size == 0 || size > 4096) || !self.width.is_multiple_of(self.heads) {
             return refuse(format!("sizes {sizes:?} (width, blocks, heads) cannot be"));
         }

@@ -9,10 +9,11 @@ use super::architecture::Architecture;
 use super::encoder::{Context, ContextEncoder};
 use super::error::NetError;
 use super::initializer::{Initial, Initializer};
-use super::inputs::InputTensors;
+use super::inputs::{EncounterTensors, InputTensors};
 use super::params::Params;
-use super::refiner::{Prepared, Refiner};
+use super::refiner::{DraftInputs, Prepared, Refiner};
 use crate::features::AgentFeatures;
+use crate::features::encounters::Encounters;
 use crate::planning::{MODES, RESIDUAL};
 
 /// The one member of the file's metadata. One, because the order of several would be by chance and the
@@ -119,6 +120,21 @@ impl Expert {
         Self::read(bytes, true, device)
     }
 
+    /// The same trainable expert with more pairs of attention in its refiner, random ones from a seed.
+    ///
+    /// # Errors
+    /// When there are too many pairs.
+    pub fn with_attention(self, pairs: usize, seed: u64) -> Result<Self, NetError> {
+        let architecture = Architecture { refiner_attention: pairs, ..self.architecture };
+        let grown = Self::trainable(architecture, self.card, seed, &self.device)?;
+        for (name, tensor) in &self.tensors {
+            if let Some(var) = grown.vars.get(name) {
+                var.set(tensor)?;
+            }
+        }
+        Ok(grown)
+    }
+
     fn read(bytes: &[u8], trainable: bool, device: &Device) -> Result<Self, NetError> {
         let format = |error: safetensors::SafeTensorError| NetError::Format(error.to_string());
         let (_, metadata) = safetensors::SafeTensors::read_metadata(bytes).map_err(format)?;
@@ -151,6 +167,11 @@ impl Expert {
         let tensors = on_cpu(&self.tensors)?;
         safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
             .map_err(|error| NetError::Format(error.to_string()))
+    }
+
+    /// Whether its refiner looks at what drafts meet.
+    pub fn attends(&self) -> bool {
+        self.architecture.refiner_attention > 0
     }
 
     /// Number of trained numbers.
@@ -231,8 +252,9 @@ impl Expert {
     }
 
     /// One refinement step from level `t` to `t_next`, levels as given by [`super::schedule::ddim`].
-    /// `push` is made by [`Pullback::push`](crate::planning::pullback::Pullback::push) at the drafts; `noise` are standard normal
-    /// numbers, or nothing for a step without chance. One entry a road user in each.
+    /// `push` is made by [`Pullback::push`](crate::planning::pullback::Pullback::push) at the drafts, `encounters` by
+    /// [`encounters`](crate::features::encounters::encounters); `noise` are standard normal numbers, or nothing for a
+    /// step without chance. One entry an agent in each.
     ///
     /// # Errors
     /// When the counts differ from the batch's.
@@ -240,13 +262,15 @@ impl Expert {
         &self,
         prepared: &Prepared,
         residual: &[[[f32; RESIDUAL]; MODES]],
-        push: &[[[f32; RESIDUAL]; MODES]],
+        (push, encounters): (&[[[f32; RESIDUAL]; MODES]], &[Encounters]),
         levels: (usize, usize),
         noise: Option<&[[[f32; RESIDUAL]; MODES]]>,
     ) -> Result<Vec<[[f32; RESIDUAL]; MODES]>, NetError> {
         let noise = noise.map(|noise| self.tensor(noise)).transpose()?;
         let (residual, push) = (self.tensor(residual)?, self.tensor(push)?);
-        let next = self.refiner.step(prepared, &residual, &push, levels, noise.as_ref())?;
+        let encounters = EncounterTensors::stack(encounters, &self.device)?;
+        let inputs = DraftInputs { push: &push, encounters: &encounters };
+        let next = self.refiner.step(prepared, &residual, &inputs, levels, noise.as_ref())?;
         Ok(blocks(&next.flatten_all()?.to_vec1::<f32>()?))
     }
 

@@ -3,6 +3,7 @@
 use candle_core::{Device, Result, Tensor};
 
 use super::architecture::TOKENS;
+use crate::features::encounters::{ENCOUNTER, ENCOUNTERS, Encounters};
 use crate::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
 use crate::planning::{MODES, RESIDUAL};
 
@@ -51,6 +52,36 @@ impl InputTensors {
             anchors: Tensor::from_vec(anchors, (batch, MODES, ANCHOR), device)?,
             mask: Tensor::from_vec(mask, (batch, TOKENS), device)?,
             tangent: Tensor::from_vec(tangent, (batch, 2, knots, knots), device)?,
+        })
+    }
+}
+
+/// Encounters of the drafts of a batch as tensors.
+pub struct EncounterTensors {
+    /// [batch * MODES, 1 + ENCOUNTERS, ENCOUNTER]; the first of each row is nobody, all zeros.
+    pub numbers: Tensor,
+    /// [batch * MODES, 1 + ENCOUNTERS], 0 or -1e4 at padding.
+    pub mask: Tensor,
+}
+
+impl EncounterTensors {
+    /// Stacks the encounters of each agent's drafts.
+    ///
+    /// # Errors
+    /// When memory for them cannot be had.
+    pub fn stack(agents: &[Encounters], device: &Device) -> Result<Self> {
+        const TOKENS: usize = 1 + ENCOUNTERS;
+        let rows = agents.len() * MODES;
+        let (mut numbers, mut mask) = (vec![0f32; rows * TOKENS * ENCOUNTER], vec![NO; rows * TOKENS]);
+        for (row, found) in agents.as_flattened().iter().enumerate() {
+            let found = &found[..found.len().min(ENCOUNTERS)];
+            numbers[(row * TOKENS + 1) * ENCOUNTER..][..found.len() * ENCOUNTER]
+                .copy_from_slice(found.as_flattened());
+            mask[row * TOKENS..][..=found.len()].fill(0.0);
+        }
+        Ok(Self {
+            numbers: Tensor::from_vec(numbers, (rows, TOKENS, ENCOUNTER), device)?,
+            mask: Tensor::from_vec(mask, (rows, TOKENS), device)?,
         })
     }
 }

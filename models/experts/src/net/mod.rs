@@ -27,7 +27,7 @@ pub use error::NetError;
 pub use expert::{Card, Expert, InitialOutput, on_cpu};
 pub use initializer::{Initial, Initializer};
 pub use params::{Init, Params};
-pub use refiner::{Prepared, Refiner};
+pub use refiner::{DraftInputs, Prepared, Refiner};
 
 #[cfg(test)]
 mod tests;

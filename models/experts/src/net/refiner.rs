@@ -1,16 +1,20 @@
-//! The conditional diffusion model that makes drafts coherent.
+//! The conditional diffusion model that makes drafts coherent (the paper, section III-C).
 //!
-//! Each step sees, besides the draft itself, the way downhill in the overlap energy at that draft, and
-//! takes a learned share of it: plain denoising did not learn coherence, this did.
+//! Each step sees, besides the draft itself, the way downhill in the overlap energy at that draft, and takes a
+//! learned share of it. Where the architecture has pairs of attention, it also attends to the drafts of the agents
+//! that the draft meets (its encounters), as they are at that step, and to the context's tokens, which hold the
+//! conditions of the agent and of its neighbours. The shipped weights have none: see their card.
 
 use candle_core::{Result, Tensor};
 
 use super::architecture::Architecture;
 use super::encoder::Context;
 use super::error::NetError;
-use super::layers::{Linear, Mlp, MlpBlock, Norm, RELU_GAIN};
+use super::inputs::EncounterTensors;
+use super::layers::{CrossBlock, Linear, Mlp, MlpBlock, Norm, RELU_GAIN};
 use super::params::Params;
 use super::{ops, schedule, smooth};
+use crate::features::encounters::ENCOUNTER;
 use crate::planning::{MODES, RESIDUAL};
 
 /// Numbers that say the noise level.
@@ -24,22 +28,44 @@ pub struct Prepared {
     /// Anchors and context, [batch, MODES, width].
     base: Tensor,
     tangent: Tensor,
+    /// Tokens of the context [batch, 1 + TOKENS, width], and their additive mask.
+    tokens: Tensor,
+    mask: Tensor,
 }
 
 impl Prepared {
     /// The same numbers without their history, so that nothing flows back through them.
     pub fn detach(&self) -> Self {
-        Self { base: self.base.detach(), tangent: self.tangent.clone() }
+        let (base, tokens) = (self.base.detach(), self.tokens.detach());
+        Self { base, tokens, tangent: self.tangent.clone(), mask: self.mask.clone() }
     }
 }
 
-/// Denoises residuals given their anchors and the context vector. Attention to the context's tokens at each
-/// step, as in the paper, brought nothing beside the push and is left to the initializer.
+/// A pair of attention: of each draft to what it meets, then of all drafts of an agent to its context.
+#[derive(Clone, Debug)]
+struct AttentionPair {
+    encounters: CrossBlock,
+    context: CrossBlock,
+}
+
+/// What a refiner is told about drafts at a step.
+pub struct DraftInputs<'a> {
+    /// The way downhill in the overlap energy, [batch, MODES, RESIDUAL], from [`super::overlap`].
+    pub push: &'a Tensor,
+    /// What the drafts meet.
+    pub encounters: &'a EncounterTensors,
+}
+
+/// Denoises residuals given what the drafts meet, their anchors and the context.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     draft: Linear,
     anchor: Linear,
     context: Linear,
+    /// Absent without pairs of attention.
+    encounter: Option<Mlp>,
+    pairs: Vec<AttentionPair>,
+    /// None beside pairs of attention.
     blocks: Vec<MlpBlock>,
     norm: Norm,
     head: Mlp,
@@ -54,9 +80,21 @@ impl Refiner {
     /// When the parameters cannot be had.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
-        let blocks = (0..a.refiner_blocks)
+        let plain_blocks = if a.refiner_attention == 0 { a.refiner_blocks } else { 0 };
+        let blocks = (0..plain_blocks)
             .map(|block| MlpBlock::new(p, &format!("refiner.blocks.{block}.mlp"), d))
             .collect::<std::result::Result<_, _>>()?;
+        let pairs = (0..a.refiner_attention)
+            .map(|pair| {
+                let mut block =
+                    |part: &str| CrossBlock::new(p, &format!("refiner.pairs.{pair}.{part}"), d, a.heads);
+                Ok(AttentionPair { encounters: block("encounters")?, context: block("context")? })
+            })
+            .collect::<std::result::Result<_, NetError>>()?;
+        let sizes = [ENCOUNTER, d / 2, d];
+        let encounter = (a.refiner_attention > 0)
+            .then(|| Mlp::new(p, "refiner.encounter", sizes, RELU_GAIN).map(Mlp::relu))
+            .transpose()?;
         let draft = Linear::new(p, "refiner.draft", 2 * RESIDUAL + LEVEL, d, RELU_GAIN)?;
         let head = Mlp::new(p, "refiner.head", [d, d, RESIDUAL + 2], 0.02)?;
         let norm = Norm::new(p, "refiner.norm", d)?;
@@ -64,6 +102,8 @@ impl Refiner {
             draft,
             anchor: Linear::new(p, "refiner.anchor", 2 * d, d, 1.0)?,
             context: Linear::new(p, "refiner.context", d, d, 1.0)?,
+            encounter,
+            pairs,
             blocks,
             norm,
             head,
@@ -82,6 +122,8 @@ impl Refiner {
         Ok(Prepared {
             base: self.anchor.forward(&anchors)?.broadcast_add(&known)?,
             tangent: context.tangent.clone(),
+            tokens: context.tokens.clone(),
+            mask: context.mask.clone(),
         })
     }
 
@@ -112,8 +154,8 @@ impl Refiner {
         z.contiguous()?.reshape((dims.0 * dims.1, RESIDUAL))?.matmul(&self.smooth)?.reshape(dims)
     }
 
-    /// The denoised residual (x0 form). `residual` has noise of `levels` (one a road user); `push` is
-    /// the way downhill at it, from [`super::overlap`]. Both [batch, MODES, RESIDUAL].
+    /// The denoised residual (x0 form) [batch, MODES, RESIDUAL]. `residual`, of the same shape, has noise of
+    /// `levels` (one an agent); `inputs` are those at it.
     ///
     /// # Errors
     /// When the shapes do not fit.
@@ -121,9 +163,10 @@ impl Refiner {
         &self,
         prepared: &Prepared,
         residual: &Tensor,
-        push: &Tensor,
+        inputs: &DraftInputs<'_>,
         levels: &[usize],
     ) -> Result<Tensor> {
+        let DraftInputs { push, encounters } = inputs;
         let (batch, modes, _) = residual.dims3()?;
         if levels.len() != batch || modes != MODES {
             candle_core::bail!("{} levels for residuals {:?}", levels.len(), residual.shape());
@@ -132,13 +175,22 @@ impl Refiner {
         let times: Vec<f32> =
             levels.iter().flat_map(|&level| std::iter::repeat_n(embed(level), modes)).flatten().collect();
         let times = Tensor::from_vec(times, (batch, modes, LEVEL), device)?;
-        let mut x = (self.draft.forward(&Tensor::cat(&[residual, push, &times], 2)?)? + &prepared.base)?;
+        let mut x = (self.draft.forward(&Tensor::cat(&[residual, *push, &times], 2)?)? + &prepared.base)?;
+        if let Some(encounter) = &self.encounter {
+            let (met, width) = (encounter.forward(&encounters.numbers)?, x.dim(2)?);
+            for pair in &self.pairs {
+                let alone = x.reshape((batch * modes, 1, width))?;
+                let alone = pair.encounters.forward(&alone, &met, &encounters.mask)?;
+                let together = alone.reshape((batch, modes, width))?;
+                x = pair.context.forward(&together, &prepared.tokens, &prepared.mask)?;
+            }
+        }
         for block in &self.blocks {
             x = block.forward(&x)?;
         }
         let said = self.head.forward(&self.norm.forward(&x)?)?;
         let correction = (self.smoothed(&said.narrow(2, 0, RESIDUAL)?)? * SPREAD)?;
-        let taken = (gates(&said.narrow(2, RESIDUAL, 2)?.contiguous()?)? * push)?;
+        let taken = (gates(&said.narrow(2, RESIDUAL, 2)?.contiguous()?)? * *push)?;
         let kept = residual.broadcast_mul(&shares(levels, skip, residual)?)?;
         ops::project(&((kept + correction)? + taken)?, &prepared.tangent)
     }
@@ -151,11 +203,11 @@ impl Refiner {
         &self,
         prepared: &Prepared,
         residual: &Tensor,
-        push: &Tensor,
+        inputs: &DraftInputs<'_>,
         (t, t_next): (usize, usize),
         noise: Option<&Tensor>,
     ) -> Result<Tensor> {
-        let denoised = self.denoise(prepared, residual, push, &vec![t; residual.dim(0)?])?;
+        let denoised = self.denoise(prepared, residual, inputs, &vec![t; residual.dim(0)?])?;
         let step = schedule::step(t, t_next, if noise.is_some() { 1.0 } else { 0.0 });
         let next = ((denoised * step.denoised)? + (residual * step.residual)?)?;
         match noise {

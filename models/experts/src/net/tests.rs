@@ -3,7 +3,9 @@
 use candle_core::{DType, Device, Tensor};
 use scene::random::Key;
 
+use super::inputs::EncounterTensors;
 use super::*;
+use crate::features::encounters::Encounters;
 use crate::features::{AgentFeatures, NEIGHBOURS};
 use crate::planning::{MODES, RESIDUAL};
 
@@ -33,6 +35,13 @@ fn drafts(batch: usize, seed: u64) -> Vec<[[f32; RESIDUAL]; MODES]> {
     (0..batch).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| rng.normal() as f32))).collect()
 }
 
+/// Encounters that depend on the drafts alone: none beside the first mode, one more beside each other.
+fn encounters_of(draft: &[[f32; RESIDUAL]; MODES]) -> Encounters {
+    std::array::from_fn(|mode| {
+        (0..mode).map(|k| std::array::from_fn(|i| draft[mode][(i + k) % RESIDUAL])).collect()
+    })
+}
+
 /// All that inference gives, for some of the road users.
 fn answers(
     expert: &Expert,
@@ -44,14 +53,16 @@ fn answers(
     let prepared = expert.prepare_refine(&context).unwrap();
     let mut draft = expert.add_noise(&prepared, &initial.residual, noise, 20).unwrap();
     for levels in schedule::ddim(20, 3) {
-        draft = expert.refine_step(&prepared, &draft, noise, levels, Some(noise)).unwrap();
+        let encounters: Vec<Encounters> = draft.iter().map(encounters_of).collect();
+        draft = expert.refine_step(&prepared, &draft, (noise, &encounters), levels, Some(noise)).unwrap();
     }
     (initial, draft)
 }
 
 #[test]
 fn alone_and_in_a_batch_bits_are_equal() {
-    let expert = Expert::random(3).unwrap();
+    let expert = Expert::load_trainable(&Expert::random(3).unwrap().save().unwrap(), &Device::Cpu).unwrap();
+    let expert = expert.with_attention(1, 5).unwrap();
     let agents = agents();
     let all: Vec<&AgentFeatures> = (0..17).map(|i| &agents[i % agents.len()]).collect();
     let noise = drafts(all.len(), 5);
@@ -96,6 +107,24 @@ fn a_file_gives_the_same_expert() {
 }
 
 #[test]
+fn attention_is_added_to_trained_weights_and_kept_in_the_file() {
+    let expert = Expert::random(3).unwrap();
+    assert!(!expert.attends());
+    let bytes = expert.save().unwrap();
+    assert!(!String::from_utf8_lossy(&bytes[..2000]).contains("refiner_attention"));
+    let grown = Expert::load_trainable(&bytes, &Device::Cpu).unwrap().with_attention(1, 5).unwrap();
+    let loaded = Expert::load(&grown.save().unwrap()).unwrap();
+    assert!(loaded.attends() && loaded.parameters() > expert.parameters() + 100_000);
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = agents.iter().collect();
+    let noise = drafts(all.len(), 5);
+    let ((before, plain), (after, attending)) =
+        (answers(&expert, &all, &noise), answers(&loaded, &all, &noise));
+    assert_eq!(before, after, "the initializer is the same");
+    assert_ne!(plain, attending);
+}
+
+#[test]
 fn wrong_files_are_refused_with_the_reason() {
     let reason = |bytes: &[u8]| Expert::load(bytes).unwrap_err().to_string();
     assert!(reason(b"nothing").contains("not a safetensors file"));
@@ -128,7 +157,11 @@ fn probe(expert: &Expert, agents: &[&AgentFeatures]) -> Tensor {
     };
     let push = ops::check::random(initial.residual.dims(), 8);
     let levels: Vec<usize> = (0..agents.len()).map(|i| 7 * i).collect();
-    let refined = expert.refiner.denoise(&prepared, &initial.residual, &push, &levels).unwrap();
+    let drafts = drafts(agents.len(), 9);
+    let encounters: Vec<Encounters> = drafts.iter().map(encounters_of).collect();
+    let encounters = EncounterTensors::stack(&encounters, &Device::Cpu).unwrap();
+    let inputs = DraftInputs { push: &push, encounters: &encounters };
+    let refined = expert.refiner.denoise(&prepared, &initial.residual, &inputs, &levels).unwrap();
     let parts = [
         weigh(&refined, 1),
         weigh(&initial.residual, 2),
@@ -163,7 +196,7 @@ fn stock_forms_make_the_same_network() {
 }
 
 fn small() -> Architecture {
-    Architecture { width: 16, gating_blocks: 2, heads: 2, ..Architecture::default() }
+    Architecture { width: 16, gating_blocks: 2, heads: 2, refiner_attention: 1, ..Architecture::default() }
 }
 
 #[test]

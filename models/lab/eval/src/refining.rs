@@ -41,6 +41,7 @@ fn variants() -> Vec<Variant> {
         variant("start level 5", 5, Refining { start: 5, ..full }),
         variant("start level 20", 5, Refining { start: 20, ..full }),
         variant("no repulsion", 5, Refining { repulsion: false, ..full }),
+        variant("no attention", 5, Refining { attention: false, ..full }),
         variant("overlaps not resolved", 5, Refining { resolve_overlaps: false, ..full }),
     ]
 }

@@ -15,6 +15,8 @@ use std::sync::atomic::AtomicBool;
 
 /// The part of refinement that shows the way downhill in the scene's energy.
 const PUSH: &str = "push";
+/// The part that attends to what drafts meet.
+const ATTENTION: &str = "attention";
 
 /// Flags of `train`.
 #[derive(Args, Clone, Debug)]
@@ -53,6 +55,10 @@ pub struct TrainArgs {
     /// Final learning rate. Default: a hundredth of the maximum.
     #[arg(long, value_name = "RATE")]
     rate_end: Option<f64>,
+    /// Pairs of attention in the refiner: to the drafts that each draft meets, then to the context. More than --init
+    /// has begin with random weights; 0 keeps those of --init.
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "baseline", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(0..=16))]
+    refiner_attention: usize,
     /// Hidden units of a baseline's condition MLP. The paper uses 1024.
     #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=4096))]
     condition_width: usize,
@@ -67,7 +73,7 @@ pub struct TrainArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     seed: u64,
     /// Parts of the refinement to leave out, for ablation.
-    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = [PUSH])]
+    #[arg(long, value_name = "PART", value_delimiter = ',', value_parser = [PUSH, ATTENTION])]
     without: Vec<String>,
     /// Stop after this time, min, with the learning rate scaled to it; the result then depends on the speed
     /// of the machine.
@@ -120,6 +126,7 @@ pub fn train(mut args: TrainArgs, common: &Common) -> Result<(), Failure> {
         None => {
             let mut options = training::TrainOptions::new(records, stage, output);
             options.architecture = args.expert.map_or_else(Architecture::default, Architecture::of);
+            options.architecture.refiner_attention = args.refiner_attention;
             training::run(&args.set(options, expert.unwrap_or_default(), stop), &mut report)
         }
         Some(kind) => {
@@ -159,6 +166,7 @@ impl TrainArgs {
             seed: self.seed,
             refining: Refining {
                 repulsion: !self.without.iter().any(|part| part == PUSH),
+                attention: !self.without.iter().any(|part| part == ATTENTION),
                 ..options.refining
             },
             minutes: self.minutes,

@@ -22,7 +22,11 @@ pub(super) fn record(world: &World<'_>, polylines: &Polylines, index: usize) -> 
     let turned = agent
         .state_at(HORIZON_STEPS)
         .map_or(0.0, |s| scene::wrap_angle(s.heading_rad - who.start.heading_rad).abs());
+    let first = world.present.first().map_or(who.start, |p| p.start);
+    let (away, ahead) = (who.start.position() - first.position(), direction(who.start.heading_rad));
     Some(Record {
+        number: who.index as u32,
+        place: [away.x, away.y, ahead.x, ahead.y].map(|v| v as f32),
         boxes: boxes(world, who, agent),
         half: [0.5 * who.size.length_m as f32, 0.5 * who.size.width_m as f32],
         centre_ahead: 0.0,
@@ -103,7 +107,8 @@ fn boxes(world: &World<'_>, who: &AgentAtStart, agent: &Agent) -> Vec<LoggedBox>
                 *pose = [local.x as f32, local.y as f32, ahead.x as f32, ahead.y as f32];
             }
         }
-        LoggedBox { poses, half: [0.5 * p.size.length_m as f32, 0.5 * p.size.width_m as f32] }
+        let half = [0.5 * p.size.length_m as f32, 0.5 * p.size.width_m as f32];
+        LoggedBox { poses, half, number: p.index as u32 }
     };
     order.into_iter().map(|(_, p)| logged(p)).collect()
 }

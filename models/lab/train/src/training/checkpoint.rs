@@ -33,6 +33,8 @@ pub(super) struct CheckpointState<A> {
     pub(super) minutes: Option<f64>,
     /// The refiner is shown the way downhill.
     pub(super) repulsion: bool,
+    /// The refiner attends to what drafts meet.
+    pub(super) attention: bool,
     pub(super) step: u64,
     /// Seconds trained so far.
     pub(super) seconds: f64,

@@ -14,6 +14,7 @@ mod fit;
 mod log;
 mod loss;
 mod metrics;
+mod obstacles;
 mod optim;
 mod processor;
 mod route;

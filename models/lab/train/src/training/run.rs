@@ -234,7 +234,7 @@ pub(crate) fn run_of<T: Trainee>(
         }
         let ends = (options.rate, options.rate_end.unwrap_or(0.01 * options.rate));
         let rate = rate(ends, run.adam.step, options.steps.min(200), run.progress());
-        let batch = split.batch(options.seed, run.adam.step, options.batch);
+        let batch = split.batch(options.seed, run.adam.step, options.batch, options.stage.together());
         let (gradients, metrics) = workers.train(&run.trained, &batch, run.adam.step)?;
         let length = run.adam.apply(run.trained.vars(), &gradients, rate)?;
         run.adam.average(run.trained.vars())?;
@@ -416,6 +416,7 @@ impl<'a, T: Trainee> TrainingRun<'a, T> {
             rate_end: options.rate_end,
             minutes: options.minutes,
             repulsion: options.refining.repulsion,
+            attention: options.refining.attention,
             step: self.adam.step,
             seconds: self.seconds(),
             records: self.records.clone(),
@@ -432,7 +433,7 @@ fn first_weights<T: Trainee>(
     let mut trained = match &options.init {
         Some(path) => {
             let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
-            T::read(&bytes, device)?
+            T::read(&bytes, device)?.grown(&options.architecture, options.seed)?
         }
         None => {
             let card = Card {
@@ -484,7 +485,11 @@ fn same_run<A: PartialEq>(
         () if state.rate != options.rate => differs("rate"),
         () if state.rate_end != options.rate_end => differs("rate at the end"),
         () if state.minutes != options.minutes => differs("number of minutes"),
-        () if state.repulsion != options.refining.repulsion => differs("choice of what to leave out"),
+        () if (state.repulsion, state.attention)
+            != (options.refining.repulsion, options.refining.attention) =>
+        {
+            differs("choice of what to leave out")
+        }
         () if state.card.expert != options.expert => differs("expert"),
         () if options.init.is_none() && state.architecture != options.architecture => differs("architecture"),
         () => Ok(()),

@@ -29,6 +29,8 @@ pub fn is_for_tests(key: u64) -> bool {
 /// Records to train on with their chances, and records held out.
 pub(super) struct Split {
     train: Vec<usize>,
+    /// The scene of each.
+    scenes: Vec<usize>,
     /// Running sums of the weights.
     sums: Vec<f64>,
     pub(super) held_out: Vec<usize>,
@@ -43,12 +45,13 @@ impl Split {
         even: bool,
         takes: impl Fn(&Record) -> bool,
     ) -> Result<Self, TrainError> {
-        let mut split = Self { train: Vec::new(), sums: Vec::new(), held_out: Vec::new() };
+        let mut split =
+            Self { train: Vec::new(), scenes: Vec::new(), sums: Vec::new(), held_out: Vec::new() };
         let mut weights = Vec::new();
         let mut by_file = vec![0.0; records.files()];
         for index in 0..records.len() {
             let record = records.get(index)?;
-            let (key, _) = records.scene_of(index);
+            let (key, scene) = records.scene_of(index);
             if !takes(&record) {
                 continue;
             }
@@ -56,6 +59,7 @@ impl Split {
                 split.held_out.push(index);
             } else {
                 split.train.push(index);
+                split.scenes.push(scene);
                 weights.push(f64::from(record.weight));
                 by_file[records.file_of(index)] += f64::from(record.weight);
             }
@@ -77,18 +81,26 @@ impl Split {
         self.train.len()
     }
 
-    /// The records of a step's batch: the same for the same seed and step, whatever came before.
-    pub(super) fn batch(&self, seed: u64, step: u64, size: usize) -> Vec<usize> {
+    /// The records of a step's batch: the same for the same seed and step, whatever came before. Up to `together`
+    /// of one scene stand one after the other.
+    pub(super) fn batch(&self, seed: u64, step: u64, size: usize, together: usize) -> Vec<usize> {
         let mut rng = stream(seed, step, 0);
         let total = self.sums.last().copied().unwrap_or(0.0);
-        (0..size)
-            .map(|_| {
-                // One number for the whole search: a new draw at each comparison would favour the middle.
-                let ticket = rng.unit() * total;
-                let place = self.sums.partition_point(|&sum| sum <= ticket);
-                self.train[place.min(self.train.len() - 1)]
-            })
-            .collect()
+        let mut batch = Vec::with_capacity(size);
+        while batch.len() < size {
+            // One number for the whole search: a new draw at each comparison would favour the middle.
+            let ticket = rng.unit() * total;
+            let place = self.sums.partition_point(|&sum| sum <= ticket).min(self.train.len() - 1);
+            batch.push(self.train[place]);
+            let of_scene = |i: &usize| self.scenes[*i] == self.scenes[place];
+            let others = (0..place)
+                .rev()
+                .take_while(of_scene)
+                .chain((place + 1..self.train.len()).take_while(of_scene));
+            batch.extend(others.take(together - 1).map(|i| self.train[i]));
+        }
+        batch.truncate(size);
+        batch
     }
 }
 
@@ -100,6 +112,8 @@ pub(crate) fn stream(seed: u64, step: u64, part: u64) -> Stream {
 /// Records that go through the networks together.
 pub(crate) struct Shard {
     pub(crate) records: Vec<Record>,
+    /// The scene of each.
+    pub(super) scenes: Vec<usize>,
     /// Map pieces that they see; the records' piece indices are rows of this.
     pub(crate) pieces: Vec<[f32; PIECE]>,
     /// The recording on each mode's anchor.
@@ -113,7 +127,8 @@ impl Shard {
         indices: &[usize],
         route: &ResidualBasis,
     ) -> Result<Self, TrainError> {
-        let mut shard = Self { records: Vec::new(), pieces: Vec::new(), recorded: Vec::new() };
+        let mut shard =
+            Self { records: Vec::new(), scenes: Vec::new(), pieces: Vec::new(), recorded: Vec::new() };
         let mut rows: HashMap<(usize, usize), usize> = HashMap::new();
         for &index in indices {
             let (_, scene) = records.scene_of(index);
@@ -125,6 +140,7 @@ impl Shard {
                 });
             }
             shard.recorded.push(fit::recorded(route, &record.agent, &record.target));
+            shard.scenes.push(scene);
             shard.records.push(record);
         }
         Ok(shard)
@@ -151,8 +167,14 @@ mod tests {
         assert!(!split.held_out.is_empty() && split.held_out.len() < 60);
         let scene = |index: &usize| records.scene_of(*index).1;
         assert!(split.held_out.iter().all(|held| !split.train.iter().any(|t| scene(t) == scene(held))));
-        assert_eq!(split.batch(1, 5, 32), split.batch(1, 5, 32));
-        assert_ne!(split.batch(1, 5, 32), split.batch(1, 6, 32));
+        assert_eq!(split.batch(1, 5, 32, 1), split.batch(1, 5, 32, 1));
+        assert_ne!(split.batch(1, 5, 32, 1), split.batch(1, 6, 32, 1));
+        let together = split.batch(1, 5, 30, 3);
+        for three in together.chunks(3) {
+            let scenes: Vec<usize> = three.iter().map(scene).collect();
+            assert!(scenes.windows(2).all(|pair| pair[0] == pair[1]), "{scenes:?}");
+            assert!(three[0] != three[1] && three[1] != three[2] && three[0] != three[2]);
+        }
         assert_eq!(Split::new(&records, 2, false, |_| true).unwrap().held_out.len(), 2);
     }
 
@@ -164,10 +186,15 @@ mod tests {
             sum += weight;
             sum
         });
-        let split = Split { sums: sums.collect(), train: (0..40).collect(), held_out: Vec::new() };
+        let split = Split {
+            sums: sums.collect(),
+            train: (0..40).collect(),
+            scenes: (0..40).collect(),
+            held_out: Vec::new(),
+        };
         let draws = 60_000;
         let mut counts = [0.0; 40];
-        split.batch(1, 5, draws).into_iter().for_each(|record| counts[record] += 1.0);
+        split.batch(1, 5, draws, 1).into_iter().for_each(|record| counts[record] += 1.0);
         for (record, (count, weight)) in counts.into_iter().zip(weights).enumerate() {
             let expected = draws as f64 * weight / 60.0;
             assert!((count - expected).abs() < 6.0 * expected.sqrt(), "{record}: {count} for {expected}");

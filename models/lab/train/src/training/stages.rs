@@ -4,15 +4,19 @@ use candle_core::{Device, Result, Tensor};
 use experts::Refining;
 use experts::features::AgentFeatures;
 use experts::features::OWN_GOAL_POSITION;
-use experts::net::{Context, Expert, Initial, Prepared, schedule};
+use experts::features::encounters::{Encounters, encounters};
+use experts::net::inputs::EncounterTensors;
+use experts::net::{Context, DraftInputs, Expert, Initial, Prepared, schedule};
 use experts::planning::pullback::Pullback;
-use experts::planning::{ALONG_SCALE, INSTANT_S, MODES, RESIDUAL};
+use experts::planning::{ALONG_SCALE, INSTANT_S, INSTANTS, MODES, RESIDUAL};
+use experts::tuning::SHIPPED;
 use scene::KNOTS;
-use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
+use scene::geometry::overlap_energy::{Growth, carried_back, carried_on, overlap_energy};
 use scene::random::Stream;
 
 use super::loss::{self, AgentOutput, InitialParts};
 use super::metrics::Metrics;
+use super::obstacles::{Obstacle, ShardObstacles};
 use super::route::{DraftPoses, ResidualBasis};
 use super::sample::Shard;
 use super::{Record, TrainError};
@@ -39,6 +43,13 @@ pub enum Stage {
     Joint,
 }
 
+impl Stage {
+    /// Records of one scene in a batch: the joint stage refines all of them at once.
+    pub(super) fn together(self) -> usize {
+        if self == Self::Joint { 8 } else { 1 }
+    }
+}
+
 /// Constants of all shards.
 pub(crate) struct Tools {
     pub(super) route: ResidualBasis,
@@ -53,46 +64,97 @@ impl Tools {
     }
 }
 
-/// Recorded neighbours that count for a record: all but those that overlap the road user in the recording.
-fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
-    let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
-    let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
-    let placed = DraftPoses::new(record, mode, &coordinates);
-    let clear = |logged: &super::LoggedBox| {
-        let pairs = placed.poses.iter().zip(&logged.poses).zip(&record.target.valid);
-        pairs
-            .filter(|((_, other), valid)| **valid > 0.0 && !absent(other))
-            .all(|((own, other), _)| gap(*own, record.half, *other, logged.half).0 > 0.0)
-    };
-    record.boxes.iter().map(clear).collect()
-}
-
 /// Overlap energy of one residual, and its gradient along and across at the instants.
 fn energy(
     tools: &Tools,
     record: &Record,
     mode: usize,
     residual: &[f32; RESIDUAL],
-    counted: &[bool],
+    obstacles: &[Obstacle],
     growth: Growth,
-) -> (f32, [[f32; 2]; experts::planning::INSTANTS]) {
+) -> (f32, [[f32; 2]; INSTANTS]) {
     let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
     let placed = DraftPoses::new(record, mode, &coordinates);
-    let boxes = record.boxes.iter().zip(counted).filter(|(_, counted)| **counted);
-    let obstacles = boxes.map(|(logged, _)| MovingBox { poses: &logged.poses, half: logged.half });
-    let overlap = overlap_energy(&placed.poses, record.half, obstacles, growth);
+    let overlap = overlap_energy(&placed.poses, record.half, obstacles.iter().map(Obstacle::moving), growth);
     (overlap.energy, placed.along_across(&overlap.gradient))
 }
 
-/// The refiner's second input for drafts.
-fn repulsions(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
+/// What the joint stage punishes in one residual: boxes too close now, and those that soon will be, as in the energy
+/// that resolves overlaps in a draw. Records hold no kerbs.
+fn penalty(
+    tools: &Tools,
+    record: &Record,
+    mode: usize,
+    residual: &[f32; RESIDUAL],
+    obstacles: &[Obstacle],
+) -> (f32, [[f32; 2]; INSTANTS]) {
+    let tuning = &SHIPPED.overlaps;
+    let (share, weight) = (tuning.soon_intervals as f32, tuning.soon as f32);
+    let (mut energy, mut gradient) = energy(tools, record, mode, residual, obstacles, Growth::Linear);
+    let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
+    let placed = DraftPoses::new(record, mode, &coordinates);
+    let later: Vec<Obstacle> = obstacles.iter().map(|o| o.carried_on(share)).collect();
+    let later = later.iter().map(Obstacle::moving);
+    let soon = overlap_energy(&carried_on(&placed.poses, share), record.half, later, Growth::Linear);
+    energy += weight * soon.energy;
+    let slope = placed.along_across(&carried_back(&soon.gradient, share));
+    for (sum, slope) in gradient.as_flattened_mut().iter_mut().zip(slope.as_flattened()) {
+        *sum += weight * slope;
+    }
+    (energy, gradient)
+}
+
+/// What a step of the refiner is told, as tensors.
+struct StepInputs {
+    push: Tensor,
+    encounters: EncounterTensors,
+}
+
+impl StepInputs {
+    /// At drafts among obstacles.
+    fn at(
+        tools: &Tools,
+        shard: &Shard,
+        obstacles: &[Vec<Obstacle>],
+        drafts: &[Modes],
+        device: &Device,
+    ) -> Result<Self> {
+        Ok(Self {
+            push: tensor(&repulsions(tools, shard, obstacles, drafts), device)?,
+            encounters: EncounterTensors::stack(&met(tools, shard, obstacles, drafts), device)?,
+        })
+    }
+
+    fn borrowed(&self) -> DraftInputs<'_> {
+        DraftInputs { push: &self.push, encounters: &self.encounters }
+    }
+}
+
+/// The encounters of drafts.
+fn met(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts: &[Modes]) -> Vec<Encounters> {
+    if !tools.refining.attention {
+        return vec![Encounters::default(); drafts.len()];
+    }
+    let all = shard.records.iter().zip(obstacles).zip(drafts);
+    all.map(|((record, obstacles), draft)| {
+        std::array::from_fn(|mode| {
+            let coordinates = tools.route.coordinates(&record.target.base_along[mode], &draft[mode]);
+            let own = DraftPoses::new(record, mode, &coordinates).poses;
+            encounters(&own, record.half, obstacles.iter().map(Obstacle::moving))
+        })
+    })
+    .collect()
+}
+
+/// The way downhill at drafts.
+fn repulsions(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts: &[Modes]) -> Vec<Modes> {
     if !tools.refining.repulsion {
         return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
     }
-    let all = shard.records.iter().zip(counts).zip(drafts);
-    all.map(|((record, counted), draft)| {
+    let all = shard.records.iter().zip(obstacles).zip(drafts);
+    all.map(|((record, obstacles), draft)| {
         std::array::from_fn(|mode| {
-            let (energy, slope) = energy(tools, record, mode, &draft[mode], counted, Growth::Square);
+            let (energy, slope) = energy(tools, record, mode, &draft[mode], obstacles, Growth::Square);
             if energy > 0.0 {
                 tools.pullback.downhill(&slope, &record.agent.tangent)
             } else {
@@ -223,10 +285,9 @@ fn denoiser(
     let clean = tensor(&shard.recorded, device)?;
     let noisy =
         expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
-    let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
-    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&noisy)?), device)?;
-    let denoised = expert.refiner.denoise(&prepared, &noisy, &repulsion, &levels)?;
+    let obstacles = ShardObstacles::new(shard).as_recorded();
+    let inputs = StepInputs::at(tools, shard, &obstacles, &arrays(&noisy)?, device)?;
+    let denoised = expert.refiner.denoise(&prepared, &noisy, &inputs.borrowed(), &levels)?;
     let mut grads = Vec::with_capacity(count);
     for (index, refined) in arrays(&denoised)?.iter().enumerate() {
         let (target, recorded) = (&shard.records[index].target, &shard.recorded[index]);
@@ -271,12 +332,17 @@ fn joint(
     for (record, draft) in shard.records.iter().zip(&mut drafts) {
         take_by_surprise(&tools.route, record, draft, rng);
     }
-    let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
+    // Most follow a draft of theirs, as in a joint draw; the rest are as recorded.
+    let leading: Vec<Option<usize>> = outputs(initial)?
+        .iter()
+        .map(|output| rng.chance(0.8).then(|| drawn(&output.score, rng.unit())))
+        .collect();
     let scale = [0.0, rng.unit() as f32, 1.0][rng.below(3)];
     let start = if rng.chance(0.2) { 0 } else { schedule::START };
-    let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
-    let steps = schedule::ddim(start, schedule::STEPS);
+    let obstacles = ShardObstacles::new(shard);
+    let walk = Walk { expert, tools, shard, obstacles: &obstacles, leading, prepared: prepared.detach() };
+    // Most often one step does all.
+    let steps = schedule::ddim(start, if rng.chance(0.6) { 1 } else { schedule::STEPS });
     let taken = rng.below(steps.len());
     let before = walk.go(
         &tensor(&drafts, expert.device())?,
@@ -285,14 +351,28 @@ fn joint(
         &noise(rng, shard.records.len(), scale),
     )?;
     let levels = vec![steps[taken].0; shard.records.len()];
-    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&before)?), expert.device())?;
-    let refined = expert.refiner.denoise(&prepared, &before, &repulsion, &levels)?;
+    let inputs = walk.inputs(&arrays(&before)?)?;
+    let refined = expert.refiner.denoise(&prepared, &before, &inputs.borrowed(), &levels)?;
+    let refined_modes = arrays(&refined)?;
+    // Each is held against where the others are after the step: they have seen the same drafts.
+    let others = walk.others(&refined_modes);
     let mut grads = Vec::with_capacity(shard.records.len());
-    for (index, refined) in arrays(&refined)?.iter().enumerate() {
+    for (index, refined) in refined_modes.iter().enumerate() {
         let (record, draft) = (&shard.records[index], &drafts[index]);
-        grads.push(joint_gradient(tools, record, &counts[index], draft, refined, metrics));
+        grads.push(joint_gradient(tools, record, &others[index], draft, refined, metrics));
     }
     Ok(seeded_modes(&refined, &grads)?)
+}
+
+/// The mode at a share `at` of all probability.
+fn drawn(score: &[f32; MODES], at: f64) -> usize {
+    let mut left = at as f32;
+    let shares = loss::softmax(score);
+    let found = shares.iter().position(|share| {
+        left -= share;
+        left < 0.0
+    });
+    found.unwrap_or(MODES - 1)
 }
 
 /// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
@@ -321,7 +401,7 @@ fn take_by_surprise(route: &ResidualBasis, record: &Record, draft: &mut Modes, r
 fn joint_gradient(
     tools: &Tools,
     record: &Record,
-    counted: &[bool],
+    obstacles: &[Obstacle],
     draft: &Modes,
     refined: &Modes,
     metrics: &mut Metrics,
@@ -342,7 +422,7 @@ fn joint_gradient(
         if mode == winner {
             metrics.add("refined", near);
         }
-        let (overlap, repulsion) = energy(tools, record, mode, &refined[mode], counted, Growth::Linear);
+        let (overlap, repulsion) = penalty(tools, record, mode, &refined[mode], obstacles);
         let overlap_slope = loss::to_knots(route, &repulsion);
         let share = PENALTY / MODES as f32;
         penalties += overlap / MODES as f32;
@@ -361,20 +441,30 @@ struct Walk<'a> {
     expert: &'a Expert,
     tools: &'a Tools,
     shard: &'a Shard,
-    counts: &'a [Vec<bool>],
+    obstacles: &'a ShardObstacles,
+    /// The mode along which each leads, or nothing for one that moves as recorded.
+    leading: Vec<Option<usize>>,
     prepared: Prepared,
 }
 
 impl Walk<'_> {
+    /// Who is in the way where these drafts lead.
+    fn others(&self, drafts: &[Modes]) -> Vec<Vec<Obstacle>> {
+        self.obstacles.along(&self.tools.route, self.shard, &self.leading, drafts)
+    }
+
+    fn inputs(&self, drafts: &[Modes]) -> Result<StepInputs> {
+        StepInputs::at(self.tools, self.shard, &self.others(drafts), drafts, self.expert.device())
+    }
+
     fn go(&self, drafts: &Tensor, start: usize, steps: &[(usize, usize)], noise: &[Modes]) -> Result<Tensor> {
         let (refiner, device) = (&self.expert.refiner, self.expert.device());
         let levels = vec![start; self.shard.records.len()];
         let mut residual =
             refiner.add_noise(&self.prepared, drafts, &tensor(noise, device)?, &levels)?.detach();
         for &step in steps {
-            let repulsion = repulsions(self.tools, self.shard, self.counts, &arrays(&residual)?);
-            residual =
-                refiner.step(&self.prepared, &residual, &tensor(&repulsion, device)?, step, None)?.detach();
+            let inputs = self.inputs(&arrays(&residual)?)?;
+            residual = refiner.step(&self.prepared, &residual, &inputs.borrowed(), step, None)?.detach();
         }
         Ok(residual)
     }
@@ -395,25 +485,26 @@ pub(super) fn validate(
     if stage == Stage::Initializer {
         return Ok(metrics);
     }
-    let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
     let prepared = expert.refiner.prepare(&context)?.detach();
-    let walk = Walk { expert, tools, shard, counts: &counts, prepared };
+    let leading = outputs(&initial)?.iter().map(|output| Some(drawn(&output.score, rng.unit()))).collect();
+    let obstacles = ShardObstacles::new(shard);
+    let walk = Walk { expert, tools, shard, obstacles: &obstacles, leading, prepared };
     let drafts = initial.residual.detach();
-    let steps = schedule::ddim(schedule::START, schedule::STEPS);
+    let steps = schedule::ddim(schedule::START, 1);
     let noise = noise(rng, shard.records.len(), 1.0);
     let refined = arrays(&walk.go(&drafts, schedule::START, &steps, &noise)?)?;
-    for (index, draft) in arrays(&drafts)?.iter().enumerate() {
+    let drafts = arrays(&drafts)?;
+    let (before, after) = (walk.others(&drafts), walk.others(&refined));
+    for (index, draft) in drafts.iter().enumerate() {
         let record = &shard.records[index];
         let ade =
             |modes: &Modes, mode: usize| loss::distance(&tools.route, &record.target, mode, &modes[mode]).0;
         let min = (0..MODES).map(|mode| ade(&refined[index], mode)).fold(f32::INFINITY, f32::min);
         metrics.add("refined", min);
-        for (name, modes) in [("overlap", draft), ("overlap'", &refined[index])] {
-            let hit = |mode: &usize| {
-                energy(tools, record, *mode, &modes[*mode], &counts[index], Growth::Linear).0 > 0.3 * 0.5
-            };
-            metrics.add(name, (0..MODES).filter(hit).count() as f32 / MODES as f32);
+        let leads = walk.leading[index].unwrap_or(0);
+        for (name, modes, others) in [("overlap", draft, &before), ("overlap'", &refined[index], &after)] {
+            let found = energy(tools, record, leads, &modes[leads], &others[index], Growth::Linear).0;
+            metrics.add(name, f32::from(u8::from(found > 0.3 * 0.5)));
         }
     }
     Ok(metrics)

@@ -28,7 +28,7 @@ pub(crate) fn scenes(count: usize, records: usize, seed: u64) -> Vec<ToyScene> {
             for _ in 0..7 {
                 map.push(std::array::from_fn::<f32, PIECE, _>(|_| between(&mut rng, -1.0, 1.0)));
             }
-            let records = (0..records).map(|_| record(&mut rng, map.len())).collect();
+            let records = (0..records).map(|number| record(&mut rng, number as u32, map.len())).collect();
             (scene as u64, map, records)
         })
         .collect()
@@ -77,7 +77,7 @@ fn between(rng: &mut Stream, low: f32, high: f32) -> f32 {
     rng.between(low.into(), high.into()) as f32
 }
 
-fn record(rng: &mut Stream, pieces: usize) -> Record {
+fn record(rng: &mut Stream, number: u32, pieces: usize) -> Record {
     let (speed, accel, aside) = (between(rng, 2.0, 10.0), between(rng, -0.5, 0.5), between(rng, -1.0, 1.0));
     let mut own = [0.0; OWN];
     own[..3].copy_from_slice(&[speed / 10.0, accel, aside]);
@@ -98,6 +98,9 @@ fn record(rng: &mut Stream, pieces: usize) -> Record {
     let agent = AgentFeatures { own, neighbours, anchors, tangent: Box::new([identity, identity]) };
     let path = AnchorPath { start: -2.0, points: (0..150).map(|i| [i as f32 - 2.0, 0.0]).collect() };
     Record {
+        number,
+        // One beside the other, so far apart that none meets another.
+        place: [0.0, 200.0 * number as f32, 1.0, 0.0],
         agent,
         pieces,
         target: target(speed, accel, aside),
@@ -137,9 +140,9 @@ fn crossing(speed: f32, when: f32) -> LoggedBox {
         *pose = [speed * 4.0, 6.0 * (t - when), 0.0, 1.0];
     }
     poses[INSTANTS - 1] = [0.0; 4];
-    LoggedBox { poses, half: [2.2, 0.9] }
+    LoggedBox { poses, half: [2.2, 0.9], number: 100 }
 }
 
 fn parked(x: f32) -> LoggedBox {
-    LoggedBox { poses: [[x, 2.4, 1.0, 0.0]; INSTANTS], half: [2.4, 1.0] }
+    LoggedBox { poses: [[x, 2.4, 1.0, 0.0]; INSTANTS], half: [2.4, 1.0], number: 101 }
 }

@@ -27,6 +27,10 @@ pub(crate) trait Trainee: Sized + Sync {
     ) -> Result<Self, NetError>;
     /// Weights of a file, to be trained further.
     fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError>;
+    /// The same with what the wanted architecture has more, random from a seed.
+    fn grown(self, _wanted: &Self::Architecture, _seed: u64) -> Result<Self, NetError> {
+        Ok(self)
+    }
     /// The bytes of a weights file.
     fn write(&self) -> Result<Vec<u8>, NetError>;
     /// Configuration of the networks.
@@ -46,12 +50,12 @@ pub(crate) trait Trainee: Sized + Sync {
     fn draws_files_evenly(&self) -> bool;
 
     /// Share of the rate that a parameter learns with in a stage; what has none stays as it is, bit for bit. As the
-    /// experts have it: those under `refiner.` take no part in [`Stage::Initializer`], all others learn slower in
-    /// [`Stage::Joint`].
+    /// experts have it: those under `refiner.` take no part in [`Stage::Initializer`], all others take none in
+    /// [`Stage::Denoiser`] and learn slower in [`Stage::Joint`].
     fn share(stage: Stage, name: &str) -> f64 {
         let refiner = name.starts_with("refiner.");
         match stage {
-            Stage::Denoiser => 1.0,
+            Stage::Denoiser => f64::from(u8::from(refiner)),
             Stage::Initializer => f64::from(u8::from(!refiner)),
             Stage::Joint if refiner => 1.0,
             Stage::Joint => 0.2,
@@ -86,6 +90,13 @@ impl Trainee for Expert {
 
     fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError> {
         Self::load_trainable(bytes, device)
+    }
+
+    fn grown(self, wanted: &Architecture, seed: u64) -> Result<Self, NetError> {
+        if wanted.refiner_attention <= self.architecture.refiner_attention {
+            return Ok(self);
+        }
+        self.with_attention(wanted.refiner_attention, seed)
     }
 
     fn write(&self) -> Result<Vec<u8>, NetError> {

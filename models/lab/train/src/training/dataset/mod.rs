@@ -21,13 +21,13 @@ use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOUR
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 
 /// Most neighbours with recorded boxes for the overlap energy.
-pub const BOXES: usize = 8;
+pub const BOXES: usize = 16;
 /// Most points of an anchor's path, one a metre.
 pub const PATH_POINTS: usize = 160;
 
-const MAGIC: &[u8; 8] = b"DTRECS3\n";
-/// First bytes of files from earlier versions, which do not name their expert.
-const MAGIC_BEFORE: &[u8; 8] = b"DTRECS2\n";
+const MAGIC: &[u8; 8] = b"DTRECS4\n";
+/// First bytes of files from the version before, which do not say where a road user is in its scene.
+const MAGIC_BEFORE: &[u8; 8] = b"DTRECS3\n";
 const DIMENSIONS: [usize; 10] =
     [MODES, INSTANTS, RESIDUAL, OWN, PIECES, PIECE, PIECE_POSE, NEIGHBOURS, NEIGHBOUR, ANCHOR];
 
@@ -39,6 +39,8 @@ pub struct LoggedBox {
     pub poses: [[f32; 4]; INSTANTS],
     /// Half length and half width, metres.
     pub half: [f32; 2],
+    /// Number of the road user in its scene.
+    pub number: u32,
 }
 
 /// The path of an anchor, one point a metre, in the road user's frame at t = 0.
@@ -53,6 +55,10 @@ pub struct AnchorPath {
 /// One road user under one choice of conditions.
 #[derive(Clone, Debug)]
 pub struct Record {
+    /// Number of the road user in its scene.
+    pub number: u32,
+    /// Its frame at t = 0 in the scene's: x and y, cosine and sine of the heading.
+    pub place: [f32; 4],
     /// Inputs of the expert.
     pub agent: AgentFeatures,
     /// Map pieces that a baseline sees. Indices are those of the scene's pieces.
@@ -111,6 +117,7 @@ mod tests {
             let (written, read) = (&scenes[index / 4].2[index % 4], records.get(index).unwrap());
             assert_eq!(read.agent.own, written.agent.own);
             assert_eq!(read.agent.anchors, written.agent.anchors);
+            assert_eq!((read.number, read.place), (written.number, written.place));
             assert_eq!(read.boxes, written.boxes);
             assert_eq!(read.paths, written.paths);
             assert_eq!(read.target.along, written.target.along);
@@ -139,7 +146,7 @@ mod tests {
         flipped[100] ^= 1;
         refused(&flipped, "hash");
         refused(b"something else entirely", "not a file of training records");
-        refused(b"DTRECS2\n then what an older program wrote", "prepare them again");
+        refused(b"DTRECS3\n then what an older program wrote", "prepare them again");
         let mut other = good;
         other[8] = 7;
         refused(&other, "dimensions");

@@ -14,6 +14,8 @@ use std::path::PathBuf;
 
 fn decode(bytes: &[u8]) -> Result<Record, String> {
     let mut cursor = Cursor::new(bytes);
+    let number = cursor.count(u32::MAX as usize)? as u32;
+    let place = cursor.array::<4>()?;
     let weight = cursor.float()?;
     let own = cursor.array::<OWN>()?;
     let pieces = (0..cursor.count(PIECES)?)
@@ -47,13 +49,14 @@ fn decode(bytes: &[u8]) -> Result<Record, String> {
     }
     cursor.end()?;
     let agent = AgentFeatures { own, neighbours, anchors, tangent };
-    Ok(Record { agent, pieces, target, boxes, half, centre_ahead, paths, weight })
+    Ok(Record { number, place, agent, pieces, target, boxes, half, centre_ahead, paths, weight })
 }
 
 fn decode_box(cursor: &mut Cursor<'_>) -> Result<LoggedBox, String> {
+    let number = cursor.count(u32::MAX as usize)? as u32;
     let mut poses = [[0.0; 4]; INSTANTS];
     cursor.fill(poses.as_flattened_mut())?;
-    Ok(LoggedBox { poses, half: cursor.array::<2>()? })
+    Ok(LoggedBox { poses, half: cursor.array::<2>()?, number })
 }
 
 fn decode_path(cursor: &mut Cursor<'_>) -> Result<AnchorPath, String> {
@@ -123,7 +126,7 @@ impl Records {
             magic if magic == MAGIC => {}
             magic if magic == MAGIC_BEFORE => {
                 return Err(
-                    "records of an earlier program, which do not say whose they are; prepare them again"
+                    "records of an earlier program, which do not say where road users are; prepare them again"
                         .into(),
                 );
             }

@@ -113,6 +113,8 @@ impl RecordWriter {
 
 fn encode(record: &Record, renamed: &[Option<usize>], sink: &mut Sink) {
     let (agent, target) = (&record.agent, &record.target);
+    sink.count(record.number as usize);
+    sink.floats(&record.place);
     sink.floats(&[record.weight]);
     sink.floats(&agent.own);
     sink.count(record.pieces.len());
@@ -133,6 +135,7 @@ fn encode(record: &Record, renamed: &[Option<usize>], sink: &mut Sink) {
     sink.floats(&[record.centre_ahead]);
     sink.count(record.boxes.len());
     for logged in &record.boxes {
+        sink.count(logged.number as usize);
         sink.floats(logged.poses.as_flattened());
         sink.floats(&logged.half);
     }
