@@ -93,6 +93,16 @@ describe('rounds', () => {
     expect(t.editor.reading.futures.peek()).toBe(before.futures.get(ID));
   });
 
+  it('wait for the answer to a change, and do not cancel it', () => {
+    const t = new Table();
+    t.editor.commits.run(setGoal(t.agent, { ...t.agent.goal, pos: [10, 10] }));
+    expect(t.editor.answers.motion.peek().stale).toBe(true);
+    t.rounds.openScene();
+    expect([t.cards.cancelled, t.cards.asked.length]).toEqual([0, 0]);
+    t.editor.answers.settle(t.editor.scene.peek()!, { ...t.editor.answers.motion.peek(), stale: false }, null);
+    expect(t.cards.asked).toHaveLength(1);
+  });
+
   it('are undone one statement at a time, without a new request', () => {
     const t = new Table();
     t.rounds.open();

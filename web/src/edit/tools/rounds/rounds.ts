@@ -121,7 +121,7 @@ export class Rounds {
     const lock = editor.document.lock.peek();
     if (lock) return editor.notices.show({ text: lock.words, action: lock });
     this.#print = printOf(editor.scene.peek()!);
-    this.generator.cancel();
+    this.#stopAsking();
     batch(() => {
       editor.playhead.pause();
       editor.playhead.moveTo(0);
@@ -131,8 +131,13 @@ export class Rounds {
   }
 
   close(): void {
-    this.generator.cancel();
+    this.#stopAsking();
     this.deck.close();
+  }
+
+  /** A running answer to a change must still arrive: the cards wait for it. */
+  #stopAsking(): void {
+    if (!this.editor.answers.motion.peek().stale) this.generator.cancel();
   }
 
   /** Sends the request again after a failure. */
