@@ -15,7 +15,7 @@ use super::trajectory::may_rest;
 use super::window_setting::WindowSetting;
 use crate::features::stays_in_the_world;
 use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
-use crate::planning::{MODES, Modes};
+use crate::planning::{MODES, Modes, mode_at};
 use crate::request::{GenerateError, Request, Shown};
 use crate::tuning::fixed::drafting::STAYS_ABOVE;
 use crate::weights::EXPERTS;
@@ -115,7 +115,8 @@ pub(super) fn first_drafts(
         let leading = if likeliest_leads {
             actor.likeliest()
         } else {
-            pick(&actor.probability, NoiseKey { agent: &actor.id, step: u64::MAX, ..key }.unit())
+            let at = NoiseKey { agent: &actor.id, step: u64::MAX, ..key }.unit();
+            Slot::new(mode_at(&actor.probability, at))
         };
         Drafts::of(actor, leading)
     };
@@ -171,7 +172,7 @@ pub(super) fn refine(
     let results = setting.workers().map(batches, |batch| {
         let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].plain()).collect();
         let repulsion: Vec<Modes> = batch.actors.iter().map(|i| seen[*i].repulsion).collect();
-        let encounters: Vec<_> = batch.actors.iter().map(|i| seen[*i].encounters.clone()).collect();
+        let encounters: Vec<_> = batch.actors.iter().map(|i| &seen[*i].encounters).collect();
         let expert = setting.resources.expert(batch.agent_type)?;
         let inputs = (&*repulsion, &*encounters);
         Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, inputs, level, None)?)
@@ -209,18 +210,6 @@ pub(super) fn steps(request: &Request) -> usize {
     levels(request).len()
 }
 
-/// The mode at a share `at` of all probability.
-fn pick(probability: &[f64; MODES], at: f64) -> Slot {
-    let mut left = at;
-    for (slot, p) in Slot::all().zip(probability) {
-        if left < *p {
-            return slot;
-        }
-        left -= p;
-    }
-    Slot::new(MODES - 1)
-}
-
 /// Probabilities, the flatter the higher the temperature.
 fn softmax(log_prob: &[f32; MODES], temperature: f64) -> [f64; MODES] {
     let values = log_prob.map(|l| (f64::from(l) / temperature).exp());
@@ -238,14 +227,6 @@ fn finite(modes: &Modes, step: usize, agent: &AgentId) -> Result<(), GenerateErr
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_draw_follows_the_probabilities() {
-        let probability = [0.5, 0.0, 0.25, 0.25, 0.0, 0.0];
-        let slots = [0.0, 0.49, 0.5, 0.76, 0.999].map(|at| pick(&probability, at).index());
-        assert_eq!(slots, [0, 0, 2, 3, 3]);
-        assert_eq!(pick(&probability, 1.0).index(), MODES - 1);
-    }
 
     #[test]
     fn temperature_flattens() {

@@ -252,8 +252,8 @@ impl Expert {
     }
 
     /// One refinement step from level `t` to `t_next`, levels as given by [`super::schedule::ddim`].
-    /// `push` is made by [`Pullback::push`](crate::planning::pullback::Pullback::push) at the drafts, `encounters` by
-    /// [`encounters`](crate::features::encounters::encounters); `noise` are standard normal numbers, or nothing for a
+    /// `push` is made by [`Pullback::downhill`](crate::planning::pullback::Pullback::downhill) at the drafts, `encounters` by
+    /// [`encounters`](crate::features::encounters::encounters) (read by an expert that attends); `noise` are standard normal numbers, or nothing for a
     /// step without chance. One entry an agent in each.
     ///
     /// # Errors
@@ -262,14 +262,15 @@ impl Expert {
         &self,
         prepared: &Prepared,
         residual: &[[[f32; RESIDUAL]; MODES]],
-        (push, encounters): (&[[[f32; RESIDUAL]; MODES]], &[Encounters]),
+        (push, encounters): (&[[[f32; RESIDUAL]; MODES]], &[&Encounters]),
         levels: (usize, usize),
         noise: Option<&[[[f32; RESIDUAL]; MODES]]>,
     ) -> Result<Vec<[[f32; RESIDUAL]; MODES]>, NetError> {
         let noise = noise.map(|noise| self.tensor(noise)).transpose()?;
         let (residual, push) = (self.tensor(residual)?, self.tensor(push)?);
-        let encounters = EncounterTensors::stack(encounters, &self.device)?;
-        let inputs = DraftInputs { push: &push, encounters: &encounters };
+        let stacked = || EncounterTensors::stack(encounters, &self.device);
+        let encounters = self.attends().then(stacked).transpose()?;
+        let inputs = DraftInputs { push: &push, encounters: encounters.as_ref() };
         let next = self.refiner.step(prepared, &residual, &inputs, levels, noise.as_ref())?;
         Ok(blocks(&next.flatten_all()?.to_vec1::<f32>()?))
     }

@@ -69,11 +69,11 @@ impl EncounterTensors {
     ///
     /// # Errors
     /// When memory for them cannot be had.
-    pub fn stack(agents: &[Encounters], device: &Device) -> Result<Self> {
+    pub fn stack(agents: &[&Encounters], device: &Device) -> Result<Self> {
         const TOKENS: usize = 1 + ENCOUNTERS;
         let rows = agents.len() * MODES;
         let (mut numbers, mut mask) = (vec![0f32; rows * TOKENS * ENCOUNTER], vec![NO; rows * TOKENS]);
-        for (row, found) in agents.as_flattened().iter().enumerate() {
+        for (row, found) in agents.iter().copied().flatten().enumerate() {
             let found = &found[..found.len().min(ENCOUNTERS)];
             numbers[(row * TOKENS + 1) * ENCOUNTER..][..found.len() * ENCOUNTER]
                 .copy_from_slice(found.as_flattened());

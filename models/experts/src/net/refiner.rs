@@ -50,10 +50,11 @@ struct AttentionPair {
 
 /// What a refiner is told about drafts at a step.
 pub struct DraftInputs<'a> {
-    /// The way downhill in the overlap energy, [batch, MODES, RESIDUAL], from [`super::overlap`].
+    /// The way downhill in the overlap energy, [batch, MODES, RESIDUAL], from
+    /// [`Pullback::downhill`](crate::planning::pullback::Pullback::downhill).
     pub push: &'a Tensor,
-    /// What the drafts meet.
-    pub encounters: &'a EncounterTensors,
+    /// What the drafts meet, needed by a refiner that attends.
+    pub encounters: Option<&'a EncounterTensors>,
 }
 
 /// Denoises residuals given what the drafts meet, their anchors and the context.
@@ -177,6 +178,9 @@ impl Refiner {
         let times = Tensor::from_vec(times, (batch, modes, LEVEL), device)?;
         let mut x = (self.draft.forward(&Tensor::cat(&[residual, *push, &times], 2)?)? + &prepared.base)?;
         if let Some(encounter) = &self.encounter {
+            let Some(encounters) = encounters else {
+                candle_core::bail!("a refiner that attends has no encounters")
+            };
             let (met, width) = (encounter.forward(&encounters.numbers)?, x.dim(2)?);
             for pair in &self.pairs {
                 let alone = x.reshape((batch * modes, 1, width))?;

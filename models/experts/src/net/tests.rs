@@ -54,6 +54,7 @@ fn answers(
     let mut draft = expert.add_noise(&prepared, &initial.residual, noise, 20).unwrap();
     for levels in schedule::ddim(20, 3) {
         let encounters: Vec<Encounters> = draft.iter().map(encounters_of).collect();
+        let encounters: Vec<&Encounters> = encounters.iter().collect();
         draft = expert.refine_step(&prepared, &draft, (noise, &encounters), levels, Some(noise)).unwrap();
     }
     (initial, draft)
@@ -159,8 +160,9 @@ fn probe(expert: &Expert, agents: &[&AgentFeatures]) -> Tensor {
     let levels: Vec<usize> = (0..agents.len()).map(|i| 7 * i).collect();
     let drafts = drafts(agents.len(), 9);
     let encounters: Vec<Encounters> = drafts.iter().map(encounters_of).collect();
+    let encounters: Vec<&Encounters> = encounters.iter().collect();
     let encounters = EncounterTensors::stack(&encounters, &Device::Cpu).unwrap();
-    let inputs = DraftInputs { push: &push, encounters: &encounters };
+    let inputs = DraftInputs { push: &push, encounters: Some(&encounters) };
     let refined = expert.refiner.denoise(&prepared, &initial.residual, &inputs, &levels).unwrap();
     let parts = [
         weigh(&refined, 1),

@@ -26,6 +26,17 @@ pub type Residual = [f32; RESIDUAL];
 /// The futures of all modes of a road user, each relative to its own anchor.
 pub type Modes = [Residual; MODES];
 
+/// The mode at a share `at` of all probability.
+pub fn mode_at(probability: &[f64; MODES], at: f64) -> usize {
+    let mut left = at;
+    let reached = probability.iter().position(|p| {
+        let within = left < *p;
+        left -= p;
+        within
+    });
+    reached.unwrap_or(MODES - 1)
+}
+
 /// An agent that keeps within this of its place for a whole window stays there, metres.
 pub const STAYS_WITHIN_M: f64 = 0.5;
 
@@ -101,6 +112,14 @@ pub fn twice_integrated_hat(knot: usize, t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_draw_follows_the_probabilities() {
+        let probability = [0.5, 0.0, 0.25, 0.25, 0.0, 0.0];
+        let modes = [0.0, 0.49, 0.5, 0.76, 0.999].map(|at| mode_at(&probability, at));
+        assert_eq!(modes, [0, 0, 2, 3, 3]);
+        assert_eq!(mode_at(&probability, 1.0), MODES - 1);
+    }
 
     #[test]
     fn integrals_match_sums() {

@@ -27,5 +27,5 @@ pub mod world;
 
 pub use coordinates::{
     ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, Modes, PER_INSTANT, RESIDUAL, Residual,
-    STAYS_WITHIN_M, hat, integrated_hat, twice_integrated_hat,
+    STAYS_WITHIN_M, hat, integrated_hat, mode_at, twice_integrated_hat,
 };

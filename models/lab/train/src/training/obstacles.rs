@@ -68,8 +68,7 @@ impl ShardObstacles {
         let placed: Vec<Option<Poses<INSTANTS>>> = (0..drafts.len())
             .map(|i| {
                 let (record, mode) = (&shard.records[i], leading[i]?);
-                let coordinates = route.coordinates(&record.target.base_along[mode], &drafts[i][mode]);
-                Some(DraftPoses::new(record, mode, &coordinates).poses)
+                Some(DraftPoses::of(route, record, mode, &drafts[i][mode]).poses)
             })
             .collect();
         (0..drafts.len()).map(|i| self.of(shard, i, &placed)).collect()

@@ -64,6 +64,16 @@ impl DraftPoses {
         placed
     }
 
+    /// Boxes of a residual on a mode's path.
+    pub(super) fn of(
+        route: &ResidualBasis,
+        record: &Record,
+        mode: usize,
+        residual: &[f32; RESIDUAL],
+    ) -> Self {
+        Self::new(record, mode, &route.coordinates(&record.target.base_along[mode], residual))
+    }
+
     /// A gradient to x and y as one to progress and offset.
     pub(super) fn along_across(&self, gradient: &[[f32; 2]; INSTANTS]) -> [[f32; 2]; INSTANTS] {
         std::array::from_fn(|i| {

@@ -8,7 +8,7 @@ use experts::features::encounters::{Encounters, encounters};
 use experts::net::inputs::EncounterTensors;
 use experts::net::{Context, DraftInputs, Expert, Initial, Prepared, schedule};
 use experts::planning::pullback::Pullback;
-use experts::planning::{ALONG_SCALE, INSTANT_S, INSTANTS, MODES, RESIDUAL};
+use experts::planning::{ALONG_SCALE, INSTANT_S, INSTANTS, MODES, RESIDUAL, mode_at};
 use experts::tuning::SHIPPED;
 use scene::KNOTS;
 use scene::geometry::overlap_energy::{Growth, carried_back, carried_on, overlap_energy};
@@ -64,19 +64,15 @@ impl Tools {
     }
 }
 
-/// Overlap energy of one residual, and its gradient along and across at the instants.
+/// Overlap energy of a draft, and its gradient along and across at the instants.
 fn energy(
-    tools: &Tools,
     record: &Record,
-    mode: usize,
-    residual: &[f32; RESIDUAL],
+    draft: &DraftPoses,
     obstacles: &[Obstacle],
     growth: Growth,
 ) -> (f32, [[f32; 2]; INSTANTS]) {
-    let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
-    let placed = DraftPoses::new(record, mode, &coordinates);
-    let overlap = overlap_energy(&placed.poses, record.half, obstacles.iter().map(Obstacle::moving), growth);
-    (overlap.energy, placed.along_across(&overlap.gradient))
+    let overlap = overlap_energy(&draft.poses, record.half, obstacles.iter().map(Obstacle::moving), growth);
+    (overlap.energy, draft.along_across(&overlap.gradient))
 }
 
 /// What the joint stage punishes in one residual: boxes too close now, and those that soon will be, as in the energy
@@ -90,14 +86,13 @@ fn penalty(
 ) -> (f32, [[f32; 2]; INSTANTS]) {
     let tuning = &SHIPPED.overlaps;
     let (share, weight) = (tuning.soon_intervals as f32, tuning.soon as f32);
-    let (mut energy, mut gradient) = energy(tools, record, mode, residual, obstacles, Growth::Linear);
-    let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
-    let placed = DraftPoses::new(record, mode, &coordinates);
+    let draft = DraftPoses::of(&tools.route, record, mode, residual);
+    let (mut energy, mut gradient) = energy(record, &draft, obstacles, Growth::Linear);
     let later: Vec<Obstacle> = obstacles.iter().map(|o| o.carried_on(share)).collect();
     let later = later.iter().map(Obstacle::moving);
-    let soon = overlap_energy(&carried_on(&placed.poses, share), record.half, later, Growth::Linear);
+    let soon = overlap_energy(&carried_on(&draft.poses, share), record.half, later, Growth::Linear);
     energy += weight * soon.energy;
-    let slope = placed.along_across(&carried_back(&soon.gradient, share));
+    let slope = draft.along_across(&carried_back(&soon.gradient, share));
     for (sum, slope) in gradient.as_flattened_mut().iter_mut().zip(slope.as_flattened()) {
         *sum += weight * slope;
     }
@@ -107,26 +102,32 @@ fn penalty(
 /// What a step of the refiner is told, as tensors.
 struct StepInputs {
     push: Tensor,
-    encounters: EncounterTensors,
+    /// Of a refiner that attends.
+    encounters: Option<EncounterTensors>,
 }
 
 impl StepInputs {
     /// At drafts among obstacles.
     fn at(
+        expert: &Expert,
         tools: &Tools,
         shard: &Shard,
         obstacles: &[Vec<Obstacle>],
         drafts: &[Modes],
-        device: &Device,
     ) -> Result<Self> {
+        let device = expert.device();
+        let stacked = || {
+            let met = met(tools, shard, obstacles, drafts);
+            EncounterTensors::stack(&met.iter().collect::<Vec<_>>(), device)
+        };
         Ok(Self {
             push: tensor(&repulsions(tools, shard, obstacles, drafts), device)?,
-            encounters: EncounterTensors::stack(&met(tools, shard, obstacles, drafts), device)?,
+            encounters: expert.attends().then(stacked).transpose()?,
         })
     }
 
     fn borrowed(&self) -> DraftInputs<'_> {
-        DraftInputs { push: &self.push, encounters: &self.encounters }
+        DraftInputs { push: &self.push, encounters: self.encounters.as_ref() }
     }
 }
 
@@ -138,8 +139,7 @@ fn met(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts: &[Mode
     let all = shard.records.iter().zip(obstacles).zip(drafts);
     all.map(|((record, obstacles), draft)| {
         std::array::from_fn(|mode| {
-            let coordinates = tools.route.coordinates(&record.target.base_along[mode], &draft[mode]);
-            let own = DraftPoses::new(record, mode, &coordinates).poses;
+            let own = DraftPoses::of(&tools.route, record, mode, &draft[mode]).poses;
             encounters(&own, record.half, obstacles.iter().map(Obstacle::moving))
         })
     })
@@ -154,7 +154,8 @@ fn repulsions(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts:
     let all = shard.records.iter().zip(obstacles).zip(drafts);
     all.map(|((record, obstacles), draft)| {
         std::array::from_fn(|mode| {
-            let (energy, slope) = energy(tools, record, mode, &draft[mode], obstacles, Growth::Square);
+            let draft = DraftPoses::of(&tools.route, record, mode, &draft[mode]);
+            let (energy, slope) = energy(record, &draft, obstacles, Growth::Square);
             if energy > 0.0 {
                 tools.pullback.downhill(&slope, &record.agent.tangent)
             } else {
@@ -286,7 +287,7 @@ fn denoiser(
     let noisy =
         expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
     let obstacles = ShardObstacles::new(shard).as_recorded();
-    let inputs = StepInputs::at(tools, shard, &obstacles, &arrays(&noisy)?, device)?;
+    let inputs = StepInputs::at(expert, tools, shard, &obstacles, &arrays(&noisy)?)?;
     let denoised = expert.refiner.denoise(&prepared, &noisy, &inputs.borrowed(), &levels)?;
     let mut grads = Vec::with_capacity(count);
     for (index, refined) in arrays(&denoised)?.iter().enumerate() {
@@ -333,10 +334,8 @@ fn joint(
         take_by_surprise(&tools.route, record, draft, rng);
     }
     // Most follow a draft of theirs, as in a joint draw; the rest are as recorded.
-    let leading: Vec<Option<usize>> = outputs(initial)?
-        .iter()
-        .map(|output| rng.chance(0.8).then(|| drawn(&output.score, rng.unit())))
-        .collect();
+    let leading: Vec<Option<usize>> =
+        outputs(initial)?.iter().map(|output| rng.chance(0.8).then(|| drawn(output, rng))).collect();
     let scale = [0.0, rng.unit() as f32, 1.0][rng.below(3)];
     let start = if rng.chance(0.2) { 0 } else { schedule::START };
     let obstacles = ShardObstacles::new(shard);
@@ -364,15 +363,9 @@ fn joint(
     Ok(seeded_modes(&refined, &grads)?)
 }
 
-/// The mode at a share `at` of all probability.
-fn drawn(score: &[f32; MODES], at: f64) -> usize {
-    let mut left = at as f32;
-    let shares = loss::softmax(score);
-    let found = shares.iter().position(|share| {
-        left -= share;
-        left < 0.0
-    });
-    found.unwrap_or(MODES - 1)
+/// A mode drawn by the initializer's probabilities.
+fn drawn(output: &AgentOutput, rng: &mut Stream) -> usize {
+    mode_at(&loss::softmax(&output.score).map(f64::from), rng.unit())
 }
 
 /// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
@@ -454,7 +447,7 @@ impl Walk<'_> {
     }
 
     fn inputs(&self, drafts: &[Modes]) -> Result<StepInputs> {
-        StepInputs::at(self.tools, self.shard, &self.others(drafts), drafts, self.expert.device())
+        StepInputs::at(self.expert, self.tools, self.shard, &self.others(drafts), drafts)
     }
 
     fn go(&self, drafts: &Tensor, start: usize, steps: &[(usize, usize)], noise: &[Modes]) -> Result<Tensor> {
@@ -486,7 +479,7 @@ pub(super) fn validate(
         return Ok(metrics);
     }
     let prepared = expert.refiner.prepare(&context)?.detach();
-    let leading = outputs(&initial)?.iter().map(|output| Some(drawn(&output.score, rng.unit()))).collect();
+    let leading = outputs(&initial)?.iter().map(|output| Some(drawn(output, rng))).collect();
     let obstacles = ShardObstacles::new(shard);
     let walk = Walk { expert, tools, shard, obstacles: &obstacles, leading, prepared };
     let drafts = initial.residual.detach();
@@ -503,7 +496,8 @@ pub(super) fn validate(
         metrics.add("refined", min);
         let leads = walk.leading[index].unwrap_or(0);
         for (name, modes, others) in [("overlap", draft, &before), ("overlap'", &refined[index], &after)] {
-            let found = energy(tools, record, leads, &modes[leads], &others[index], Growth::Linear).0;
+            let draft = DraftPoses::of(&tools.route, record, leads, &modes[leads]);
+            let found = energy(record, &draft, &others[index], Growth::Linear).0;
             metrics.add(name, f32::from(u8::from(found > 0.3 * 0.5)));
         }
     }
