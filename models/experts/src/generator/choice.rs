@@ -19,6 +19,8 @@ pub(super) struct JointOption {
     pub(super) cost: f64,
     /// The part of it for breaking rules.
     pub(super) rule_cost: f64,
+    /// The part of it that the others bear.
+    pub(super) burden: f64,
     /// The motion that the agent has anyway: its distance to other kept motions is as it was.
     pub(super) kept: bool,
 }
@@ -224,7 +226,7 @@ mod tests {
     fn ride(y: f64, speed: f64, cost: f64) -> JointOption {
         let at = |i: usize| Some(State { x_m: 0.1 * speed * i as f64, y_m: y, ..State::default() });
         let sweep = Sweep::new((0..=90).map(at).collect(), &CAR);
-        JointOption { sweep: Arc::new(sweep), cost, rule_cost: 0.0, kept: false }
+        JointOption { sweep: Arc::new(sweep), cost, rule_cost: 0.0, burden: 0.0, kept: false }
     }
 
     #[test]

@@ -40,10 +40,12 @@ pub(super) struct Yardstick<'a> {
     pub(super) tuning: &'a ChoiceTuning,
 }
 
-/// The options of the joint choice: one entry a candidate, in their order.
+/// The options of the joint choice: one entry a candidate, in their order. `known` are those of the first candidates, from
+/// before the others were added.
 pub(super) fn options(
     actor: &PlannedActor,
     candidates: &[MotionCandidate],
+    known: &[JointOption],
     by: &Yardstick<'_>,
 ) -> Vec<JointOption> {
     let tuning = by.tuning;
@@ -53,7 +55,8 @@ pub(super) fn options(
         _ if c.origin.is_given() => 0.0,
         states => rule_cost_of(actor, states, by) + stepping_out(actor, states, by),
     };
-    let rule_cost: Vec<f64> = candidates.iter().map(rule_cost).collect();
+    let mut rule_costs: Vec<f64> = known.iter().map(|option| option.rule_cost).collect();
+    rule_costs.extend(candidates[known.len()..].iter().map(rule_cost));
     let costs = match &actor.kept {
         Some(kept) => candidates
             .iter()
@@ -62,9 +65,13 @@ pub(super) fn options(
         None => central(&actor.plan, candidates, by.around, tuning),
     };
     let shown_rule_cost =
-        candidates.iter().position(|c| c.origin.goes_on()).map_or(0.0, |shown| rule_cost[shown]);
-    let option = |((c, cost), rule_cost): ((&MotionCandidate, f64), &f64)| {
-        let sweep = Arc::new(Sweep::of_rollout(&c.motion.states, size));
+        candidates.iter().position(|c| c.origin.goes_on()).map_or(0.0, |shown| rule_costs[shown]);
+    let option = |o: usize, cost: f64| {
+        let (c, rule_cost) = (&candidates[o], rule_costs[o]);
+        let sweep = match known.get(o) {
+            Some(option) => Arc::clone(&option.sweep),
+            None => Arc::new(Sweep::of_rollout(&c.motion.states, size)),
+        };
         let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
         let goes = actor.plan.target.position.is_some();
         let cost = match c.origin {
@@ -80,7 +87,7 @@ pub(super) fn options(
             CandidateOrigin::Stopping(_) => tuning.stopping + missed,
             _ => cost,
         };
-        let binds = if *rule_cost < shown_rule_cost - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
+        let binds = if rule_cost < shown_rule_cost - tuning.lawful_by { tuning.unlawful_binds } else { 1.0 };
         let leaves_rest = if actor.rests
             && c.origin != CandidateOrigin::Rest
             && actor.plan.present.agent_type == AgentType::Vehicle
@@ -91,9 +98,9 @@ pub(super) fn options(
         };
         let cost = cost + rule_cost + leaves_rest + binds * switching(c, by);
         let cost = if c.origin.is_given() { 0.0 } else { cost };
-        JointOption { sweep, cost, rule_cost: *rule_cost, kept: c.origin == CandidateOrigin::Kept }
+        JointOption { sweep, cost, rule_cost, burden: 0.0, kept: c.origin == CandidateOrigin::Kept }
     };
-    candidates.iter().zip(costs).zip(&rule_cost).map(option).collect()
+    costs.into_iter().enumerate().map(|(o, cost)| option(o, cost)).collect()
 }
 
 /// How far each candidate is from all alternatives by their probability, and whether it misses its goal or a via

@@ -10,7 +10,7 @@ use crate::generator::decisions::{Decided, Decisions};
 use crate::generator::guidance::guided;
 use crate::generator::joint_drafts::JointDrafts;
 use crate::generator::motion::Sweep;
-use crate::generator::others::{ChangedMotion, Reacted, caused, following, reaction_of};
+use crate::generator::others::{ChangedMotion, Following, Reacted, caused, reaction_of};
 use crate::generator::replan::{ReplanField, stop_before, swerve};
 use crate::generator::repulsion::{Outline, outlines};
 use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
@@ -364,28 +364,30 @@ impl OptionTable<'_> {
         let size = &self.of.actors[i].plan.present.size;
         let is_met =
             |sweep: &Sweep| all.iter().any(|o| sweep.starts_apart(o) && sweep.first_danger(o).is_some());
-        let motions = self.behind(i, option, all);
-        motions.into_iter().find(|c| !is_met(&Sweep::of_rollout(&c.motion.states, size)))
+        self.behind(i, option, all).find(|c| !is_met(&Sweep::of_rollout(&c.motion.states, size)))
     }
 
     /// The motion of an option, driven behind the agents that it meets, from easy to hard braking.
-    fn behind(&self, i: usize, option: usize, all: &[&Sweep]) -> Vec<MotionCandidate> {
+    fn behind(
+        &self,
+        i: usize,
+        option: usize,
+        all: &[&Sweep],
+    ) -> impl Iterator<Item = MotionCandidate> + use<'_> {
         let (plan, candidate) = (&self.of.actors[i].plan, &self.candidates[i][option]);
         let own = &self.choice.agents[i][option].sweep;
         let is_met = |o: &&Sweep| own.starts_apart(o) && own.first_danger(o).is_some();
-        let Some(slot) = candidate.origin.slot().filter(|_| plan.model.kind == MotionKind::Drive) else {
-            return Vec::new();
-        };
-        if !all.iter().any(is_met) {
-            return Vec::new();
-        }
-        let brakes = BRAKES.iter().map(|share| share * plan.model.limits.brake_mps2);
-        let motions = brakes.filter_map(|brake| Some(driven(plan, &following(own, all, brake)?)));
-        let origin = CandidateOrigin::Following(slot);
-        let reach = candidate.motion.reach;
-        motions
-            .map(|motion| MotionCandidate { probability: 0.0, origin, motion: motion.with_reason_of(reach) })
-            .collect()
+        let slot = candidate.origin.slot().filter(|_| plan.model.kind == MotionKind::Drive);
+        let slot = slot.filter(|_| all.iter().any(is_met));
+        let following = slot.and_then(|slot| Some((slot, Following::of(own, all)?)));
+        following.into_iter().flat_map(move |(slot, following)| {
+            let origin = CandidateOrigin::Following(slot);
+            BRAKES.iter().filter_map(move |share| {
+                let states = following.braking(share * plan.model.limits.brake_mps2)?;
+                let motion = driven(plan, &states).with_reason_of(candidate.motion.reach);
+                Some(MotionCandidate { probability: 0.0, origin, motion })
+            })
+        })
     }
 
     /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each
@@ -446,6 +448,7 @@ impl OptionTable<'_> {
         *chosen = self.choice.solve();
     }
 
+    /// Options of all candidates of an actor. Candidates are only ever added, so what is known of the first stays.
     fn options(&self, i: usize) -> Vec<JointOption> {
         let JointDrafts { setting, others, sample, .. } = self.of;
         let (actor, candidates) = (&self.of.actors[i], &self.candidates[i]);
@@ -460,16 +463,21 @@ impl OptionTable<'_> {
             start_step: setting.world.step,
             tuning: &setting.tuning().choice,
         };
-        let mut options = options(actor, candidates, &yardstick);
+        let known = self.choice.agents.get(i).map_or(&[][..], Vec::as_slice);
+        let mut options = options(actor, candidates, known, &yardstick);
         let matters = |&o: &usize| others.would_react_to(&options[o].sweep);
-        let met: Vec<usize> = (0..candidates.len()).filter(matters).collect();
+        let met: Vec<usize> = (known.len()..candidates.len()).filter(matters).collect();
         let cost = |&o: &usize| {
             if candidates[o].origin == CandidateOrigin::Kept { 0.0 } else { others.burden(&options[o].sweep) }
         };
         let burdens = setting.workers().map(&met, cost);
-        for (o, burden) in met.into_iter().zip(burdens) {
-            options[o].cost += burden;
+        for (option, known) in options.iter_mut().zip(known) {
+            option.burden = known.burden;
         }
+        for (o, burden) in met.into_iter().zip(burdens) {
+            options[o].burden = burden;
+        }
+        options.iter_mut().for_each(|option| option.cost += option.burden);
         options
     }
 

@@ -16,7 +16,7 @@ mod replanned;
 mod yielding;
 
 pub(super) use chain::{ChangedMotion, Reacted, caused};
-pub(super) use following::following;
+pub(super) use following::Following;
 pub(super) use other::Others;
 pub(crate) use path_progress::{extend_along_road, state_between};
 pub use reaction::WAITS_STEPS;
