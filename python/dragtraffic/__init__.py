@@ -1,29 +1,42 @@
-"""Traffic scenes from Python: open, generate, place, score, look.
+"""Traffic scenes from Python: open, generate, place, score, step, look.
 
-A thin layer over the program ``dragtraffic``, which comes with the wheel: each call runs it once, so results
-are those of the command line, to the last digit. Units are in the names: metres, seconds, radians.
+The engine runs in the process of Python; results are those of the command line and of HTTP, to the last digit. Long
+calls leave other threads running and end with Ctrl-C. Units are in the names: metres, seconds, radians.
 
     >>> import dragtraffic
     >>> scene = dragtraffic.open("assets/scenes/demo-crossing.json")
     >>> turned = scene.generate(goals={"4": dragtraffic.Goal(x_m=2.0, y_m=27.5)}, react=True, seed=7)
     >>> len(turned.score()["scene"]["collisions"])
     0
+    >>> run = dragtraffic.Run(scene, seed=7)
+    >>> run.step().time_s
+    0.1
 """
 
-from ._conditions import Condition, Goal, Start, Velocity, Via
-from ._program import DragTrafficError, program, version
-from ._scene import Scene, open, open_all
+import os
+
+# The engine's tensors are small: threads of the tensor library cost more than they gain.
+os.environ.setdefault("CANDLE_NUM_THREADS", "1")
+
+from ._conditions import Condition, Goal, Start, Velocity, Via  # noqa: E402
+from ._errors import DragTrafficError  # noqa: E402
+from ._native import version  # noqa: E402
+from ._run import Peek, Run, State, Step  # noqa: E402
+from ._scene import Scene, open, open_all  # noqa: E402
 
 __all__ = [
     "Condition",
     "DragTrafficError",
     "Goal",
+    "Peek",
+    "Run",
     "Scene",
     "Start",
+    "State",
+    "Step",
     "Velocity",
     "Via",
     "open",
     "open_all",
-    "program",
     "version",
 ]

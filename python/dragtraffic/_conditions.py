@@ -75,7 +75,7 @@ class Condition:
     via: tuple[Via, ...] = ()
 
     def document(self) -> dict[str, Any]:
-        """As the program reads it."""
+        """As the engine reads it."""
         made = _document(self)
         if self.goal is not None:
             made["frame"] = self.goal.frame

@@ -1,17 +1,17 @@
-"""A scene document and what the program does with it."""
+"""A scene and what the engine does with it."""
 
 from __future__ import annotations
 
 import io
 import json
 import os
-import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Union
 
+from . import _native
 from ._conditions import Condition, Goal
-from ._program import run
+from ._errors import DragTrafficError
 from ._renamed import renamed
 
 #: An id of a road user; numbers are taken as their text.
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def _ids(ids: object) -> list[str]:
-    """Ids as the program takes them: one id, or several, as text or numbers."""
+    """Ids as the engine takes them: one id, or several, as text or numbers."""
     several = ids if isinstance(ids, Iterable) and not isinstance(ids, str) else [ids]
     return [str(id) for id in several]
 
@@ -31,12 +31,51 @@ def _ids(ids: object) -> list[str]:
 class Scene:
     """A scene: map, signals, road users with their tracks, and futures where there are some.
 
-    ``document`` is the scene as JSON has it (``dragtraffic schema`` prints what that is). Methods give new
-    scenes and leave this one as it is.
+    ``document`` is the scene as JSON has it (``dragtraffic schema`` prints what that is). Methods give new scenes and
+    leave this one as it is. Of a scene that was generated, ``resolved`` says of each road user what was asked and
+    whether it can be had, ``warnings`` what is unlikely, and ``code`` names the answer. Of a scene that was opened,
+    ``warnings`` are what its reader changed or left out.
     """
 
+    resolved: dict[str, Any]
+    warnings: list[dict[str, Any]]
+    code: str | None
+
     def __init__(self, document: Mapping[str, Any]) -> None:
-        self.document: dict[str, Any] = dict(document)
+        self._document: dict[str, Any] | None = dict(document)
+        self._native: _native.Scene | None = None
+        self.resolved, self.warnings, self.code = {}, [], None
+
+    @classmethod
+    def _of(cls, native: _native.Scene) -> Scene:
+        scene = cls({})
+        scene._document, scene._native = None, native
+        return scene
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The scene as JSON has it. Changes of it count in later calls."""
+        if self._document is None:
+            assert self._native is not None
+            self._document = json.loads(self._native.document())
+            # Whoever has the document may change it.
+            self._native = None
+        return self._document
+
+    def native(self) -> _native.Scene:
+        """The scene as the engine has it.
+
+        Raises:
+            DragTrafficError: the document is no scene.
+        """
+        return self._native or _native.Scene.of_document(self.bytes())
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_document": None, "_native": self.bytes()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._native = _native.Scene.of_document(state["_native"])
 
     def __repr__(self) -> str:
         futures = f", {len(self.samples)} samples" if self.samples else ""
@@ -97,7 +136,7 @@ class Scene:
         that is not generated, a goal, start or via point is refused; its type and size count. Ids are text or numbers.
 
         Raises:
-            DragTrafficError: the program refused the call.
+            DragTrafficError: the engine refused the call.
             ValueError: a condition is given twice.
         """
         fixed = {str(id): Condition(goal=goal) for id, goal in (goals or {}).items()}
@@ -106,31 +145,24 @@ class Scene:
         if both:
             raise ValueError(f"goals and conditions both name {', '.join(both)}")
         fixed.update(whole)
-        arguments = ["generate", "-"]
-        if agents is not None:
-            arguments.append(f"--agents={','.join(_ids(agents)) or '@none'}")
-        options = {
-            "seed": seed,
-            "samples": samples,
-            "modes": modes,
-            "horizon": horizon_s,
-            "start-time": start_s,
-            "replan-interval": replan_interval_s,
-            "diversity": diversity,
-            "steps": steps,
-            "kept-futures": kept_futures,
+        body: dict[str, Any] = {
+            "conditions": {id: condition.document() for id, condition in fixed.items()},
+            "react": react if isinstance(react, bool) else _ids(react),
+            "seed": int(seed),
+            "samples": int(samples),
+            "modes": int(modes),
+            "horizon_s": float(horizon_s),
+            "start_s": float(start_s),
+            "kept_futures": kept_futures,
         }
-        arguments += [f"--{name}={value}" for name, value in options.items() if value is not None]
-        if react is True:
-            arguments.append("--react")
-        elif react is not False and (reacting := _ids(react)):
-            arguments.append(f"--react={','.join(reacting)}")
-        with tempfile.TemporaryDirectory() as folder:
-            for number, (id, condition) in enumerate(fixed.items()):
-                file = Path(folder, f"{number}.json")
-                file.write_text(json.dumps(condition.document()))
-                arguments.append(f"--condition={id}={file}")
-            return self._made(arguments)
+        if agents is not None:
+            body["agents"] = _ids(agents)
+        numbers = {"replan_interval_s": replan_interval_s, "diversity": diversity, "steps": steps}
+        body.update({name: value for name, value in numbers.items() if value is not None})
+        native, said = self.native().generate(_json(body))
+        made, answer = Scene._of(native), json.loads(said)
+        made.resolved, made.warnings, made.code = answer["resolved"], answer["warnings"], answer["code"]
+        return made
 
     @renamed(at_s="start_s", density_per_km="density_per_lane_km")
     def place(
@@ -149,30 +181,29 @@ class Scene:
         the scene that stay (all when absent).
 
         Raises:
-            DragTrafficError: the program refused the call.
+            DragTrafficError: the engine refused the call.
         """
-        arguments = ["place", "-", f"--seed={seed}", f"--start-time={start_s}"]
-        arguments += [f"--count={count}"] if count is not None else []
-        arguments += [f"--density={density_per_lane_km}"] if density_per_lane_km is not None else []
+        body: dict[str, Any] = {"seed": int(seed), "start_s": float(start_s)}
+        if count is not None or density_per_lane_km is not None:
+            body["density"] = {"count": count} if count is not None else {"per_lane_km": density_per_lane_km}
         if types:
-            arguments.append("--types=" + ",".join(f"{name}={share}" for name, share in types.items()))
+            body["types"] = dict(types)
         if keep is not None:
-            ids = ",".join(_ids(keep))
-            arguments.append(f"--keep={ids}" if ids else "--keep")
-        if region is None:
-            return self._made(arguments)
-        ring = [list(point) for point in region]
-        polygon = {"type": "Polygon", "coordinates": [ring if ring[:1] == ring[-1:] else [*ring, ring[0]]]}
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "region.json")
-            file.write_text(json.dumps(polygon))
-            return self._made([*arguments, f"--region={file}"])
+            body["keep"] = _ids(keep)
+        if region is not None:
+            ring = [list(point) for point in region]
+            body["region"] = {"polygon_m": ring[:-1] if ring[:1] == ring[-1:] else ring}
+        native, said = self.native().place(_json(body))
+        made, placed = Scene._of(native), json.loads(said)
+        if placed["unplaced"]:
+            made.warnings = [{"code": "unplaced", "detail": f"{placed['unplaced']} not placed: {placed['reason']}"}]
+        return made
 
     def score(self, sample: int | None = None) -> dict[str, Any]:
         """Collisions, near misses, time to collision, road, kinematics and goals of the scene as it is shown,
         or with another of its samples: ``scene`` and ``agents`` by id."""
         scene = self if sample is None else self.chosen(sample)
-        return dict(json.loads(run(["score", "--json", "-"], scene.bytes())))
+        return dict(json.loads(scene.native().score(b"{}")))
 
     def to_frame(self) -> pandas.DataFrame:
         """A long table of all motion in the frame of the scene, one row for each road user, future and step:
@@ -182,8 +213,7 @@ class Scene:
 
         # Tables have the frame of the source; without an origin that is the scene's own.
         meta = {name: value for name, value in self.document.get("meta", {}).items() if name != "origin"}
-        here = Scene({**self.document, "meta": meta})
-        text = run(["export", "-", "--to", "csv", "-o", "-"], here.bytes())
+        text, _ = Scene({**self.document, "meta": meta}).native().export("csv")
         words = {name: "string" for name in ("scenario_id", "agent_id", "type", "subtype", "source")}
         whole = {name: "Int64" for name in ("sample", "mode")}
         frame = pandas.read_csv(io.BytesIO(text), dtype={**words, **whole})
@@ -197,20 +227,28 @@ class Scene:
 
         return plot(self, ax, modes=modes)
 
-    def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
-        """Writes the scene: as it is, or in another format that ``dragtraffic export`` knows."""
-        if format is None:
-            Path(path).write_bytes(self.bytes())
-        else:
-            arguments = ["export", "-", "--to", format, "--force", "-o", os.fspath(path)]
-            run(arguments, self.bytes())
+    def save(self, path: str | os.PathLike[str], format: str | None = None) -> list[dict[str, Any]]:
+        """Writes the scene: as it is, or in another format that ``dragtraffic convert`` knows. Returns what that format
+        cannot hold."""
+        content, losses = (self.bytes(), b"[]") if format is None else self.native().export(format)
+        Path(path).write_bytes(content)
+        lost: list[dict[str, Any]] = json.loads(losses)
+        return lost
 
     def bytes(self) -> bytes:
         """The document as JSON."""
-        return json.dumps(self.document).encode()
+        return self._native.document() if self._document is None and self._native else _json(self.document)
 
-    def _made(self, arguments: list[str]) -> Scene:
-        return Scene(json.loads(run(arguments, self.bytes())))
+
+def _json(value: Any) -> bytes:
+    return json.dumps(value, default=_plain).encode()
+
+
+def _plain(number: Any) -> Any:
+    """A number of numpy or pandas as one of JSON's."""
+    if hasattr(number, "item"):
+        return number.item()
+    raise TypeError(f"{type(number).__name__} has no place in a document")
 
 
 def open(path: str | os.PathLike[str], index: int = 0) -> Scene:
@@ -219,8 +257,14 @@ def open(path: str | os.PathLike[str], index: int = 0) -> Scene:
     Raises:
         DragTrafficError: with the fault and where in the file it lies.
     """
-    arguments = ["convert", os.fspath(path), "--to", "dragtraffic", "--index", str(index), "-o", "-"]
-    return Scene(json.loads(run(arguments)))
+    path = Path(path)
+    try:
+        native, said = _native.Scene.read(path.read_bytes(), path.name, index)
+    except DragTrafficError as refused:
+        raise DragTrafficError(f"{path}: {refused}", refused.code, refused.errors) from None
+    scene = Scene._of(native)
+    scene.warnings = json.loads(said)
+    return scene
 
 
 def open_all(paths: Iterable[str | os.PathLike[str]]) -> list[Scene]:

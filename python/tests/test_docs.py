@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from dragtraffic._program import program
 
 ROOT = Path(__file__).resolve().parents[2]
 ADDRESS = "127.0.0.1:8080"
@@ -35,8 +34,11 @@ def folder(tmp_path: Path) -> Path:
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """A server on a free port."""
     store = tmp_path_factory.mktemp("store") / "scenes.sqlite"
-    command = [str(program()), "serve", "--port", "0", "--db", str(store)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
+    command = [sys.executable, "-m", "dragtraffic", "serve", "--port", "0", "--db", str(store)]
+    own = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=own
+    ) as server:
         assert server.stdout is not None
         line = server.stdout.readline()
         yield line.strip().removeprefix("DragTraffic is at http://").rstrip("/")

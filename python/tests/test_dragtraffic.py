@@ -1,4 +1,4 @@
-"""The module over the real program. ``DRAGTRAFFIC_BIN`` names a program that is built already."""
+"""Scenes: open, generate, place, score, tables, plots."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_a_scene_opens(scene: Scene) -> None:
     assert "44 road users" in repr(scene)
     with pytest.raises(dragtraffic.DragTrafficError) as refused:
         dragtraffic.open(ROOT / "pyproject.toml")
-    assert refused.value.exit_code == 3 and "pyproject.toml" in str(refused.value)
+    assert refused.value.code == "format-unknown" and "pyproject.toml" in str(refused.value)
 
 
 def test_goals_are_met_and_others_react(scene: Scene, turned: Scene) -> None:
@@ -90,11 +90,11 @@ def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
         scene.generate(goals={"6": goal}, conditions={"6": condition})
     with pytest.raises(dragtraffic.DragTrafficError):
         scene.generate(["nobody"])
-    with pytest.raises(dragtraffic.DragTrafficError, match="at least one id"):
+    with pytest.raises(dragtraffic.DragTrafficError, match="agents"):
         scene.generate([])
     goes_on = scene.generate([], react=True, horizon_s=15.0)
     assert goes_on.samples[0]["agents"], "motion that ends goes on"
-    with pytest.raises(dragtraffic.DragTrafficError, match='--goal 6: road user "6" is not in agents'):
+    with pytest.raises(dragtraffic.DragTrafficError, match='conditions/6/goal: road user "6" is not in agents'):
         scene.generate(["7"], goals={"6": Goal(x_m=1.0, y_m=2.0)})
 
 

@@ -1,16 +1,4 @@
-//! DragTraffic: the editor, its HTTP API and the same work on the command line, in one program.
-//!
-//! `dragtraffic` without a subcommand serves the editor; `dragtraffic --help` lists the rest.
-
-mod app;
-mod base;
-mod cli;
-mod generation;
-mod http;
-mod routes;
-mod runs;
-mod scenes;
-mod work;
+//! The program `dragtraffic`. Without a command it serves the editor; `dragtraffic --help` lists the rest.
 
 use std::process::ExitCode;
 
@@ -26,7 +14,7 @@ const SETTINGS: [(&str, &str); 3] =
 
 fn main() -> ExitCode {
     with_settings();
-    cli::run()
+    ExitCode::from(dragtraffic::run(std::env::args_os()))
 }
 
 /// Starts the program again with the settings in place where they are missing; the allocator has

@@ -2,9 +2,9 @@
 
 use crate::compact::{FuturesDoc, FuturesForm};
 use experts::{Draft, Resolved, Warning};
-use scene::Sample;
 use scene::preference::{Learned, RoundCard};
 use scene::score::Score;
+use scene::{Generated, Sample};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -154,5 +154,12 @@ impl GeneratedHead {
         let created_at = String::new();
         let (stale, licence, chosen_sample) = (false, None, 0);
         Self { input_sha256, stale, weights, seed, request, licence, created_at, chosen_sample }
+    }
+
+    /// The scene's `generated` with these samples, the first of them chosen.
+    pub fn generated(self, created_at: String, samples: Vec<Sample>) -> Generated {
+        let Self { input_sha256, stale, weights, seed, request, licence, .. } = self;
+        let chosen_sample = 0;
+        Generated { input_sha256, stale, weights, seed, request, licence, created_at, chosen_sample, samples }
     }
 }

@@ -46,7 +46,7 @@ pub use exit::{Exit, Failure};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 /// Make traffic scenes by dragging: editor, HTTP API and command line in one program.
 #[derive(Parser)]
@@ -118,19 +118,20 @@ enum Command {
     Lab(lab::LabCommand),
 }
 
-/// Parses the command line and runs the command.
-pub fn run() -> ExitCode {
-    let cli = match parsed() {
+/// Parses a command line, whose first word is the program's name, and runs the command. Returns the exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match parsed(&arguments) {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
             if let Some(message) = of_the_lab(&error).or_else(|| renamed(&error)) {
                 output::complain(&message);
-                return ExitCode::from(code);
+                return code;
             }
             // Help into a closed pipe is no failure.
             let _ = error.print();
-            return ExitCode::from(code);
+            return code;
         }
     };
     let common = cli.common;
@@ -140,22 +141,22 @@ pub fn run() -> ExitCode {
         interrupt::watch();
     }
     match command.run(&common) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             if !failure.message.is_empty() {
                 output::complain(&failure.message);
             }
-            ExitCode::from(failure.exit as u8)
+            failure.exit as u8
         }
     }
 }
 
-fn parsed() -> Result<Cli, clap::Error> {
+fn parsed(arguments: &[OsString]) -> Result<Cli, clap::Error> {
     let command = without_global_options(Cli::command());
-    let mut matches = command.clone().try_get_matches()?;
+    let mut matches = command.clone().try_get_matches_from(arguments)?;
     let refused = |message| Cli::command().error(ErrorKind::InvalidValue, message);
     if let Some(command) = config::with_file(command, &matches).map_err(refused)? {
-        matches = command.try_get_matches()?;
+        matches = command.try_get_matches_from(arguments)?;
     }
     if let Some((name, _)) = matches.subcommand() {
         stray(&matches, name)?;

@@ -14,7 +14,6 @@ use experts::Cancel;
 use experts::placement::{ArmTraffic, MAX_COUNT, MAX_GAP_M, MAX_PER_HOUR, MAX_PER_LANE_KM, MAX_SPEED_MPS};
 use formats::native::{self, MAX_SAFE_INTEGER, MapForm, Members, SceneDoc};
 use serde_json::Value;
-use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -149,11 +148,10 @@ struct Work<'a> {
 impl Work<'_> {
     /// The scene with its new road users as a file, and how many they are.
     fn place(&self, source: &Source, item: Item) -> Result<(Vec<u8>, Vec<String>), Failure> {
-        let mut scene = item.scene;
-        let shared = Arc::new(scene.clone());
+        let scene = Arc::new(item.scene);
         let placement = self
             .operations
-            .place(self.body, &shared, &Cancel::default())
+            .place(self.body, &scene, &Cancel::default())
             .map_err(|problem| pointers::refused(source, &problem))?;
         let mut told = vec![format!("{} placed", placement.agents.len())];
         for ArmTraffic { arm, placed, later, .. } in placement.arms.iter().filter(|a| a.placed + a.later > 0)
@@ -164,13 +162,7 @@ impl Work<'_> {
             let unplaced: usize = placement.unplaced.values().sum();
             told.push(if unplaced > 0 { format!("{unplaced} not placed: {reason}") } else { reason.clone() });
         }
-        if let Some(keep) = &self.args.keep {
-            let keep: HashSet<&String> = keep.iter().collect();
-            scene.agents.retain(|agent| keep.contains(&agent.id));
-        }
-        scene.agents.extend(placement.agents);
-        // Futures of a scene with other road users in it mean nothing.
-        scene.generated = None;
+        let scene = self.body.placed(&scene, placement);
         Ok((native::write_doc(&SceneDoc::from_scene(&scene, MapForm::Inline)), told))
     }
 }

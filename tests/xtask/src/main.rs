@@ -186,18 +186,27 @@ fn cargo_command() -> Command {
     cargo
 }
 
-/// Types, tests and notebook of the Python module, over the program as it is built for tests.
+/// Types, tests and notebook of the Python package, over the extension module as it is built for tests.
 fn python() -> anyhow::Result<Outcome> {
     let own = match Environment::of_file("python")?.python()? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
-    let program = built("dragtraffic")?;
+    if let Outcome::Failed(why) = run(cargo_command().arg("build").args(WHOLE).arg("--quiet"))? {
+        return Ok(Outcome::Failed(why));
+    }
+    // Python takes an extension module by its own ending, from beside the package's files.
+    let (library, module) = if cfg!(windows) {
+        ("_native.dll", "_native.pyd")
+    } else if cfg!(target_os = "macos") {
+        ("lib_native.dylib", "_native.abi3.so")
+    } else {
+        ("lib_native.so", "_native.abi3.so")
+    };
+    let place = root().join("python/dragtraffic").join(module);
+    std::fs::copy(target().join("debug").join(library), &place).context("the extension module")?;
     for module in ["mypy", "pytest"] {
-        let checked = run(Command::new(&own)
-            .args(["-m", module])
-            .env("DRAGTRAFFIC_BIN", &program)
-            .current_dir(root()))?;
+        let checked = run(Command::new(&own).args(["-m", module]).current_dir(root()))?;
         if let Outcome::Failed(why) = checked {
             return Ok(Outcome::Failed(why));
         }
@@ -258,8 +267,12 @@ fn built(name: &str) -> anyhow::Result<PathBuf> {
     {
         bail!(why);
     }
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-    Ok(target.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+    Ok(target().join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// Where cargo builds.
+fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
 /// The program as it stands: a build that is older than the sources would be checked in their place.

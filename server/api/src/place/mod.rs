@@ -13,6 +13,7 @@ use experts::placement::Placement;
 use experts::{Cancel, GenerateError, Placer};
 use request::ArrivalsDoc;
 use scene::Scene;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 impl PlaceBody {
@@ -31,5 +32,18 @@ impl PlaceBody {
             }
             other => other.into(),
         })
+    }
+
+    /// The scene with what was placed, and of its own road users those that stay. Its futures go: with other road users
+    /// they mean nothing.
+    pub fn placed(&self, scene: &Scene, placement: Placement) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(keep) = &self.keep {
+            let keep: HashSet<&String> = keep.iter().collect();
+            scene.agents.retain(|agent| keep.contains(&agent.id));
+        }
+        scene.agents.extend(placement.agents);
+        scene.generated = None;
+        scene
     }
 }

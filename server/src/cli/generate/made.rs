@@ -9,8 +9,8 @@ use api::generate::{GenerationAnswer, GenerationRun};
 use api::{Operations, Problem, Subject};
 use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
+use scene::Scene;
 use scene::scenarios::{Casting, Template};
-use scene::{Generated, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -105,17 +105,7 @@ impl Maker<'_> {
                 numbers.push((number, figures));
             }
         }
-        scene.generated = Some(Generated {
-            input_sha256: head.input_sha256,
-            stale: head.stale,
-            weights: head.weights,
-            seed: head.seed,
-            request: head.request,
-            licence: head.licence,
-            created_at: created_at(),
-            chosen_sample: 0,
-            samples,
-        });
+        scene.generated = Some(head.generated(created_at(), samples));
         Ok(MakeOutcome::Made(Box::new(MadeScene {
             scene,
             casting,

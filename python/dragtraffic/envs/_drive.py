@@ -1,0 +1,92 @@
+"""One ego, after Gymnasium's interface."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of, movers, observation_space
+from ._observe import Floats
+
+#: Most scenes that a reset looks at for one with an ego.
+_TRIES = 20
+
+
+class Drive(gymnasium.Env[Any, NDArray[Any]]):
+    """You drive one road user to its goal; all others react.
+
+    ``scene``: a scene, a file, a folder, several of these, or a function from a random generator to a scene; one is drawn
+    at each reset. ``fill``: arguments of :meth:`dragtraffic.Scene.place`, which then places road users anew at each reset.
+    ``ego``: the road user; without it one of the vehicles that move is drawn. Its goal is that of its conditions, else
+    where its recording ends. ``actions``: ``"acceleration"`` (shares of acceleration and curvature in [-1, 1]) or
+    ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``distance_m``, ``reached``, ``faults``,
+    ``acceleration_mps2``, ``sideways_mps2`` and ``jerk_mps3``. An episode ends at the goal and at a fault of the ego, and
+    is truncated after ``horizon_s``.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}
+
+    def __init__(
+        self,
+        scene: SceneSource,
+        *,
+        ego: str | int | None = None,
+        fill: Mapping[str, Any] | None = None,
+        actions: Actions = "acceleration",
+        reward: Callable[[Mapping[str, Any]], float] = default_reward,
+        step_s: float = 0.1,
+        horizon_s: float = 20.0,
+    ) -> None:
+        self._scenes = Scenes(scene, fill)
+        self._ego = None if ego is None else str(ego)
+        self._kind, self._reward = actions, reward
+        self._step_s, self._horizon_s = step_s, horizon_s
+        self.observation_space = observation_space()
+        self.action_space = action_space(actions)
+        self._episode: Episode | None = None
+        self._id = ""
+
+    @property
+    def episode(self) -> Episode:
+        """The episode under way, with its ``run``.
+
+        Raises:
+            RuntimeError: before the first reset.
+        """
+        if self._episode is None:
+            raise RuntimeError("reset the environment first")
+        return self._episode
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Floats], dict[str, Any]]:
+        """Draws a scene and an ego. Equal seeds give equal episodes."""
+        super().reset(seed=seed)
+        for _ in range(_TRIES):
+            scene = self._scenes.draw(self.np_random)
+            all = [self._ego] if self._ego is not None else movers(scene)
+            at, number = int(self.np_random.integers(2**31)), int(self.np_random.integers(2**31))
+            self._id = all[at % len(all)] if all else ""
+            goal = goal_of(scene, self._id, number) if all else None
+            if goal is not None:
+                break
+        else:
+            who = "vehicle that moves" if self._ego is None else f"goal of road user {self._ego}"
+            raise ValueError(f"no {who} in {_TRIES} scenes")
+        self._episode = Episode(scene, {self._id: goal}, number, self._step_s, self._horizon_s)
+        driver = self._episode.drivers[self._id]
+        return self._episode.observation(self._id), {"ego": self._id, "distance_m": driver.distance_m()}
+
+    def step(
+        self, action: NDArray[Any]
+    ) -> tuple[dict[str, Floats], float, bool, bool, dict[str, Any]]:
+        """Drives one step."""
+        episode = self.episode
+        info = episode.step({self._id: np.asarray(action)}, self._kind)[self._id]
+        over = episode.drivers[self._id].over
+        observation = episode.observation(self._id)
+        return observation, self._reward(info), over, episode.late and not over, info

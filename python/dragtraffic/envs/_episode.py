@@ -1,0 +1,249 @@
+"""One episode: a scene, a run in it, and where the egos should get to."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, Union
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from .._errors import DragTrafficError
+from .._run import Run, State, Step
+from .._scene import Scene, open
+from ._observe import Floats, View, space
+
+#: A scene, a file, a folder of files, several of them, or a function that makes one from a generator of numbers.
+SceneSource = Union[
+    Scene, str, "os.PathLike[str]", Sequence[Union[Scene, str]], Callable[[np.random.Generator], Scene]
+]
+Actions = Literal["acceleration", "state"]
+
+#: Greatest acceleration and braking, m/s2; curvature, 1/m; sideways acceleration, m/s2; speed, m/s.
+ACCELERATION_MPS2, BRAKING_MPS2, CURVATURE_PER_M, SIDEWAYS_MPS2, SPEED_MPS = 3.0, 6.0, 0.2, 6.0, 35.0
+#: An ego is at its goal within this distance, metres.
+AT_GOAL_M = 2.0
+#: Shortest way to a goal, metres, and least speed of a road user that moves, m/s.
+MOVES_M, MOVES_MPS = 15.0, 1.0
+
+
+def default_reward(info: Mapping[str, Any]) -> float:
+    """Metres of progress to the goal, 10 for reaching it, -10 for each fault, -0.01 for each m/s3 of jerk."""
+    comfort = 0.01 * abs(info["jerk_mps3"])
+    return float(info["progress_m"] + 10.0 * info["reached"] - 10.0 * len(info["faults"]) - comfort)
+
+
+class Scenes:
+    """Scenes of a source, one for each episode."""
+
+    def __init__(self, source: SceneSource, fill: Mapping[str, Any] | None) -> None:
+        self._fill = fill
+        self._make: Callable[[np.random.Generator], Scene] | None = None
+        self._all: list[Scene | Path] = []
+        if callable(source):
+            self._make = source
+            return
+        several = [source] if isinstance(source, (Scene, str, os.PathLike)) else list(source)
+        for each in several:
+            if isinstance(each, Scene):
+                self._all.append(each)
+            elif Path(each).is_dir():
+                self._all.extend(sorted(file for file in Path(each).iterdir() if file.is_file()))
+            else:
+                self._all.append(Path(each))
+        if not self._all:
+            raise ValueError(f"no scenes in {source}")
+
+    def draw(self, random: np.random.Generator) -> Scene:
+        """The scene of an episode. With ``fill``, its road users are placed anew."""
+        scene = self._make(random) if self._make is not None else self._opened(int(random.integers(len(self._all))))
+        if self._fill is None:
+            return scene
+        return scene.place(**{"keep": [], "seed": int(random.integers(2**31)), **self._fill})
+
+    def _opened(self, at: int) -> Scene:
+        """A scene by its number; a file that is no scene stands for the next one."""
+        refused: DragTrafficError | None = None
+        for index in [*range(at, len(self._all)), *range(at)]:
+            found = self._all[index]
+            try:
+                scene = self._all[index] = found if isinstance(found, Scene) else open(found)
+                return scene
+            except DragTrafficError as error:
+                refused = error
+        raise ValueError(f"no file is a scene: {refused}")
+
+
+def movers(scene: Scene, types: Sequence[str] = ("vehicle",)) -> list[str]:
+    """Road users of these types that are there at the start and move, or will."""
+    found = []
+    for agent in scene.document["agents"]:
+        steps = _recorded(agent)
+        if agent["type"] not in types or not steps or steps[0] > 0:
+            continue
+        if _state(agent, 0).speed_mps >= MOVES_MPS or _way_m(agent, _asked(agent)) >= MOVES_M:
+            found.append(str(agent["id"]))
+    return found
+
+
+def goal_of(scene: Scene, id: str, seed: int) -> State | None:
+    """The goal of a road user: that of its conditions, else where its recording ends, else where its likeliest future
+    does. None where it goes nowhere."""
+    agent = next(agent for agent in scene.document["agents"] if agent["id"] == id)
+    if not _recorded(agent):
+        return None
+    goal = _asked(agent)
+    if _way_m(agent, goal) < MOVES_M:
+        futures = scene.generate([id], seed=seed).samples[0]["agents"][id]
+        future = futures["modes"][futures["chosen"]]
+        goal = State(*(float(future[name][-1]) for name in State._fields))
+    return goal if _way_m(agent, goal) >= MOVES_M else None
+
+
+def _recorded(agent: Mapping[str, Any]) -> list[int]:
+    """Scene steps at which a road user was seen."""
+    track = agent["track"]
+    first = int(track["first_step"])
+    ranges = track.get("valid") or [[first, first + len(track["x_m"])]]
+    return [step for begin, end in ranges for step in range(begin, end)]
+
+
+def _state(agent: Mapping[str, Any], step: int) -> State:
+    """The recorded state at a scene step."""
+    track = agent["track"]
+    return State(*(float(track[name][step - int(track["first_step"])]) for name in State._fields))
+
+
+def _asked(agent: Mapping[str, Any]) -> State:
+    """The goal of the conditions, else where the recording ends."""
+    goal = (agent.get("conditions") or {}).get("goal") or {}
+    last = _state(agent, _recorded(agent)[-1])
+    if goal.get("x_m") is None:
+        return last
+    heading, speed = goal.get("heading_rad"), goal.get("speed_mps") or 0.0
+    heading = last.heading_rad if heading is None else heading
+    return State(goal["x_m"], goal["y_m"], heading, speed * np.cos(heading), speed * np.sin(heading))
+
+
+def _way_m(agent: Mapping[str, Any], goal: State) -> float:
+    start = _state(agent, _recorded(agent)[0])
+    return float(np.hypot(goal.x_m - start.x_m, goal.y_m - start.y_m))
+
+
+@dataclass
+class Driver:
+    """An ego within an episode."""
+
+    id: str
+    goal: State
+    state: State
+    action: tuple[float, float] = (0.0, 0.0)
+    reached: bool = False
+    over: bool = False
+
+    def distance_m(self) -> float:
+        """From the goal, metres."""
+        return float(np.hypot(self.goal.x_m - self.state.x_m, self.goal.y_m - self.state.y_m))
+
+
+class Episode:
+    """Egos among traffic that reacts."""
+
+    def __init__(
+        self, scene: Scene, goals: Mapping[str, State], seed: int, step_s: float, horizon_s: float
+    ) -> None:
+        egos = list(goals)
+        self.run = Run(scene, egos, seed=seed, step_s=step_s)
+        self.view = View(scene)
+        self.horizon_s = horizon_s
+        self.drivers = {id: Driver(id, goal, self.run.present[id]) for id, goal in goals.items()}
+
+    def step(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[str, dict[str, Any]]:
+        """Makes a step, and says of each ego that drove what came of it. An ego that is done stands where it is."""
+        dt = self.run.step_s
+        before = {id: (driver.distance_m(), driver.action[0]) for id, driver in self.drivers.items()}
+        for id, driver in self.drivers.items():
+            if driver.over:
+                driver.state = driver.state._replace(vx_mps=0.0, vy_mps=0.0)
+            else:
+                drive(driver, actions[id], kind, dt)
+        step = self.run.step({id: driver.state for id, driver in self.drivers.items()})
+        return {id: self._told(driver, step, *before[id]) for id, driver in self.drivers.items() if not driver.over}
+
+    def _told(self, driver: Driver, step: Step, distance_m: float, acceleration: float) -> dict[str, Any]:
+        faults = [fault["fault"] for fault in step.faults if driver.id in _involved(fault)]
+        driver.reached = driver.distance_m() <= AT_GOAL_M
+        driver.over = driver.reached or bool(faults)
+        rate, curvature = driver.action
+        return {
+            "progress_m": distance_m - driver.distance_m(),
+            "distance_m": driver.distance_m(),
+            "reached": driver.reached,
+            "faults": faults,
+            "acceleration_mps2": rate,
+            "sideways_mps2": curvature * driver.state.speed_mps**2,
+            "jerk_mps3": (rate - acceleration) / self.run.step_s,
+            "changes": step.changes,
+            "time_s": step.time_s,
+        }
+
+    @property
+    def late(self) -> bool:
+        """The horizon is reached."""
+        return self.run.present.number * self.run.step_s >= self.horizon_s - 1e-9
+
+    def observation(self, id: str) -> dict[str, Floats]:
+        """What an ego sees."""
+        driver, present = self.drivers[id], self.run.present
+        left_s = self.horizon_s - present.number * self.run.step_s
+        return self.view.observation(id, present, driver.goal, left_s, driver.action)
+
+
+def drive(driver: Driver, action: NDArray[Any], kind: Actions, dt: float) -> None:
+    """Moves an ego by its action: a target state as it is, or shares of the greatest acceleration and curvature along a
+    curve of that curvature, whose sideways acceleration is bounded."""
+    state = driver.state
+    speed = state.speed_mps
+    if kind == "state":
+        driver.state = State(*(float(number) for number in action))
+        driver.action = ((driver.state.speed_mps - speed) / dt, 0.0)
+        return
+    push, steer = np.clip(np.asarray(action, dtype=float), -1.0, 1.0)
+    rate = push * (ACCELERATION_MPS2 if push > 0 else BRAKING_MPS2)
+    after = float(np.clip(speed + rate * dt, 0.0, SPEED_MPS))
+    middle = 0.5 * (speed + after)
+    most = min(CURVATURE_PER_M, SIDEWAYS_MPS2 / max(middle, 1.0) ** 2)
+    curvature = float(steer) * most
+    turn = middle * curvature * dt
+    halfway, heading = state.heading_rad + 0.5 * turn, state.heading_rad + turn
+    heading = float((heading + np.pi) % (2 * np.pi) - np.pi)
+    driver.state = State(
+        state.x_m + middle * dt * np.cos(halfway),
+        state.y_m + middle * dt * np.sin(halfway),
+        heading,
+        after * np.cos(heading),
+        after * np.sin(heading),
+    )
+    driver.action = ((after - speed) / dt, curvature)
+
+
+def _involved(fault: Mapping[str, Any]) -> set[str]:
+    """Road users that a fault is about: whose it is, and whom it meets."""
+    return {str(fault["agent"]), *(str(id) for id in [fault["fault"].get("with")] if id is not None)}
+
+
+def action_space(kind: Actions) -> gymnasium.spaces.Box:
+    """Shares of acceleration and curvature, or a state: x, y, heading and velocity."""
+    if kind == "acceleration":
+        return gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
+    most = np.array([1e5, 1e5, np.pi, 100.0, 100.0])
+    return gymnasium.spaces.Box(-most, most, dtype=np.float64)
+
+
+def observation_space() -> gymnasium.spaces.Dict:
+    """See :data:`dragtraffic.envs._observe.SHAPES`."""
+    return space()

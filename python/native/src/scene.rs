@@ -1,0 +1,115 @@
+//! Scenes, and what the operations make of them.
+
+use crate::calls::{cancellable, raised, reply, request};
+use api::export::{self, MotionChoice};
+use api::generate::GenerationRun;
+use api::import::SceneFile;
+use api::place::PlaceBody;
+use api::score::ScoreRequest;
+use api::{Code, GenerateRequest, Problem, Subject};
+use formats::native::{self, MapForm, SceneDoc};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use scene::Scene;
+use serde_json::json;
+use std::sync::Arc;
+
+/// A scene as the engine has it.
+#[pyclass(frozen, name = "Scene", module = "dragtraffic._native")]
+pub struct NativeScene {
+    /// The scene.
+    pub scene: Arc<Scene>,
+}
+
+impl NativeScene {
+    fn of(scene: Scene) -> Self {
+        Self { scene: Arc::new(scene) }
+    }
+}
+
+#[pymethods]
+impl NativeScene {
+    /// The scene at an index of a file's content, and what the reader changed or left out. `name` has the file's ending.
+    #[staticmethod]
+    fn read<'py>(
+        py: Python<'py>,
+        content: &[u8],
+        name: &str,
+        index: usize,
+    ) -> PyResult<(Self, Bound<'py, PyBytes>)> {
+        let read = cancellable(py, |_, _| {
+            let beside = dragtraffic::companions();
+            let file = SceneFile::of(&content, None, name, &beside, (index, 1))?;
+            let read = file.read(&content)?;
+            let none = || Problem::new(Code::NotFound, format!("there is no scene {index} in this file"));
+            read.scenes.into_iter().next().ok_or_else(none)
+        })?;
+        let warnings = read.warnings.iter().map(|w| json!({"code": w.code, "detail": w.detail}));
+        let warnings = reply(py, &warnings.collect::<Vec<_>>())?;
+        Ok((Self::of(read.scene), warnings))
+    }
+
+    /// The scene of a document.
+    #[staticmethod]
+    fn of_document(py: Python<'_>, document: &[u8]) -> PyResult<Self> {
+        let read = py.detach(|| native::read(document));
+        read.map(Self::of).map_err(|error| raised(py, error.into()))
+    }
+
+    /// The document.
+    fn document<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        let written = py.detach(|| native::write_doc(&SceneDoc::from_scene(&self.scene, MapForm::Inline)));
+        PyBytes::new(py, &written)
+    }
+
+    /// The scene with the futures of a request, and what the answer says beside them.
+    fn generate<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<(Self, Bound<'py, PyBytes>)> {
+        let body: GenerateRequest = request(py, body)?;
+        let answered = cancellable(py, |operations, cancel| {
+            let subject = Subject::passing(Arc::clone(&self.scene));
+            operations.generate(&body, &subject, cancel.clone()).and_then(GenerationRun::answer)
+        })?;
+        let said = json!({
+            "resolved": answered.answer.resolved,
+            "warnings": answered.answer.warnings,
+            "code": answered.code,
+        });
+        let mut scene = (*answered.scene).clone();
+        scene.generated = Some(answered.head.generated(String::new(), answered.samples));
+        Ok((Self::of(scene), reply(py, &said)?))
+    }
+
+    /// The scene with more road users, and why some have no place.
+    fn place<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<(Self, Bound<'py, PyBytes>)> {
+        let body: PlaceBody = request(py, body)?;
+        let placement = cancellable(py, |operations, cancel| operations.place(&body, &self.scene, cancel))?;
+        let said = json!({
+            "unplaced": placement.unplaced.values().sum::<usize>(),
+            "reason": placement.reason,
+        });
+        Ok((Self::of(body.placed(&self.scene, placement)), reply(py, &said)?))
+    }
+
+    /// The report on the scene as it is shown.
+    fn score<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<Bound<'py, PyBytes>> {
+        let body: ScoreRequest = request(py, body)?;
+        let score = cancellable(py, |operations, _| {
+            operations.score(&body, &Subject::passing(Arc::clone(&self.scene)))
+        })?;
+        reply(py, &score)
+    }
+
+    /// A file in another format, and what it cannot hold.
+    #[pyo3(signature = (format, sample=None))]
+    fn export<'py>(
+        &self,
+        py: Python<'py>,
+        format: &str,
+        sample: Option<usize>,
+    ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
+        let written = cancellable(py, |_, _| {
+            export::write(&self.scene, format, sample, MotionChoice::default(), None)
+        })?;
+        Ok((PyBytes::new(py, &written.bytes), reply(py, &written.losses)?))
+    }
+}

@@ -1,0 +1,105 @@
+"""The environments, by the checks of their interfaces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, cast
+
+import dragtraffic
+import dragtraffic.envs
+import gymnasium
+import numpy
+import pytest
+from dragtraffic.envs import Drive
+from gymnasium.utils.env_checker import check_env
+from pettingzoo.test.parallel_test import parallel_api_test
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = ROOT / "assets/scenes"
+CROSSING = SCENES / "demo-crossing.json"
+ID = "dragtraffic/Drive-v0"
+
+
+def drive(**arguments: Any) -> Drive:
+    """The registered environment, without Gymnasium's wrappers."""
+    return cast("Drive", gymnasium.make(ID, **arguments).unwrapped)
+
+
+def test_gymnasiums_own_check() -> None:
+    check_env(drive(scene=CROSSING))
+
+
+def test_pettingzoos_own_check() -> None:
+    env = dragtraffic.envs.parallel_env(CROSSING, ["4", "6"], horizon_s=2.0)
+    parallel_api_test(env, num_cycles=60)
+
+
+def straight(env: Any, action: Any) -> list[tuple[float, bool, bool, dict[str, Any]]]:
+    """An episode under one action."""
+    env.reset(seed=3)
+    told = []
+    while True:
+        _, reward, over, late, info = env.step(action)
+        told.append((reward, over, late, info))
+        if over or late:
+            return told
+
+
+def test_who_stands_stays_and_the_horizon_ends_it() -> None:
+    env = drive(scene=CROSSING, ego="4", horizon_s=3.0)
+    told = straight(env, numpy.array([-1.0, 0.0]))
+    assert len(told) == 30 and told[-1][2] and not told[-1][1]
+    assert abs(told[-1][3]["acceleration_mps2"]) < 1e-9, "it has stopped"
+    assert min(info["acceleration_mps2"] for *_, info in told) >= -6.0 - 1e-6
+
+
+def test_driving_on_blindly_ends_with_a_fault() -> None:
+    env = drive(scene=CROSSING, ego="4")
+    _, over, _, info = straight(env, numpy.array([1.0, 0.4]))[-1]
+    assert over and info["faults"] and not info["reached"]
+
+
+def test_a_target_state_is_where_the_ego_is() -> None:
+    env = drive(scene=CROSSING, ego="4", actions="state")
+    env.reset(seed=1)
+    state = numpy.array([18.0, 8.0, -3.1, -4.0, 0.0])
+    observation, *_ = env.step(state)
+    assert env.episode.run.present["4"] == pytest.approx(state)
+    assert observation["own"][0] == pytest.approx(4.0)
+
+
+def test_equal_seeds_give_equal_episodes_and_folders_are_drawn_from() -> None:
+    env = drive(scene=SCENES)
+    first, second = (env.reset(seed=11) for _ in range(2))
+    assert first[1] == second[1]
+    assert all((first[0][name] == second[0][name]).all() for name in first[0])
+    names = set()
+    for seed in range(8):
+        env.reset(seed=seed)
+        names.add(env.episode.run.scene.name)
+    assert len(names) > 1
+
+
+def test_road_users_are_placed_anew() -> None:
+    fill = {"count": 8, "types": {"vehicle": 1.0}}
+    made = drive(scene=CROSSING, fill=fill)
+    scenes = []
+    for seed in (1, 2):
+        made.reset(seed=seed)
+        scenes.append(made.episode.run.present.states)
+    assert len(scenes[0]) == 8 and not numpy.array_equal(scenes[0], scenes[1])
+
+
+def test_a_view_is_in_the_road_users_frame() -> None:
+    env = drive(scene=CROSSING, ego="4")
+    observation, _ = env.reset(seed=1)
+    present = env.episode.run.present
+    own = present["4"]
+    other = observation["others"][0]
+    distances = [
+        numpy.hypot(state[0] - own.x_m, state[1] - own.y_m) for id, state in zip(present.ids, present.states) if id != "4"
+    ]
+    assert numpy.hypot(other[0], other[1]) == pytest.approx(min(distances), abs=1e-4)
+    lane = observation["lanes"][0]
+    assert numpy.hypot(lane[2], lane[3]) == pytest.approx(1.0, abs=1e-4)
+    assert numpy.hypot(lane[0], lane[1]) < 3.0, "a car is on a lane"

@@ -1,0 +1,16 @@
+//! DragTraffic: the editor, its HTTP API and the same work on the command line, in one program.
+//!
+//! The program calls [`run`]; so does the Python package, which has the command in its wheel.
+
+mod app;
+mod base;
+mod cli;
+mod generation;
+mod http;
+mod routes;
+mod runs;
+mod scenes;
+mod work;
+
+pub use base::netconvert::companions;
+pub use cli::run;
