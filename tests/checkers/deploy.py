@@ -27,6 +27,7 @@ import urllib.request
 
 import yaml
 from support.checks import check, end, program, root, work
+from support.proxied import TOKEN, through_both
 
 KUBERNETES = "1.34"
 # Most of the exposure that `systemd-analyze security` prints, times ten.
@@ -141,7 +142,7 @@ told = passes("help", program, "serve", "--help")
 for name in {*variables, *server["environment"]}:
     check(f"{name} is a variable of the program", f"[env: {name}=" in told or name == "DRAGTRAFFIC_LOG_FORMAT")
 tokens = pathlib.Path(here("/etc/dragtraffic/tokens"))
-tokens.write_text("anna edit 5f0c1a9be2d84763a1c97e20f4b8d315\n")
+tokens.write_text(f"anna edit {TOKEN}\n")
 tokens.chmod(0o600)
 
 
@@ -196,15 +197,17 @@ check("a version without notes", run("sh", deploy / "notes.sh", "999.0.0") == (1
 nginx, openssl = on_system("nginx"), on_system("openssl")
 if nginx and openssl:
     key, certificate = here("/etc/ssl/scenes.example.key"), here("/etc/ssl/scenes.example.pem")
-    request = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=scenes.example", "-days", "1"]
+    request = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1", "-subj", "/CN=scenes.example"]
+    request += ["-addext", "subjectAltName=DNS:scenes.example"]
     passes("certificate", openssl, *request, "-keyout", key, "-out", certificate)
-    places = [f"{name}_temp_path {work}/{name};" for name in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")]
+    places = [f"{name}_temp_path {work}/{name};\n" for name in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")]
+    head = f"pid {work}/nginx.pid;\nevents {{}}\nhttp {{\naccess_log off;\n{''.join(places)}"
     site = here((deploy / "nginx.conf").read_text())
-    head = f"pid {work}/nginx.pid;\nevents {{}}\nhttp {{\naccess_log off;\n"
-    (work / "nginx.conf").write_text(head + "\n".join(places) + f"\n{site}}}\n")
+    (work / "nginx.conf").write_text(f"{head}{site}}}\n")
     passes("nginx", nginx, "-t", "-p", work, "-e", work / "error.log", "-c", work / "nginx.conf")
+    through_both(nginx, head, here(options), site, certificate, environment)
 else:
-    print("nginx -t was left out: nginx or openssl is not installed")
+    print("nginx was left out: it or openssl is not installed")
 analyze = on_system("systemd-analyze")
 
 
