@@ -192,7 +192,9 @@ fn python() -> anyhow::Result<Outcome> {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
-    if let Outcome::Failed(why) = run(cargo_command().arg("build").args(WHOLE).arg("--quiet"))? {
+    // With the tests, since without them dependencies have other features and are compiled once more.
+    let module = ["build", "--lib", "--tests", "--quiet"];
+    if let Outcome::Failed(why) = run(cargo_command().args(module).args(WHOLE))? {
         return Ok(Outcome::Failed(why));
     }
     // Python takes an extension module by its own ending, from beside the package's files.
