@@ -10,7 +10,7 @@ are those of the command line, to the last digit. Units are in the names: metres
     0
 """
 
-from ._conditions import Condition, Goal, Start, Velocity, Via
+from ._conditions import Condition, Goal, Relation, Start, Velocity, Via
 from ._program import DragTrafficError, program, version
 from ._scene import Scene, open, open_all
 
@@ -18,6 +18,7 @@ __all__ = [
     "Condition",
     "DragTrafficError",
     "Goal",
+    "Relation",
     "Scene",
     "Start",
     "Velocity",
