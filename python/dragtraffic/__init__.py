@@ -18,7 +18,7 @@ import os
 # The engine's tensors are small: threads of the tensor library cost more than they gain.
 os.environ.setdefault("CANDLE_NUM_THREADS", "1")
 
-from ._conditions import Condition, Goal, Start, Velocity, Via  # noqa: E402
+from ._conditions import Condition, Goal, Relation, Start, Velocity, Via  # noqa: E402
 from ._errors import DragTrafficError  # noqa: E402
 from ._native import version  # noqa: E402
 from ._run import Peek, Run, State, Step  # noqa: E402
@@ -29,6 +29,7 @@ __all__ = [
     "DragTrafficError",
     "Goal",
     "Peek",
+    "Relation",
     "Run",
     "Scene",
     "Start",

@@ -29,9 +29,24 @@ class Start:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Relation:
+    """A goal relative to the road user ``to``: a gap ``ahead_m`` or ``behind_m`` of it, ``behind_s`` behind it, or
+    ``after_s`` after it was nearest to the goal's own ``x_m`` and ``y_m``. Exactly one of these four is needed."""
+
+    to: str
+    ahead_m: float | None = None
+    behind_m: float | None = None
+    behind_s: float | None = None
+    after_s: float | None = None
+    slower_mps: float | None = None
+    lanes_left: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Goal:
     """Where a road user should be at ``time_s`` (the end of the window when free): ``x_m`` and ``y_m`` in the
-    scene, or ``ahead_m`` and ``left_m`` (and ``turn_rad``) seen from where it starts."""
+    scene, or ``ahead_m`` and ``left_m`` (and ``turn_rad``) seen from where it starts, or a ``relation`` to another
+    road user."""
 
     x_m: float | None = None
     y_m: float | None = None
@@ -43,6 +58,7 @@ class Goal:
     velocity: Velocity | None = None
     time_s: float | None = None
     may_cross: tuple[str, ...] = ()
+    relation: Relation | None = None
 
     @property
     def frame(self) -> Literal["agent", "scene"]:
@@ -94,7 +110,7 @@ def _document(value: Any) -> dict[str, Any]:
 
 
 def _value(fixed: Any) -> Any:
-    if isinstance(fixed, (Goal, Start, Velocity, Via)):
+    if isinstance(fixed, (Goal, Relation, Start, Velocity, Via)):
         return _document(fixed)
     if isinstance(fixed, (tuple, list)):
         return [_value(part) for part in fixed]

@@ -9,7 +9,7 @@ import dragtraffic
 import numpy
 import pandas
 import pytest
-from dragtraffic import Condition, Goal, Scene, Start, Velocity, Via
+from dragtraffic import Condition, Goal, Relation, Scene, Start, Velocity, Via
 
 ROOT = Path(__file__).resolve().parents[2]
 CROSSING = ROOT / "assets/scenes/demo-crossing.json"
@@ -45,6 +45,16 @@ def test_goals_are_met_and_others_react(scene: Scene, turned: Scene) -> None:
     assert turned.score(1)["agents"].keys() == score["agents"].keys()
     with pytest.raises(IndexError):
         turned.chosen(2)
+
+
+def test_a_goal_relative_to_another_road_user(scene: Scene) -> None:
+    goal = Goal(time_s=5.0, relation=Relation(to="1", behind_m=8.0))
+    followed = scene.generate(goals={"4": goal}, seed=7)
+    assert followed.document["agents"], "the relation is part of the scene"
+    own = next(agent for agent in followed.document["agents"] if agent["id"] == "4")
+    assert own["conditions"]["goal"] == {"time_s": 5.0, "relation": {"to": "1", "behind_m": 8.0}}
+    with pytest.raises(dragtraffic.DragTrafficError, match="relative to"):
+        scene.generate(goals={"4": Goal(relation=Relation(to="nobody", ahead_m=1.0))})
 
 
 def test_equal_calls_give_equal_scenes(scene: Scene, turned: Scene) -> None:

@@ -228,6 +228,8 @@ pub enum Source {
     Default,
     /// Chosen by the generator.
     Model,
+    /// From the motion of the road user that the goal is relative to.
+    Relation,
 }
 
 /// A value and where it came from.

@@ -22,6 +22,8 @@ mod leaks;
 mod planning;
 #[path = "generator/refining.rs"]
 mod refining;
+#[path = "generator/relations.rs"]
+mod relations;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
 #[path = "generator/taking.rs"]

@@ -151,6 +151,7 @@ pub mod wanted {
         NUMBERS = "numbers";
         NUMBER_10 = "a protobuf number of at most ten bytes";
         NUMBER_8 = "a number of at most eight bytes";
+        ONE_PLACE = "exactly one of ahead_m, behind_m, behind_s and after_s";
         ONE_SCENARIO = "one scenario in the file";
         PAGE_PLACE = "pages that end within their column";
         PAIR = "a pair";

@@ -1,6 +1,6 @@
 //! Conditions of a road user: start and goal, each field free (`None`) or fixed, and the via points.
 
-use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Size, Vec2, Via};
+use crate::{Agent, AgentType, GoalRelation, HORIZON_STEPS, LaneMap, STEP_S, Size, Vec2, Via};
 use serde::Serialize;
 
 /// Most road edges that one road user may be allowed to drive over.
@@ -59,6 +59,9 @@ pub struct Conditions {
     pub start: Start,
     /// Goal fields.
     pub goal: Goal,
+    /// What the goal is relative to. [`Conditions::goal`] then has what it adds: a time, a speed, or a place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relation: Option<GoalRelation>,
     /// Ids of the road edges that it may drive over on its way to the goal, at most [`MAX_CROSSED_EDGES`].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub may_cross: Vec<String>,

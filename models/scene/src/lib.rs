@@ -38,6 +38,7 @@ pub mod motion;
 pub mod objects;
 pub mod preference;
 pub mod random;
+pub mod relation;
 pub mod routes;
 pub mod scenarios;
 mod scene;
@@ -54,6 +55,7 @@ pub use generated::{AgentFutures, Future, Generated, Sample};
 pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;
 pub use map::LaneMap;
+pub use relation::{GoalRelation, RelativePlace};
 pub use scene::{
     MAX_AGENTS, MAX_AREA_CORNERS, MAX_COORDINATE_M, MAX_LANE_LINKS, MAX_MAP_LINKS, MAX_MAP_POINTS,
     MAX_NAME_CHARS, MAX_NOTES_CHARS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,

@@ -4,7 +4,7 @@ use crate::geometry::crowding::Crowding;
 use crate::message::Message;
 use crate::sentences::{self, wanted, what};
 use crate::{
-    Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2,
+    Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2, relation,
 };
 use serde::Serialize;
 use std::collections::HashSet;
@@ -368,6 +368,10 @@ impl Scene {
             problems.push(SceneError::new("/agents", "too-many-agents", message));
         }
         check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
+        for (i, message) in relation::faults(&self.agents) {
+            let at = format!("/agents/{i}/conditions/goal/relation/to");
+            problems.push(SceneError::new(at, "invalid-field", message));
+        }
         for (i, agent) in self.agents.iter().enumerate() {
             let size = [agent.size.length_m, agent.size.width_m];
             if size.iter().any(|v| !(0.05..=60.0).contains(v))

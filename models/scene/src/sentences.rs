@@ -47,6 +47,37 @@ crate::messages! {
         "points-out-of-range",
         [count] "{count} point; {least} to {most} expected",
         "{count} points; {least} to {most} expected";
+    relation_gone(agent: &str, time_s: f64) =
+        "relation-gone", "Road user {agent}, which the goal is relative to, is not there at {time_s:.1} s.";
+    relation_lane_ends(agent: &str, short_m: f64, time_s: f64) =
+        "relation-lane-ends",
+        "The lane ends {short_m:.0} m before the place that is relative to road user {agent} at {time_s:.1} s.";
+    relation_no_lane_left(count: usize, agent: &str, time_s: f64) =
+        "relation-no-lane-left",
+        [count] "There is no lane to the left of road user {agent} at {time_s:.1} s.",
+        "There are no {count} lanes to the left of road user {agent} at {time_s:.1} s.";
+    relation_no_lane_right(count: usize, agent: &str, time_s: f64) =
+        "relation-no-lane-right",
+        [count] "There is no lane to the right of road user {agent} at {time_s:.1} s.",
+        "There are no {count} lanes to the right of road user {agent} at {time_s:.1} s.";
+    relation_not_passed(agent: &str, within_m: f64) =
+        "relation-not-passed", "Road user {agent} does not come within {within_m:.0} m of the goal.";
+    relation_off_lanes(agent: &str, time_s: f64) =
+        "relation-off-lanes", "Road user {agent} is on no lane at {time_s:.1} s, so it has no lane beside it.";
+    relation_outside(agent: &str, passed_s: f64, time_s: f64, least_s: f64, most_s: f64) =
+        "relation-outside",
+        "Road user {agent} passes the goal at {passed_s:.1} s. The goal is then due at {time_s:.1} s; {least_s:.1} s to \
+         {most_s:.1} s is possible.";
+    relation_ring(row: &str) = "relation-ring", "the goals are relative to each other in a ring: {row}";
+    relation_row(most: usize) = "relation-row", "more than {most} goals are relative to each other in a row";
+    relation_stands(agent: &str, time_s: f64) =
+        "relation-stands", "Road user {agent} stands at {time_s:.1} s. A time gap needs a speed; use a gap in metres.";
+    relation_to_itself() = "relation-to-itself", "the goal is relative to the same road user";
+    relation_too_slow(agent: &str, other_mps: f64, time_s: f64, slower_mps: f64) =
+        "relation-too-slow",
+        "Road user {agent} drives at {other_mps:.1} m/s at {time_s:.1} s; {slower_mps:.1} m/s slower is below zero.";
+    relation_unknown(id: &str) =
+        "relation-unknown", "the goal is relative to \"{id}\", which is not in the scene";
     state_expected(step: usize, expected: Word) = "state-expected", "state {step}: {expected} expected";
     track_beyond_scene(end: usize, steps: usize) =
         "track-beyond-scene", "track ends after step {end}, the scene has {steps}";

@@ -22,7 +22,7 @@ use scene::score::{Threshold, Thresholds};
 use scene::via::VIA_WITHIN_S;
 use scene::{
     AgentType, DEFAULT_VIA_TOLERANCE_M, MAX_AGENTS, MAX_VIAS, STANDING_MPS, STEP_S, Size, Subtype,
-    VIA_TOLERANCE_M,
+    VIA_TOLERANCE_M, relation,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -125,6 +125,18 @@ pub struct ViaRanges {
     default_tolerance_m: f64,
     /// So far from its time one may be passed.
     within_s: f64,
+}
+
+/// What goals relative to another road user may ask for; both ends are allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RelationRanges {
+    gap_m: (f64, f64),
+    gap_s: (f64, f64),
+    after_s: (f64, f64),
+    slower_mps: (f64, f64),
+    lanes_left: (f64, f64),
+    /// Goals in a row that are relative to each other.
+    most_in_a_row: usize,
 }
 
 /// Fixed numbers by which events and verdicts are worked out.
@@ -259,6 +271,7 @@ pub struct Domain {
     limits: KindLimits,
     condition_ranges: ConditionRanges,
     via: ViaRanges,
+    relation: RelationRanges,
     defaults: Defaults,
     /// What counts as an event, by name.
     thresholds: BTreeMap<&'static str, ThresholdRange>,
@@ -278,6 +291,14 @@ impl Domain {
             default_tolerance_m: DEFAULT_VIA_TOLERANCE_M,
             within_s: VIA_WITHIN_S,
         };
+        let relation = RelationRanges {
+            gap_m: relation::GAP_M,
+            gap_s: relation::GAP_S,
+            after_s: relation::AFTER_S,
+            slower_mps: relation::SLOWER_MPS,
+            lanes_left: relation::LANES_LEFT,
+            most_in_a_row: relation::MAX_RELATED_IN_A_ROW,
+        };
         let range = |t: Threshold| (t.name, ThresholdRange { usual: t.usual(), range: t.range.into() });
         Self {
             version: env!("CARGO_PKG_VERSION"),
@@ -285,6 +306,7 @@ impl Domain {
             limits,
             condition_ranges,
             via,
+            relation,
             defaults: DEFAULTS,
             thresholds: Thresholds::ALL.map(range).into(),
             judging: Judging::current(),

@@ -3,7 +3,7 @@
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
 use crate::names::hint;
-use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc};
+use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc};
 use scene::scenarios::Template;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -74,6 +74,35 @@ pub struct GoalRanges {
     /// Scene time, seconds; the end of the horizon when free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<Distribution>,
+    /// What the goal is relative to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relation: Option<GoalRelationRanges>,
+}
+
+/// A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GoalRelationRanges {
+    /// Id of the other road user.
+    pub to: String,
+    /// Gap from the front of the other one to the own rear, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ahead_m: Option<Distribution>,
+    /// Gap from the own front to the rear of the other one, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub behind_m: Option<Distribution>,
+    /// The same gap in seconds at the speed of the goal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub behind_s: Option<Distribution>,
+    /// The goal's own place is reached so many seconds after the other one was nearest to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_s: Option<Distribution>,
+    /// How much slower than the other one, m/s; negative is faster.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slower_mps: Option<Distribution>,
+    /// Lanes to the left of the other one's, in whole numbers; negative is to the right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lanes_left: Option<Distribution>,
 }
 
 /// Fields of a start; those absent are the recording's.
@@ -134,9 +163,9 @@ impl BatchSituation {
         parameters.chain(conditions).collect()
     }
 
-    fn conditions(&self) -> [(&'static str, &Option<Distribution>); 14] {
+    fn conditions(&self) -> Vec<(&'static str, &Option<Distribution>)> {
         let Self { goal, start, length_m, width_m, .. } = self;
-        [
+        let mut all = vec![
             ("goal.x_m", &goal.x_m),
             ("goal.y_m", &goal.y_m),
             ("goal.heading_rad", &goal.heading_rad),
@@ -151,7 +180,18 @@ impl BatchSituation {
             ("start.speed_mps", &start.speed_mps),
             ("length_m", length_m),
             ("width_m", width_m),
-        ]
+        ];
+        if let Some(relation) = &goal.relation {
+            all.extend([
+                ("goal.relation.ahead_m", &relation.ahead_m),
+                ("goal.relation.behind_m", &relation.behind_m),
+                ("goal.relation.behind_s", &relation.behind_s),
+                ("goal.relation.after_s", &relation.after_s),
+                ("goal.relation.slower_mps", &relation.slower_mps),
+                ("goal.relation.lanes_left", &relation.lanes_left),
+            ]);
+        }
+        all
     }
 
     /// The conditions of a road user, `own` with the drawn numbers in place of its own.
@@ -169,6 +209,7 @@ impl BatchSituation {
                 turn_rad: of("goal.turn_rad"),
                 speed_mps: of("goal.speed_mps"),
                 time_s: of("goal.time_s"),
+                relation: self.goal.relation.as_ref().map(|relation| relation.drawn(&of)),
                 ..GoalDoc::default()
             };
             conditions.frame = self.goal.is_relative().then_some(GoalFrame::Agent);
@@ -226,6 +267,11 @@ impl BatchSituation {
                 "ahead_m, left_m and turn_rad are from the start, x_m, y_m and heading_rad of the scene",
             );
         }
+        if let Some(GoalRelationRanges { ahead_m, behind_m, behind_s, after_s, .. }) = &self.goal.relation
+            && [ahead_m, behind_m, behind_s, after_s].into_iter().flatten().count() != 1
+        {
+            fault("goal.relation", "exactly one of ahead_m, behind_m, behind_s and after_s expected");
+        }
         if self.start.x_m.is_some() != self.start.y_m.is_some() {
             fault("start", "x_m and y_m are fixed together or not at all");
         }
@@ -278,6 +324,21 @@ impl BatchSituation {
     }
 }
 
+impl GoalRelationRanges {
+    /// The relation with drawn numbers, by their paths in the situation.
+    fn drawn(&self, of: &dyn Fn(&str) -> Option<f64>) -> GoalRelationDoc {
+        GoalRelationDoc {
+            to: self.to.clone(),
+            ahead_m: of("goal.relation.ahead_m"),
+            behind_m: of("goal.relation.behind_m"),
+            behind_s: of("goal.relation.behind_s"),
+            after_s: of("goal.relation.after_s"),
+            slower_mps: of("goal.relation.slower_mps"),
+            lanes_left: of("goal.relation.lanes_left").map(|lanes| lanes.round() as i32),
+        }
+    }
+}
+
 impl GoalRanges {
     /// Is it from the start of the road user, in place of the scene?
     fn is_relative(&self) -> bool {
@@ -288,6 +349,7 @@ impl GoalRanges {
 /// The range of a condition, as its document has it.
 fn range(member: &str) -> (f64, f64) {
     let schema = match member.split_once('.') {
+        Some(("goal", rest)) if rest.contains('.') => schemars::schema_for!(GoalRelationDoc),
         Some(("goal", _)) => schemars::schema_for!(GoalDoc),
         Some(_) => schemars::schema_for!(StartDoc),
         None => schemars::schema_for!(ConditionsDoc),
@@ -313,6 +375,24 @@ mod tests {
         assert_eq!(range("goal.speed_mps"), (0.0, 60.0));
         assert_eq!(range("length_m"), (0.2, 25.0));
         assert_eq!(range("start.x_m"), (-10_000.0, 10_000.0));
+        assert_eq!(range("goal.relation.behind_s"), (0.0, 20.0));
+    }
+
+    #[test]
+    fn a_relation_has_drawn_numbers() {
+        let text = r#"{"agents":["6"],"goal":{"time_s":5,"relation":{"to":"4","ahead_m":{"uniform":[5,15]},"lanes_left":1}}}"#;
+        let situation: BatchSituation = serde_json::from_str(text).unwrap();
+        let mut faults = Vec::new();
+        situation.check("situations[0]", &mut faults);
+        assert!(faults.is_empty(), "{faults:?}");
+        let drawn = [("goal.time_s", 5.0), ("goal.relation.ahead_m", 7.5), ("goal.relation.lanes_left", 1.0)];
+        let drawn = drawn.map(|(path, value)| (path.to_owned(), value)).into();
+        let applied = serde_json::to_value(situation.applied(ConditionsDoc::default(), &drawn)).unwrap();
+        let relation = serde_json::json!({"to": "4", "ahead_m": 7.5, "lanes_left": 1});
+        assert_eq!(applied, serde_json::json!({"goal": {"time_s": 5.0, "relation": relation}}));
+        let two = r#"{"agents":["6"],"goal":{"relation":{"to":"4","ahead_m":5,"after_s":1}}}"#;
+        serde_json::from_str::<BatchSituation>(two).unwrap().check("situations[0]", &mut faults);
+        assert_eq!(faults.len(), 1);
     }
 
     #[test]

@@ -67,12 +67,25 @@ fn of_conditions(rest: &str) -> String {
         ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_owned()
     };
     match path.as_slice() {
+        ["goal", "relation", "to"] => format!("--goal {id}: of"),
+        ["goal", "relation", field] => format!("--goal {id}: {}", key_of_relation(field)),
         ["goal", field, ..] => format!("--goal {id}: {}", key(field)),
         ["start", field, ..] => format!("--start {id}: {}", key(field)),
         [name @ ("goal" | "start" | "via")] => format!("--{name} {id}"),
         [name @ ("length_m" | "width_m")] => format!("--size {id}: {}", key(name)),
         ["type"] => format!("--type {id}"),
         _ => format!("road user {id}"),
+    }
+}
+
+/// A member of a relation as a key: `behind_s` is another key than `behind`.
+fn key_of_relation(name: &str) -> &str {
+    match name {
+        "behind_m" => "behind",
+        "after_s" => "after",
+        "slower_mps" => "slower",
+        "ahead_m" => "ahead",
+        other => other,
     }
 }
 
@@ -85,6 +98,8 @@ mod tests {
         let flag = |pointer: &str| in_flags(pointer).unwrap();
         assert_eq!(flag("/conditions/6/goal/speed_mps"), "--goal 6: speed");
         assert_eq!(flag("/conditions/a~1b/start/x_m"), "--start a/b: x");
+        assert_eq!(flag("/conditions/6/goal/relation/to"), "--goal 6: of");
+        assert_eq!(flag("/conditions/6/goal/relation/behind_s"), "--goal 6: behind_s");
         assert_eq!(flag("/conditions/6/length_m"), "--size 6: length");
         assert_eq!(flag("/agents/0"), "--agents");
         assert_eq!(flag("/types/car"), "--types car");

@@ -9,6 +9,7 @@ import { Overlay } from '../edit/overlay/overlay';
 import { Playback } from '../edit/session/playback';
 import { SceneCare } from '../edit/document/scene-care';
 import { Sharing } from '../edit/document/sharing';
+import { localReach } from '../model/words/reach-words';
 import { RequestBuilder } from '../edit/asking/request-builder';
 import { Placement } from '../edit/moves/placement';
 import { makeTools } from '../edit/tools/tools';
@@ -34,6 +35,7 @@ function makeParts(o: Opening): Context {
   const questions = (): RequestBuilder => new RequestBuilder(editor, file);
   const placement = new Placement();
   const { made, named } = makeTools({ editor, file, care, client, placement, generator, questions });
+  editor.reading.layReach(localReach);
   const takeUp = named.curve.takeUp.bind(named.curve);
   const generation = new Generation(editor, file, saving, generator(), generator(), takeUp);
   const overlays = made.flatMap(({ overlay }) => overlay ?? []);

@@ -1,5 +1,6 @@
 // More time as a remedy for a goal that is too far for its time.
 import { beforeEach, describe, expect, it } from 'vitest';
+import { localReach } from '../../src/model/words/reach-words';
 import { setGoal } from '../../src/model/document/commands';
 import type { Fault, FaultKind } from '../../src/model/document/future-facts';
 import type { Futures } from '../../src/model/document/futures';
@@ -29,6 +30,7 @@ function answer(kind: FaultKind | null): void {
 
 beforeEach(() => {
   e = new Editor();
+  e.reading.layReach(localReach);
   e.open(crossing());
   e.select('1');
 });

@@ -254,7 +254,10 @@ describe('a blocked goal', () => {
     with: '2',
   };
   const REACHED = { status: 'reached', position_m: 0.1, heading_rad: 0, speed_mps: 0 };
-  const about = (e: FinalEvent, reach: object) => ({ ...e, resolved: { '1': { reach } } }) as unknown as FinalEvent;
+  const fixed = { value: 0, from: 'user' };
+  const goal = { x_m: fixed, y_m: fixed, heading_rad: fixed, speed_mps: fixed, time_s: fixed };
+  const about = (e: FinalEvent, reach: object) =>
+    ({ ...e, resolved: { '1': { goal, reach } } }) as unknown as FinalEvent;
   const said = () => outOfReach(s.editor, s.editor.agent.peek()!);
 
   it('is known once the others have reacted', async () => {

@@ -1,5 +1,6 @@
 // An editing session without a page or a server: its generators are in the test.
 import { expect } from 'vitest';
+import { localReach } from '../../src/model/words/reach-words';
 import { SpeedCurve } from '../../src/edit/tools/speed-curve/speed-curve';
 import { Editor } from '../../src/edit/session/editor';
 import { Generation } from '../../src/edit/asking/generation';
@@ -100,6 +101,7 @@ export class Session {
 
   constructor() {
     const { editor } = this;
+    editor.reading.layReach(localReach);
     const file = new SceneFile(editor);
     const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
     const saving = new Saving(

@@ -13,7 +13,7 @@ use scene::geometry::obb::{OrientedBox, iou};
 use scene::message::Message;
 use scene::motion::{Limiting, MotionKind, MotionState, Reach};
 use scene::via::passings;
-use scene::{AgentId, AgentType, Conditions, Passing, STEP_S, State, Via, wrap_angle};
+use scene::{AgentId, AgentType, Conditions, Passing, RelativePlace, STEP_S, State, Via, wrap_angle};
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {
@@ -42,11 +42,34 @@ pub(super) struct AgentOutcome<'a> {
     pub(super) reach: ReachReport,
     /// Where earlier windows were sent.
     pub(super) intermediate: Vec<Intermediate>,
+    /// Why its goal, which is relative to another agent, could not be worked out.
+    pub(super) unrelated: Option<&'a Message>,
+}
+
+impl AgentOutcome<'_> {
+    /// The verdict on a goal that could not be worked out, or that of the last window.
+    fn verdict(&self) -> ReachReport {
+        let Some(message) = self.unrelated else { return self.reach.clone() };
+        ReachReport::Unreachable {
+            nearest: NearestState {
+                x_m: self.end.x_m,
+                y_m: self.end.y_m,
+                heading_rad: wrap_angle(self.end.heading_rad),
+                speed_mps: self.end.speed_mps(),
+            },
+            limiting: Limiting::Relation,
+            needs: None,
+            words: message.to_string(),
+            message: message.clone(),
+            with: self.conditions.relation.as_ref().map(|relation| relation.to.clone()),
+        }
+    }
 }
 
 /// Fields and verdict of one road user; `world` is that of the first window.
 pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved {
-    let AgentOutcome { present, conditions, due_step, end, states, reach, intermediate } = outcome;
+    let reach = outcome.verdict();
+    let AgentOutcome { present, conditions, due_step, end, states, intermediate, .. } = outcome;
     let agent = world.agent(present);
     let logged = agent.state_at(world.step).is_some();
     let start = |value: f64, fixed: bool| {
@@ -59,11 +82,18 @@ pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved
     };
     let size =
         |value: f64, fixed: bool| Field { value, from: if fixed { Source::User } else { Source::Log } };
-    let goal =
-        |value: f64, fixed: bool| Field { value, from: if fixed { Source::User } else { Source::Model } };
+    let relation = conditions.relation.as_ref().map(|relation| relation.place);
+    let passing = matches!(relation, Some(RelativePlace::After(_)));
+    // A passing gives the time, any other relation the rest.
+    let fixed_by = if relation.is_some() && !passing { Source::Relation } else { Source::User };
+    let goal = |value: f64, fixed: bool| Field { value, from: if fixed { fixed_by } else { Source::Model } };
     let (s, c, asked) = (&present.start, &conditions.start, &conditions.goal);
     let position = asked.position.unwrap_or(end.position());
-    let due_from = if asked.time_s.is_some() { Source::User } else { Source::Default };
+    let due_from = match asked.time_s {
+        Some(_) if passing => Source::Relation,
+        Some(_) => Source::User,
+        None => Source::Default,
+    };
     Resolved {
         agent_type: present.agent_type,
         length_m: size(present.size.length_m, conditions.length_m.is_some()),
@@ -169,7 +199,8 @@ fn reason(
         (Limiting::Braking, None) => sentences::goal_too_slow(time_s, need("m/s²")),
         (Limiting::Lateral, _) => sentences::goal_too_tight(need("m/s² sideways")),
         (Limiting::Curvature, _) => sentences::goal_turn_too_tight(kind),
-        (Limiting::Traffic, _) => {
+        // A goal without its relation is free, and never comes here.
+        (Limiting::Traffic | Limiting::Relation, _) => {
             let short_m = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
             match blocked_by {
                 Some(id) => sentences::goal_blocked(id, kind, short_m),

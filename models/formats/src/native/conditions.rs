@@ -1,7 +1,7 @@
 //! Conditions of one road user, as a document.
 
 use super::value::words;
-use scene::AgentType;
+use scene::{AgentType, GoalRelation, RelativePlace};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -54,6 +54,16 @@ fn start_rules(schema: &mut Schema) {
 fn goal_rules(schema: &mut Schema) {
     together(schema, &[("x_m", "y_m"), ("ahead_m", "left_m")]);
     one_speed(schema);
+}
+
+/// Members of a [`GoalRelationDoc`] of which it has exactly one.
+pub(super) const PLACES: [&str; 4] = ["ahead_m", "behind_m", "behind_s", "after_s"];
+
+/// Schema of "exactly one place".
+fn one_place(schema: &mut Schema) {
+    let has = |name: &&str| json!({"properties": {*name: {"type": "number"}}, "required": [name]});
+    let one: Vec<_> = PLACES.iter().map(has).collect();
+    schema.insert("oneOf".into(), one.into());
 }
 
 fn velocity_rules(schema: &mut Schema) {
@@ -156,6 +166,71 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 32))]
     pub may_cross: Vec<String>,
+    /// What the goal is relative to. It replaces place, heading and, where none is fixed, speed; with `after_s` it
+    /// replaces the time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relation: Option<GoalRelationDoc>,
+}
+
+/// A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`. It follows the
+/// motion of the other one: its future of the same call if it is generated too, else the motion that it keeps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = one_place)]
+pub struct GoalRelationDoc {
+    /// Id of the other road user. Relations form no ring, and no row of more than four.
+    pub to: String,
+    /// Gap from the front of the other one to the own rear, along the lanes, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 500.0))]
+    pub ahead_m: Option<f64>,
+    /// Gap from the own front to the rear of the other one, along the lanes, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 500.0))]
+    pub behind_m: Option<f64>,
+    /// The same gap in seconds at the speed of the goal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub behind_s: Option<f64>,
+    /// The goal's own place is reached so many seconds after the other one was nearest to it; negative is before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -30.0, max = 30.0))]
+    pub after_s: Option<f64>,
+    /// How much slower than the other one, m/s; negative is faster. Not with `after_s`; 0 when free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -60.0, max = 60.0))]
+    pub slower_mps: Option<f64>,
+    /// Lanes to the left of the other one's lane in its direction; negative is to the right. Not with `after_s`; 0 when
+    /// free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -4, max = 4))]
+    pub lanes_left: Option<i32>,
+}
+
+impl GoalRelationDoc {
+    /// Its places as given, in the order of [`PLACES`].
+    pub(super) fn places(&self) -> [Option<f64>; PLACES.len()] {
+        [self.ahead_m, self.behind_m, self.behind_s, self.after_s]
+    }
+}
+
+impl From<&GoalRelation> for GoalRelationDoc {
+    fn from(relation: &GoalRelation) -> Self {
+        let GoalRelation { to, place, slower_mps, lanes_left } = relation;
+        let mut doc = Self {
+            slower_mps: Some(*slower_mps).filter(|v| *v != 0.0),
+            lanes_left: Some(*lanes_left).filter(|v| *v != 0),
+            ..Self { to: to.clone(), ..Self::default() }
+        };
+        let (member, value) = match place {
+            RelativePlace::Ahead(m) => (&mut doc.ahead_m, m),
+            RelativePlace::Behind(m) => (&mut doc.behind_m, m),
+            RelativePlace::BehindBy(s) => (&mut doc.behind_s, s),
+            RelativePlace::After(s) => (&mut doc.after_s, s),
+        };
+        *member = Some(*value);
+        doc
+    }
 }
 
 /// A place that a road user passes on its way.

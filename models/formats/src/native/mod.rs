@@ -13,12 +13,13 @@ mod generated;
 mod json;
 mod map;
 mod map_domain;
+mod relation;
 mod resolve;
 mod value;
 
 pub use agent::{AgentDoc, TrackDoc};
 pub use any::{AnyDoc, MAX_VALUES};
-pub use conditions::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc, VelocityDoc, ViaDoc};
+pub use conditions::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc, VelocityDoc, ViaDoc};
 pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, SignalDoc, TimeDoc, VERSION};
 pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
 pub use json::from_json;

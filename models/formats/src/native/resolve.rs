@@ -1,6 +1,6 @@
 //! Conditions from document to domain: every field checked, goals turned into the scene frame.
 
-use super::conditions::{ConditionsDoc, GoalDoc, GoalFrame, StartDoc, VelocityDoc, ViaDoc};
+use super::conditions::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc, VelocityDoc, ViaDoc};
 use crate::problem::{FieldProblem, Problems, code};
 use crate::refusals::{self, at_most, expected, wanted, what};
 use scene::geometry::rotate;
@@ -78,7 +78,7 @@ impl ConditionsDoc {
     /// lies in the request, such as `/conditions/12`.
     ///
     /// # Errors
-    /// All faults, but for ids of road edges, which need a map: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
+    /// All faults, but for ids of road edges and of other road users, which need a scene: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
     /// of frame `agent` has no start pose to be measured from.
     pub fn resolve(&self, pointer: &str, context: &Context) -> Result<Conditions, Vec<FieldProblem>> {
         let mut problems = Problems::default();
@@ -113,6 +113,9 @@ impl ConditionsDoc {
             }
             None => Goal::default(),
         };
+        let relation = self.goal.as_ref().and_then(|doc| {
+            doc.relation.as_ref()?.resolve(&format!("{pointer}/goal/relation"), doc, &mut problems)
+        });
         let may_cross = self.goal.as_ref().map_or_else(Vec::new, |doc| doc.may_cross.clone());
         if may_cross.len() > MAX_CROSSED_EDGES {
             let message = at_most(may_cross.len(), what::IDS, MAX_CROSSED_EDGES);
@@ -121,7 +124,8 @@ impl ConditionsDoc {
         let window = context.window;
         let via = self.vias(&format!("{pointer}/via"), origin.position, goal.time_s, window, &mut problems);
         if problems.0.is_empty() {
-            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal, may_cross, via })
+            let agent_type = self.agent_type;
+            Ok(Conditions { agent_type, length_m, width_m, start, goal, relation, may_cross, via })
         } else {
             Err(problems.0)
         }
@@ -172,7 +176,7 @@ impl ConditionsDoc {
 
     /// The document of domain conditions, in the scene frame.
     pub fn from_conditions(conditions: &Conditions) -> Self {
-        let Conditions { agent_type, length_m, width_m, start, goal, may_cross, via } = conditions;
+        let Conditions { agent_type, length_m, width_m, start, goal, relation, may_cross, via } = conditions;
         let start_doc = StartDoc {
             x_m: start.position.map(|p| p.x),
             y_m: start.position.map(|p| p.y),
@@ -187,6 +191,7 @@ impl ConditionsDoc {
             speed_mps: goal.speed_mps,
             time_s: goal.time_s,
             may_cross: may_cross.clone(),
+            relation: relation.as_ref().map(GoalRelationDoc::from),
             ..GoalDoc::default()
         };
         Self {

@@ -91,6 +91,8 @@ pub enum Limiting {
     Curvature,
     /// Another agent is in the way and stays there.
     Traffic,
+    /// The goal is relative to an agent or a lane that is not there.
+    Relation,
 }
 
 /// Whether the target was met.

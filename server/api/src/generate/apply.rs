@@ -5,7 +5,7 @@ use crate::problem::{Problem, refuse, unknown_agent};
 use formats::native::{ConditionsDoc, Context, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
 use scene::sentences::{expected, wanted};
-use scene::{STEP_S, Scene};
+use scene::{STEP_S, Scene, relation};
 
 impl GenerateRequest {
     /// The scene with this call's road users and conditions.
@@ -51,6 +51,10 @@ impl GenerateRequest {
                 }
                 Err(more) => faults.extend(more),
             }
+        }
+        for (i, message) in relation::faults(&scene.agents) {
+            let pointer = format!("/conditions/{}/goal/relation/to", pointer_token(&scene.agents[i].id));
+            faults.push(FieldProblem::new(pointer, "invalid-field", message));
         }
         refuse(faults)?;
         if self.add_agents.is_empty() {

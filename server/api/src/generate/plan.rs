@@ -126,9 +126,10 @@ impl GenerateRequest {
 
 /// The parts of a condition that would be lost: those that the scene's own one does not have.
 fn not_asked(id: &str, given: &Conditions, own: &Conditions) -> Vec<FieldProblem> {
+    let relative = given.relation != own.relation && given.relation.is_some();
     let parts = [
         ("start", given.start != own.start && given.start != Start::default()),
-        ("goal", given.goal != own.goal && !given.goal.is_free()),
+        ("goal", given.goal != own.goal && !given.goal.is_free() || relative),
         ("via", given.via != own.via && !given.via.is_empty()),
     ];
     let fault = |(part, _)| {

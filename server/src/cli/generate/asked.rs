@@ -2,7 +2,10 @@
 
 use crate::cli::values::{number, within};
 use api::generate::request::more_than_a_turn;
-use formats::native::{GoalDoc, GoalFrame, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc};
+use formats::native::{
+    GoalDoc, GoalFrame, GoalRelationDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc, ViaDoc,
+};
+use scene::relation::{AFTER_S, GAP_M, GAP_S, LANES_LEFT, SLOWER_MPS};
 
 /// Fastest that any road user may be asked to be, m/s.
 const FASTEST_MPS: f64 = 60.0;
@@ -46,6 +49,15 @@ const OFFSET: [Key; 2] = [
     key("left", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
 ];
 const TURN: Key = key("turn", -ANGLE_RAD, ANGLE_RAD, RADIANS);
+/// Of a goal that is relative to another road user.
+const RELATIVE: [Key; 6] = [
+    key("ahead", GAP_M.0, GAP_M.1, "m"),
+    key("behind", GAP_M.0, GAP_M.1, "m"),
+    key("behind_s", GAP_S.0, GAP_S.1, "s"),
+    key("after", AFTER_S.0, AFTER_S.1, "s"),
+    key("slower", SLOWER_MPS.0, SLOWER_MPS.1, "m/s"),
+    key("lanes_left", LANES_LEFT.0, LANES_LEFT.1, "lanes"),
+];
 
 impl Key {
     fn read(&self, text: &str) -> Result<f64, String> {
@@ -100,11 +112,59 @@ fn together(fields: &[(&str, f64)], a: &str, b: &str) -> Result<(), String> {
     }
 }
 
+/// A goal relative to the road user `to`. Keys: one of `ahead`, `behind`, `behind_s` and `after`; `slower`, `lanes_left`;
+/// `time`, `speed`; and for `after` the place, `x y`.
+fn relative_goal(to: &str, text: &str) -> Result<AskedGoal, String> {
+    let own = [&PLACE[0], &PLACE[1], &SPEED, &TIME];
+    let keys: Vec<&Key> = RELATIVE.iter().chain(own).collect();
+    let fields = fields(text, &keys, 0)?;
+    let value = |name| of(&fields, name);
+    together(&fields, "x", "y")?;
+    let places = ["ahead", "behind", "behind_s", "after"].into_iter().filter_map(value).count();
+    if places != 1 {
+        return Err("of needs one of ahead, behind, behind_s and after beside it".into());
+    }
+    let lanes_left = value("lanes_left");
+    if lanes_left.is_some_and(|lanes| lanes.fract() != 0.0) {
+        return Err("lanes_left: a whole number expected".into());
+    }
+    let relation = GoalRelationDoc {
+        to: to.to_owned(),
+        ahead_m: value("ahead"),
+        behind_m: value("behind"),
+        behind_s: value("behind_s"),
+        after_s: value("after"),
+        slower_mps: value("slower"),
+        lanes_left: lanes_left.map(|lanes| lanes as i32),
+    };
+    let goal = GoalDoc {
+        x_m: value("x"),
+        y_m: value("y"),
+        speed_mps: value("speed"),
+        time_s: value("time"),
+        relation: Some(relation),
+        ..GoalDoc::default()
+    };
+    Ok(AskedGoal { goal, frame: GoalFrame::Scene })
+}
+
+/// The id after `of:` and the other parts, if there is one.
+fn relative(text: &str) -> Option<(&str, String)> {
+    let id = |part: &&str| part.trim().strip_prefix("of:").is_some();
+    let to = text.split(',').find(id)?.trim().strip_prefix("of:")?.trim();
+    let rest: Vec<&str> = text.split(',').filter(|part| !id(part)).collect();
+    Some((to, rest.join(",")))
+}
+
 /// `X,Y[,SPEED[,HEADING[,TIME]]]`, or keys: `x y`, or `ahead left turn` from the start pose; `speed`, `heading`, `time`.
+/// With the key `of` it is relative to another road user.
 ///
 /// # Errors
 /// What is wrong with it, in one sentence.
 pub fn goal(text: &str) -> Result<AskedGoal, String> {
+    if let Some((to, rest)) = relative(text) {
+        return relative_goal(to, &rest);
+    }
     let keys = [&PLACE[0], &PLACE[1], &SPEED, &HEADING, &TIME, &OFFSET[0], &OFFSET[1], &TURN];
     let fields = fields(text, &keys, 5)?;
     let value = |name| of(&fields, name);
@@ -201,6 +261,30 @@ mod tests {
         let relative = goal("ahead:40,left:3.5,speed:0,time:4").unwrap();
         assert_eq!(relative, AskedGoal { goal: own, frame: GoalFrame::Agent });
         assert_eq!(goal("ahead:40").unwrap().goal.left_m, Some(0.0));
+    }
+
+    #[test]
+    fn goals_relative_to_another_road_user() {
+        let cut_in = goal("ahead:12, of:1, time:5, slower:4, lanes_left:1").unwrap();
+        let relation = GoalRelationDoc {
+            to: "1".into(),
+            ahead_m: Some(12.0),
+            slower_mps: Some(4.0),
+            lanes_left: Some(1),
+            ..GoalRelationDoc::default()
+        };
+        let asked = GoalDoc { time_s: Some(5.0), relation: Some(relation), ..GoalDoc::default() };
+        assert_eq!(cut_in, AskedGoal { goal: asked, frame: GoalFrame::Scene });
+        let passing = goal("of:a:3,x:4,y:2,after:0.5").unwrap().goal;
+        assert_eq!((passing.x_m, passing.y_m), (Some(4.0), Some(2.0)));
+        let relation = passing.relation.unwrap();
+        assert_eq!((relation.to.as_str(), relation.after_s), ("a:3", Some(0.5)));
+        let wrong = |text: &str| goal(text).unwrap_err();
+        assert_eq!(wrong("of:1,time:5"), "of needs one of ahead, behind, behind_s and after beside it");
+        assert_eq!(wrong("of:1,ahead:5,behind:5"), wrong("of:1"));
+        assert_eq!(wrong("of:1,ahead:600"), "ahead: 0 to 500 m expected");
+        assert_eq!(wrong("of:1,ahead:5,lanes_left:0.5"), "lanes_left: a whole number expected");
+        assert_eq!(wrong("of:1,after:1,x:2"), "x needs y beside it");
     }
 
     #[test]

@@ -71,7 +71,8 @@ pub struct GenerateArgs {
     react: Vec<AgentSelector>,
     /// Goal of a road user: X,Y[,SPEED[,HEADING[,TIME]]]; an empty field stays free. Or keys, as in
     /// 6=ahead:40,left:3.5,speed:0,time:4: x, y, heading in the frame of the scene, or ahead, left, turn from
-    /// the start pose. Units: m, m/s, rad, s.
+    /// the start pose. Or relative to another road user, as in 6=of:1,ahead:12,slower:4,lanes_left:1,time:5: one
+    /// of ahead, behind (gap in m), behind_s (gap in s) and after (s after it passes x, y). Units: m, m/s, rad, s.
     #[arg(long, value_name = "ID=GOAL", value_parser = for_one(asked::goal), help_heading = ROAD_USERS)]
     goal: Vec<For<AskedGoal>>,
     /// Take the goals of these road users from the recording: position, heading, speed and time of the last

@@ -4,7 +4,7 @@ import { num } from '../../model/base/units';
 import { counted, worstOf } from '../../model/physics/events';
 import { summary, type TrafficEvent } from '../../model/words/event-words';
 import { KIND_WORDS } from '../../model/base/kinds';
-import { touched } from '../../model/document/scene';
+import { isPlaced, touched } from '../../model/document/scene';
 import { placedBy } from '../../actions/place';
 import { goToEvent } from '../../actions/time';
 import type { Context } from '../../actions/context';
@@ -132,7 +132,7 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Statu
 function settledLine(c: Context, ms: number, adapted: number | null): StatusLine {
   const { editor } = c;
   const a = editor.agent.value;
-  const bad = a?.goal.pos ? outOfReach(editor, a) : null;
+  const bad = a && isPlaced(a.goal) ? outOfReach(editor, a) : null;
   if (bad && !bad.outranked) return { dot: 'near', text: TEXTS.showingFutures };
   if (!editor.selection.value) return sceneLine(c);
   const n = editor.reading.futures.value?.modes.length ?? 6;

@@ -17,6 +17,7 @@ import { leaveGiven } from '../../edit/moves/ways-out';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
+import { RelationRow } from './relation-row';
 import type { LiveAgent } from './use-agent';
 import { placesAlong } from '../../model/document/lanemap';
 import { TEXTS } from '../../texts/panels/agent';
@@ -124,6 +125,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
           text={() => num(agent.value.goal.time, 1)}
         />
       </Row>
+      <RelationRow agent={agent} />
       <LeaveLine agent={agent} />
     </section>
   );

@@ -7,7 +7,7 @@ import type { TrafficEvent } from '../../model/words/event-words';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/document/futures';
 import { nearestLanes } from '../../model/document/lanemap';
 import { distances, endPose, endsBefore, hardestBraking, poseAt, STEP_S, type Motion } from '../../model/base/motion';
-import { goalTimeOf, nameIn, type Agent } from '../../model/document/scene';
+import { goalTimeOf, isPlaced, nameIn, type Agent } from '../../model/document/scene';
 import { stopsOf } from '../../model/physics/speed-profile';
 import { acceleration, metres, seconds, speedLabel } from '../../model/base/units';
 import { headline } from '../../model/words/verdict-words';
@@ -45,7 +45,7 @@ export const verdictOn = (c: Context, agent: LiveAgent): AgentVerdict | null =>
 function verdictNow(c: Context, a: Agent): AgentVerdict | null {
   const { editor: e } = c;
   if (e.answers.away.value && e.answers.motion.value.stale) return OUTDATED;
-  const bad = a.goal.pos ? outOfReach(e, a) : null;
+  const bad = isPlaced(a.goal) ? outOfReach(e, a) : null;
   if (bad && !bad.outranked) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
   const judged = onFaults(c, a);
   if (bad && judged) return { ...judged, remedies: true };

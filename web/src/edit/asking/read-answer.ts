@@ -8,18 +8,30 @@ export function readReach(r: Resolved | undefined): Reach | null {
   const j = r.reach;
   const { by_road: road } = r;
   const byRoad = road ? { x: road.x_m, y: road.y_m, heading: road.heading_rad, distance: road.distance_m } : null;
+  const relative = relativeGoal(r);
   if (j.status === 'reached')
-    return { status: 'reached', nearest: null, limiting: null, needs: null, message: null, byRoad };
+    return { status: 'reached', nearest: null, limiting: null, needs: null, message: null, byRoad, relative };
   const { x_m, y_m, heading_rad, speed_mps } = j.nearest;
   return {
     status: 'unreachable',
-    nearest: { x: x_m, y: y_m, heading: heading_rad, speed: speed_mps },
+    // Of a goal that is nowhere no place is the nearest.
+    nearest: j.limiting === 'relation' ? null : { x: x_m, y: y_m, heading: heading_rad, speed: speed_mps },
     limiting: j.limiting,
     needs: j.needs,
     message: j.message,
     with: (j as { readonly with?: string | null }).with ?? null,
     byRoad,
+    relative,
   };
+}
+
+/** The place that a relation came to; null for other goals. */
+function relativeGoal({ goal: g, reach }: Resolved): Reach['relative'] {
+  const isRelative = [g.x_m, g.time_s].some((field) => field.from === 'relation');
+  const isNowhere = reach.status === 'unreachable' && reach.limiting === 'relation';
+  if (!isRelative || isNowhere) return null;
+  const { x_m, y_m, heading_rad, speed_mps, time_s } = g;
+  return { x: x_m.value, y: y_m.value, heading: heading_rad.value, speed: speed_mps.value, time: time_s.value };
 }
 
 /** Warnings by road user. The verdict on its goal has its own place. */

@@ -36,7 +36,7 @@ function whatIsAsked(scene: Scene, step: Step, set: MotionSet): ChangeRequest {
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
-    const open = mine.filter((id) => !known.has(id));
+    const open = [...new Set([...mine.filter((id) => !known.has(id)), ...relatedTo(scene, [subject.id])])];
     // Past its 9 s the generator computes the continuation.
     if (!rest.length && !open.length && scene.length <= GOAL_TIME) return 'known';
     // Its future is kept; road users that meet it react, and all others keep theirs.
@@ -86,11 +86,23 @@ function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
  */
 function whoIsAsked(scene: Scene, mine: readonly string[], known: ReadonlyMap<string, unknown>, step: Step): string[] {
   const open = mine.filter((id) => !known.has(id));
-  const about = [...changedBy(step)].filter((id) => mine.includes(id));
+  const changed = [...changedBy(step)];
+  const about = [...changed, ...relatedTo(scene, changed)].filter((id) => mine.includes(id));
   const all = [...new Set([...about, ...open])].filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   if (all.length || !step.chance) return all;
   const unpicked = mine.filter((id) => scene.agents.get(id)!.chosen === null);
   return unpicked.length ? unpicked : [...mine];
+}
+
+/** Road users without a pick whose goal is relative to these, or to one that is: they keep the relation. */
+function relatedTo(scene: Scene, ids: readonly string[]): string[] {
+  const found = new Set(ids);
+  const next = (): Agent | undefined =>
+    [...scene.agents.values()].find(
+      (a) => !found.has(a.id) && found.has(a.goal.relation?.to ?? '') && a.chosen === null && canChange(a),
+    );
+  for (let a = next(); a; a = next()) found.add(a.id);
+  return [...found].filter((id) => !ids.includes(id));
 }
 
 /** The others replay or hold still: only conditioned road users are computed. */

@@ -110,7 +110,7 @@ export class HandleMove implements Move {
       case 'heading':
         return this.#named('heading', this.#put({ heading: this.#heading(x, y, mods), ...this.#keptGoal() }, mods));
       case 'speed':
-        return this.#named('speed', this.#put({ speed: this.#speed(x, y, mods), ...this.#keptGoal() }, mods));
+        return this.#named('speed', this.#put({ speed: this.#speed(x, y, mods), ...this.#keptPlace() }, mods));
       default:
         return this.#time(at.x - press.x, mods);
     }
@@ -126,6 +126,11 @@ export class HandleMove implements Move {
     if (mods.ctrl) return this.#both(patch);
     if (this.grip.part === 'goal') return setGoal(a, { ...a.goal, ...patch });
     return { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: TEXTS.startOfMoved(a.name) };
+  }
+
+  /** A relation holds at another speed, or time. */
+  #keptPlace(): Partial<GoalSpec> {
+    return this.agent.goal.relation ? {} : this.#keptGoal();
   }
 
   /** Turning a goal's tiller fixes a free position too: the goal is wanted here. */
@@ -221,7 +226,7 @@ export class HandleMove implements Move {
     const raw = a.goal.time + dx / PX_PER_SECOND;
     const grid = mods.alt ? 0.01 : mods.shift || Math.abs(raw - Math.round(raw)) < WHOLE_SECOND_S ? 1 : 0.1;
     const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
-    const patch = { time: Math.round(time * 100) / 100, ...this.#keptGoal() };
+    const patch = { time: Math.round(time * 100) / 100, ...this.#keptPlace() };
     return { ...setGoal(a, { ...a.goal, ...patch }), name: TEXTS.goalTimeOfChanged(a.name) };
   }
 

@@ -89,7 +89,7 @@ export class GoalOverlay {
     }
   }
 
-  paintGoal(g: Pen, v: View, a: Agent, goal: Pose & { set: boolean }): void {
+  paintGoal(g: Pen, v: View, a: Agent, goal: Pose & { set: boolean; time: number }): void {
     const { editor: e } = this;
     const c = colours();
     const [x, y] = v.to(goal.x, goal.y);
@@ -119,7 +119,7 @@ export class GoalOverlay {
     paintFlag(g, this.labels, [x, y], colour, !goal.set, v.grip);
     if (bad) this.paintNearest(g, v, a, bad.nearest);
     const said = bad && !bad.outranked;
-    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(a.goal.time)) : TEXTS.goalFree;
+    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(goal.time)) : TEXTS.goalFree;
     if (drag?.part === 'goal' && drag.handle === 'body') return;
     // A free goal has no label beside the words of a stop.
     if (!goal.set && this.isDecided()) return;

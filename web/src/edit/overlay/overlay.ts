@@ -4,7 +4,7 @@ import type { Pose } from '../../model/base/geometry';
 import { endPose, endsBefore, poseAt } from '../../model/base/motion';
 import { comparedWithLog } from '../../model/words/change-words';
 import type { Futures } from '../../model/document/futures';
-import { canChange, canMove, startPose, touched, type Agent, type Scene } from '../../model/document/scene';
+import { canChange, canMove, isPlaced, startPose, touched, type Agent, type Scene } from '../../model/document/scene';
 import { metres, seconds, speedLabel } from '../../model/base/units';
 import { Labels, pill, tag, type Rect, type Taken } from '../../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../../draw/handles';
@@ -325,7 +325,7 @@ export class Overlay {
 
   /** Its goal is unreachable without a more serious fault: the futures end at the reachable place. */
   private tooFar(a: Agent): boolean {
-    const bad = a.goal.pos ? outOfReach(this.editor, a) : null;
+    const bad = isPlaced(a.goal) ? outOfReach(this.editor, a) : null;
     return bad !== null && !bad.outranked && bad.nearest !== null;
   }
 

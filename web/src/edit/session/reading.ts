@@ -3,12 +3,12 @@
 import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Verdict } from '../../model/document/feedback';
 import type { Futures, MotionSet } from '../../model/document/futures';
-import { startPose, touched, type Agent, type Scene } from '../../model/document/scene';
+import { isPlaced, startPose, touched, type Agent, type Scene } from '../../model/document/scene';
 import { endPose, poseAtStep } from '../../model/base/motion';
 import { wrapAngle, type Pose } from '../../model/base/geometry';
 import { motionOf } from '../../model/physics/playback';
 import { eventsOf, readEvents, type TrafficEvent } from '../../model/words/event-words';
-import { localReach, type LocalReach } from '../../model/words/reach-words';
+import type { localReach, LocalReach } from '../../model/words/reach-words';
 import type { Answers } from './answers';
 import type { Drag } from './drag';
 import { Throttle } from './throttle';
@@ -57,6 +57,7 @@ export interface Sources {
 
 export class Reading {
   readonly #cards = signal(NO_CARDS);
+  readonly #reach = signal<typeof localReach | null>(null);
 
   constructor(private readonly of: Sources) {
     const { answers, drag, scene, view } = of;
@@ -83,13 +84,18 @@ export class Reading {
     const d = this.of.answers.draft.value;
     return d && d.id === id ? d.futures : (this.of.answers.motion.value.futures.get(id) ?? null);
   });
+  /** Takes the estimate of reach from here: it loads after the picture. */
+  layReach(of: typeof localReach): void {
+    this.#reach.value = of;
+  }
+
   /** A local estimate of whether the selected road user's goal is reachable, without the generator. */
   readonly localReach = computed<LocalReach | null>(() => {
     const a = this.of.agent.value;
     const s = this.of.scene.value;
     const start = a && startPose(a);
     if (!a || !s || !start || !a.goal.pos) return null;
-    return localReach(s.map, a, start, a.goal, this.of.view.unitOf(a));
+    return this.#reach.value?.(s.map, a, start, a.goal, this.of.view.unitOf(a)) ?? null;
   });
   /** Index of the future in force for the selected road user. */
   readonly chosen = computed<number>(() => {
@@ -147,15 +153,18 @@ export class Reading {
   }
 
   /** The shown pose of a road user's goal: fixed fields as set, free ones as the generator chose. */
-  goalPose(a: Agent): (Pose & { set: boolean }) | null {
+  goalPose(a: Agent): (Pose & { set: boolean; time: number }) | null {
     const g = a.goal;
-    const { draft, motion } = this.of.answers;
+    const { draft, liveReach, motion } = this.of.answers;
+    const live = liveReach.value;
+    const known = g.relation ? (live?.id === a.id ? live.reach : motion.value.reach.get(a.id)) : null;
+    const at = known?.relative ?? null;
     const d = draft.value;
     const cards = this.cards.ofAgent(a.id)?.futures ?? null;
     const f = cards ?? (d?.id === a.id ? d.futures : motion.value.futures.get(a.id));
     const index = cards ? this.cards.current.value : f ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
     const m = f && index >= 0 ? f.modes[index].motion : null;
-    const end = m ? (poseAtStep(m, Math.round(g.time * 10)) ?? endPose(m)) : null;
+    const end = at ?? (m ? (poseAtStep(m, Math.round(g.time * 10)) ?? endPose(m)) : null);
     if (!g.pos && !end) return null;
     const [x, y] = g.pos ?? [end!.x, end!.y];
     const start = startPose(a);
@@ -165,7 +174,8 @@ export class Reading {
       y,
       heading: wrapAngle(g.heading ?? end?.heading ?? travel),
       speed: g.speed ?? Math.abs(end?.speed ?? start?.speed ?? 0),
-      set: g.pos !== null,
+      set: isPlaced(g),
+      time: at?.time ?? g.time,
     };
   }
 }

@@ -7,12 +7,24 @@ import { FILLING } from './filling/feature';
 import { LAYOUTS } from './layouts/feature';
 import { PLACING } from './placing/feature';
 import { POINTING } from './pointing/feature';
+import { RELATIONS } from './relations/feature';
 import { REMEDIES } from './remedies/feature';
 import { ROUNDS } from './rounds/feature';
 import { SPEED_CURVE } from './speed-curve/feature';
 import { VARIANTS } from './variants/feature';
 
-const FEATURES = [POINTING, PLACING, FILLING, LAYOUTS, SPEED_CURVE, ROUNDS, VARIANTS, CASES, REMEDIES] as const;
+const FEATURES = [
+  POINTING,
+  PLACING,
+  FILLING,
+  LAYOUTS,
+  SPEED_CURVE,
+  ROUNDS,
+  VARIANTS,
+  CASES,
+  RELATIONS,
+  REMEDIES,
+] as const;
 
 export const RAIL: readonly RailEntry[] = FEATURES.flatMap((f): readonly RailEntry[] => ('rail' in f ? f.rail : []));
 

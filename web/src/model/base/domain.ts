@@ -65,6 +65,9 @@ export const longestRoute = (straight: number): number =>
 /** Accepted ranges of via points. */
 export const VIAS = domain.via;
 
+/** Accepted ranges of goals relative to another road user. */
+export const RELATION = domain.relation;
+
 /** By type, and for vehicles by subtype: an unknown subtype counts as a car. */
 export function limitsOf(a: Typed): Limits {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return LIMITS[a.type];

@@ -89,7 +89,13 @@ const one = (name: string, id: string, patch: AgentPatch, fold?: string): Comman
 export const setStart = (a: Agent, start: StartSpec, what = TEXTS.start): Command =>
   one(TEXTS.ofChanged(what, a.name), a.id, { start: Object.freeze(start), chosen: null }, 'start');
 /** A via point loses its time when that is not before the goal's. */
-const kept = (goal: GoalSpec): GoalSpec => Object.freeze({ ...goal, via: inOrder(goal.via, goal.time) });
+const kept = (goal: GoalSpec): GoalSpec => Object.freeze({ ...related(goal), via: inOrder(goal.via, goal.time) });
+/** A relation ends with a place of its own, except for a passing, which ends without one. */
+function related({ relation: r, ...goal }: GoalSpec): GoalSpec {
+  if (!r || (r.after_s == null) === (goal.pos !== null)) return goal;
+  if (r.after_s != null) return { ...goal, relation: r };
+  return { ...goal, heading: null, relation: goal.speed === null ? r : { ...r, slower_mps: null } };
+}
 
 export const setGoal = (a: Agent, goal: GoalSpec, what = TEXTS.goal): Command =>
   one(TEXTS.ofMoved(what, a.name), a.id, { goal: kept(goal), chosen: null }, 'goal');
@@ -100,7 +106,7 @@ export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   fold: undefined,
 });
 export const setBoth = (a: Agent, start: StartSpec, goal: GoalSpec): Command =>
-  one(TEXTS.moved(a.name), a.id, { start: Object.freeze(start), goal: Object.freeze(goal), chosen: null }, 'both');
+  one(TEXTS.moved(a.name), a.id, { start: Object.freeze(start), goal: kept(goal), chosen: null }, 'both');
 export const setSize = (a: Agent, length: number, width: number): Command =>
   one(TEXTS.sizeOfChanged(a.name), a.id, { length, width, chosen: null }, 'size');
 export const choose = (a: Agent, index: number | null, letter: string): Command =>
@@ -196,9 +202,13 @@ export function addAgents(scene: Scene, agents: readonly Agent[], name: string):
   return recast(name, { put: agents, drop: [], issued });
 }
 
-/** Removes them with all their data; undo restores it. */
-export const removeAgents = (scene: Scene, ids: readonly string[], name: string): Command =>
-  recast(name, { put: [], drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
+/** Removes them with all their data, and goals relative to them; undo restores it. */
+export function removeAgents(scene: Scene, ids: readonly string[], name: string): Command {
+  const put = [...scene.agents.values()]
+    .filter((a) => ids.includes(a.goal.relation?.to ?? '') && !ids.includes(a.id))
+    .map((a) => ({ ...a, goal: withoutGoal(a), chosen: null }));
+  return recast(name, { put, drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
+}
 
 type ScenePatch = Partial<
   Pick<

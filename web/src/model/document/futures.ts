@@ -195,6 +195,12 @@ export interface Reach {
   readonly with?: string | null;
   /** The nearest goal that is reachable by road in the time, and its distance from the set one. */
   readonly byRoad?: ByRoad | null;
+  /** Where and when a goal relative to another road user is due. */
+  readonly relative?: RelativeGoal | null;
+}
+
+export interface RelativeGoal extends Pose {
+  readonly time: number;
 }
 
 export interface ByRoad extends Point {

@@ -35,7 +35,8 @@ export type TrackJson = Read<
 >;
 export type StartJson = Read<Schemas['Start']>;
 /** `may_cross`: ids of road edges that the road user may cross. */
-export type GoalJson = Read<Schemas['Goal']>;
+export type GoalRelationJson = Schemas['GoalRelation'];
+export type GoalJson = Read<Schemas['Goal'], never, { relation?: GoalRelationJson | null }>;
 /** A via point. */
 export type ViaJson = Schemas['Via'];
 export type ConditionJson = Read<

@@ -263,6 +263,7 @@ function readGoal(c: ConditionJson): GoalSpec {
     time: g.time_s ?? GOAL_TIME,
     mayCross: Object.freeze([...(g.may_cross ?? [])]),
     via,
+    ...(g.relation ? { relation: Object.freeze({ ...g.relation }) } : {}),
   });
 }
 

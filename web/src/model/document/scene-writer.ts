@@ -61,7 +61,9 @@ function writtenCondition(a: Agent): ConditionJson {
     c.start = s;
   }
   if (hasGoal(a.goal) || a.goal.time !== GOAL_TIME) {
-    const g: GoalJson = { time_s: a.goal.time };
+    const { relation } = a.goal;
+    const g: GoalJson = relation?.after_s == null ? { time_s: a.goal.time } : {};
+    if (relation) g.relation = relation;
     if (a.goal.pos) {
       g.x_m = a.goal.pos[0];
       g.y_m = a.goal.pos[1];

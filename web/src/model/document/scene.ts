@@ -4,7 +4,7 @@ import type { AgentType, Kind } from '../base/kinds';
 import type { LaneMap } from './lanemap';
 import { DEFAULTS } from '../base/domain';
 import type { Feedback } from './feedback';
-import type { AgentJson } from './scene-json';
+import type { AgentJson, GoalRelationJson } from './scene-json';
 import { wrapAngle, type Pose, type Vec } from '../base/geometry';
 import { STEP_S, type Columns, type Motion } from '../base/motion';
 import type { Profile } from './profile';
@@ -24,6 +24,8 @@ export interface GoalSpec extends StartSpec {
   readonly mayCross: readonly string[];
   /** Via points on the way there, or on the way that the generator chooses. */
   readonly via: readonly Via[];
+  /** The other road user that the goal is relative to. It gives the place, or, after a passing, the time. */
+  readonly relation?: Readonly<GoalRelationJson>;
 }
 
 export interface Agent {
@@ -195,10 +197,13 @@ export function startPose(a: Agent): Pose | null {
 /** The effective speed profile: it belongs to a picked future, and disappears with the pick. */
 export const profileOf = (a: Agent): Profile | null => (a.chosen === null ? null : a.profile);
 
-/** Goal time, seconds; null without a goal position. */
-export const goalTimeOf = (a: Agent): number | null => (a.goal.pos ? a.goal.time : null);
+/** Has the goal a place, of its own or by its relation? */
+export const isPlaced = (g: GoalSpec): boolean => g.pos !== null || g.relation !== undefined;
 
-export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
+/** Goal time, seconds; null without a goal position. */
+export const goalTimeOf = (a: Agent): number | null => (isPlaced(a.goal) ? a.goal.time : null);
+
+export const hasGoal = (g: GoalSpec): boolean => isPlaced(g) || g.heading !== null || g.speed !== null;
 
 const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);
 export const sameSpec = (a: StartSpec, b: StartSpec): boolean =>

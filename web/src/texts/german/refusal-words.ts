@@ -191,6 +191,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
       'length_m oder width_m in add_half, auch mit einem Minus davor',
     numbers: 'Zahlen',
     'one rate for each arm': 'eine Rate je Arm',
+    'exactly one of ahead_m, behind_m, behind_s and after_s': 'genau eines von ahead_m, behind_m, behind_s und after_s',
     'one scenario in the file': 'ein Szenario in der Datei',
     'pages that end within their column': 'Seiten, die in ihrer Spalte enden',
     'plain or dictionary encoding of a page': 'eine Seite in einfacher oder Wörterbuch-Kodierung',

@@ -1,6 +1,6 @@
 // Sentences of the engine by code: `assets/messages.json` lists them with their values. Each value is text in the units
 // of the page; an absent value is empty.
-import { table, type Values } from '../table';
+import { plural, table, type Values } from '../table';
 
 export const SENTENCES = table('messages', {
   /** Before a sentence that applies from a time on. */
@@ -49,6 +49,52 @@ export const SENTENCES = table('messages', {
     'goal-beyond-top-speed': {
       title: (v: Values) => `${v.goal_m} in ${v.time_s} requires more than the top speed`,
       rest: '',
+    },
+    // Of a goal that is relative to another road user.
+    'relation-gone': {
+      title: (v: Values) => `Road user ${v.agent} is not there at ${v.time_s}`,
+      rest: 'The goal is relative to it.',
+    },
+    'relation-lane-ends': {
+      title: (v: Values) => `The lane ends ${v.short_m} before the goal`,
+      rest: (v: Values) => `The goal is relative to road user ${v.agent} at ${v.time_s}.`,
+    },
+    'relation-no-lane-left': {
+      title: (v: Values) =>
+        plural(Number(v.count), {
+          one: `No lane to the left of road user ${v.agent}`,
+          other: `No ${v.count} lanes to the left of road user ${v.agent}`,
+        }),
+      rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
+    },
+    'relation-no-lane-right': {
+      title: (v: Values) =>
+        plural(Number(v.count), {
+          one: `No lane to the right of road user ${v.agent}`,
+          other: `No ${v.count} lanes to the right of road user ${v.agent}`,
+        }),
+      rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
+    },
+    'relation-not-passed': {
+      title: (v: Values) => `Road user ${v.agent} does not pass the goal`,
+      rest: (v: Values) => `It does not come within ${v.within_m} of it.`,
+    },
+    'relation-off-lanes': {
+      title: (v: Values) => `Road user ${v.agent} is on no lane at ${v.time_s}`,
+      rest: 'So there is no lane beside it.',
+    },
+    'relation-outside': {
+      title: (v: Values) => `The goal would be due at ${v.time_s}`,
+      rest: (v: Values) =>
+        `Road user ${v.agent} passes it at ${v.passed_s}; ${v.least_s} to ${v.most_s} is possible for the goal.`,
+    },
+    'relation-stands': {
+      title: (v: Values) => `Road user ${v.agent} stands at ${v.time_s}`,
+      rest: 'A time gap needs a speed; use a gap in metres.',
+    },
+    'relation-too-slow': {
+      title: (v: Values) => `${v.slower_mps} slower is below zero`,
+      rest: (v: Values) => `Road user ${v.agent} drives at ${v.other_mps} at ${v.time_s}.`,
     },
     'start-off-road': (v: Values) => `There is no lane within ${v.within_m} of the start.`,
     'start-overlaps': (v: Values) => `The start overlaps road user ${v.agent}.`,

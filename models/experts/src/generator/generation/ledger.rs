@@ -1,5 +1,6 @@
 //! The ledger of a call: the motion of every agent so far in the present sample, and the parts of the answer.
 
+use super::related::Related;
 use super::targets::due;
 use super::window::PlanningWindow;
 use crate::generator::actor::PlannedActor;
@@ -190,10 +191,11 @@ impl Ledger {
         request: &Request,
         world: &World<'_>,
         guesses: impl Iterator<Item = (usize, Guessed)>,
+        related: &Related,
     ) -> Sample {
         let progress = std::mem::take(&mut self.progress);
         if self.samples.is_empty() {
-            self.resolve(request, world, &progress);
+            self.resolve(request, world, &progress, related);
             self.warn_of_guesses(request, &progress, guesses);
         }
         let mut sample = Sample::default();
@@ -204,11 +206,18 @@ impl Ledger {
             }
             sample.agents.insert(request.scene.agents[i].id.clone(), futures);
         }
+        related.restore(&mut sample.agents);
         sample
     }
 
     /// The outcome of every agent's conditions.
-    fn resolve(&mut self, request: &Request, world: &World<'_>, progress: &BTreeMap<usize, AgentProgress>) {
+    fn resolve(
+        &mut self,
+        request: &Request,
+        world: &World<'_>,
+        progress: &BTreeMap<usize, AgentProgress>,
+        related: &Related,
+    ) {
         let agents = &request.scene.agents;
         for (i, progress) in progress {
             let Some(present) = world.present.iter().find(|p| p.index == *i) else { continue };
@@ -222,8 +231,12 @@ impl Ledger {
                 states: std::iter::once(present.start).chain(progress.executed.iter().copied()).collect(),
                 reach: progress.reach.clone(),
                 intermediate: progress.intermediate.clone(),
+                unrelated: related.unrelated.get(i),
             };
             self.resolved.insert(agents[*i].id.clone(), report::resolved(world, outcome));
+        }
+        for (id, report) in related.reports() {
+            self.resolved.insert(id.clone(), report.clone());
         }
     }
 

@@ -8,6 +8,7 @@
 mod base_scene;
 mod future_relations;
 mod ledger;
+mod related;
 mod remedies;
 mod roster;
 mod scenes;
@@ -27,6 +28,7 @@ use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::request::{Accepted, Answer, Event, GenerateError, Request, Warning};
 use ledger::Ledger;
+use related::Related;
 use roster::{CallPart, Roster};
 use scene::{MAX_HORIZON_STEPS, Sample, Scene};
 use spans::Spans;
@@ -79,6 +81,7 @@ pub struct Generation<'g> {
     roster: Roster,
     windows: CallWindows<'g>,
     ledger: Ledger,
+    related: Related,
 }
 
 impl<'g> Generation<'g> {
@@ -90,8 +93,9 @@ impl<'g> Generation<'g> {
     ) -> Result<Self, GenerateError> {
         let started = (resources.clock)();
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
-        let request = Arc::new(request);
         let map = maps.known_unless(&request.scene.map, &cancel).ok_or(GenerateError::Cancelled)?;
+        let (request, related) = Related::of(resources, maps, &map, request, &cancel)?;
+        let request = Arc::new(request);
         let start = world(resources, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
         let (roster, base) = Roster::of(&request, &start, &spans)?;
@@ -100,7 +104,8 @@ impl<'g> Generation<'g> {
         let windows = CallWindows { spans, base, start: Some(start), first: None, later: None };
         let mut ledger = Ledger::default();
         ledger.timings.encode_ms = milliseconds(resources.clock, started);
-        Ok(Self { resources, request, cancel, map, stage: CallStage::Accept, roster, windows, ledger })
+        let stage = CallStage::Accept;
+        Ok(Self { resources, request, cancel, map, stage, roster, windows, ledger, related })
     }
 
     fn accept(&self) -> Accepted {
@@ -213,8 +218,11 @@ impl<'g> Generation<'g> {
             self.ledger.followed(&self.request, &self.windows.base, agent, last.min(ends));
         }
         let world = &self.windows.first.as_ref().ok_or(GenerateError::NoWindow)?.setting.world;
-        let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
-        let instead = self.ledger.take_instead();
+        let guesses = self.roster.guesses();
+        let mut sample = self.ledger.finish_sample(&self.request, world, guesses, &self.related);
+        let agents = &self.request.scene.agents;
+        let mut instead = self.ledger.take_instead();
+        instead.retain(|(agent, _), _| !self.related.is_first(&agents[*agent].id));
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.resources.workers, &mut sample, &instead);
             if self.ledger.samples.is_empty() {

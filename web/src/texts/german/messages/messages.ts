@@ -1,5 +1,6 @@
 import type { SENTENCES } from '../../messages/messages';
 import type { Said, Values } from '../../table';
+import { plural } from '../plural';
 
 export const german: Said<typeof SENTENCES> = {
   since: (time, sentence) => `Ab ${time}: ${sentence}`,
@@ -45,6 +46,51 @@ export const german: Said<typeof SENTENCES> = {
     'goal-beyond-top-speed': {
       title: (v: Values) => `${v.goal_m} in ${v.time_s} ist mehr als mit Höchstgeschwindigkeit möglich`,
       rest: '',
+    },
+    'relation-gone': {
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist bei ${v.time_s} nicht da`,
+      rest: 'Das Ziel bezieht sich auf ihn.',
+    },
+    'relation-lane-ends': {
+      title: (v: Values) => `Die Spur endet ${v.short_m} vor dem Ziel`,
+      rest: (v: Values) => `Das Ziel bezieht sich auf Verkehrsteilnehmer ${v.agent} bei ${v.time_s}.`,
+    },
+    'relation-no-lane-left': {
+      title: (v: Values) =>
+        plural(Number(v.count), {
+          one: `Keine Spur links von Verkehrsteilnehmer ${v.agent}`,
+          other: `Keine ${v.count} Spuren links von Verkehrsteilnehmer ${v.agent}`,
+        }),
+      rest: (v: Values) => `Das gilt für seinen Ort bei ${v.time_s}.`,
+    },
+    'relation-no-lane-right': {
+      title: (v: Values) =>
+        plural(Number(v.count), {
+          one: `Keine Spur rechts von Verkehrsteilnehmer ${v.agent}`,
+          other: `Keine ${v.count} Spuren rechts von Verkehrsteilnehmer ${v.agent}`,
+        }),
+      rest: (v: Values) => `Das gilt für seinen Ort bei ${v.time_s}.`,
+    },
+    'relation-not-passed': {
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} passiert das Ziel nicht`,
+      rest: (v: Values) => `Er kommt ihm nicht auf ${v.within_m} nahe.`,
+    },
+    'relation-off-lanes': {
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist bei ${v.time_s} auf keiner Spur`,
+      rest: 'Daher gibt es keine Spur daneben.',
+    },
+    'relation-outside': {
+      title: (v: Values) => `Das Ziel wäre bei ${v.time_s} fällig`,
+      rest: (v: Values) =>
+        `Verkehrsteilnehmer ${v.agent} passiert es bei ${v.passed_s}; möglich sind ${v.least_s} bis ${v.most_s}.`,
+    },
+    'relation-stands': {
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} steht bei ${v.time_s}`,
+      rest: 'Eine Zeitlücke braucht ein Tempo; ein Abstand in Metern ist möglich.',
+    },
+    'relation-too-slow': {
+      title: (v: Values) => `${v.slower_mps} langsamer liegt unter null`,
+      rest: (v: Values) => `Verkehrsteilnehmer ${v.agent} fährt bei ${v.time_s} mit ${v.other_mps}.`,
     },
     'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,
     'start-overlaps': (v: Values) => `Der Start überlappt Verkehrsteilnehmer ${v.agent}.`,

@@ -1,0 +1,42 @@
+import type { TEXTS } from '../../editing/relation';
+import { plural } from '../plural';
+import type { Said } from '../../table';
+
+export const german: Said<typeof TEXTS> = {
+  ahead: (gap, name) => `${gap} vor ${name}`,
+  behind: (gap, name) => `${gap} hinter ${name}`,
+  after: (time, name) => `${time} nach ${name}`,
+  before: (time, name) => `${time} vor ${name}`,
+  at: (time) => ` bei ${time}`,
+  slower: (speed) => `, ${speed} langsamer`,
+  faster: (speed) => `, ${speed} schneller`,
+  lanesLeft: (n, figure) => plural(n, { one: `, ${figure} Spur links`, other: `, ${figure} Spuren links` }),
+  lanesRight: (n, figure) => plural(n, { one: `, ${figure} Spur rechts`, other: `, ${figure} Spuren rechts` }),
+  words: {
+    ahead: 'vor',
+    behind: 'hinter',
+    after: 'nach',
+    before: 'vor',
+    at: 'bei|um',
+    slower: 'langsamer',
+    faster: 'schneller',
+    left: 'links',
+    right: 'rechts',
+    one: 'eine|ein',
+    two: 'zwei',
+    three: 'drei',
+    four: 'vier',
+  },
+  relative: 'Relativ',
+  goalRelativeTo: 'Ziel relativ zu einem anderen Verkehrsteilnehmer',
+  example: '12 m vor Pkw 1, eine Spur links',
+  related: (name, words) => `Ziel von ${name}: ${words}`,
+  ended: (name) => `Ziel von ${name} nicht mehr relativ`,
+  end: 'Ort behalten, Bezug aufheben',
+  nameAnother: 'Einen anderen Verkehrsteilnehmer der Szene nennen, etwa: 12 m vor Pkw 1',
+  sayWhere: 'Einen Abstand oder eine Zeit angeben: 12 m vor, 8 m hinter, 1,2 s hinter, 0,5 s nach',
+  outsideOf: (least, most) => `Möglich sind ${least} bis ${most}`,
+  ring: (name) => `Das Ziel von ${name} hängt von diesem ab`,
+  row: (most) => `Höchstens ${most} Ziele in Folge können sich aufeinander beziehen`,
+  setPlace: 'Zuerst ein Ziel setzen: den Ort, den beide passieren',
+};
