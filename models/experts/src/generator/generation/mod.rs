@@ -220,9 +220,7 @@ impl<'g> Generation<'g> {
         let world = &self.windows.first.as_ref().ok_or(GenerateError::NoWindow)?.setting.world;
         let guesses = self.roster.guesses();
         let mut sample = self.ledger.finish_sample(&self.request, world, guesses, &self.related);
-        let agents = &self.request.scene.agents;
-        let mut instead = self.ledger.take_instead();
-        instead.retain(|(agent, _), _| !self.related.is_first(&agents[*agent].id));
+        let instead = self.ledger.take_instead();
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.resources.workers, &mut sample, &instead);
             if self.ledger.samples.is_empty() {

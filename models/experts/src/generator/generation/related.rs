@@ -78,18 +78,9 @@ impl Related {
         Ok((request, related))
     }
 
-    /// The futures of the agents that were planned first, in place of the one that the call has kept.
+    /// The futures of the agents that were planned first. A kept future is not part of an answer otherwise.
     pub(super) fn restore(&self, futures: &mut BTreeMap<AgentId, AgentFutures>) {
-        for (id, (first, _)) in &self.first {
-            if let Some(kept) = futures.get_mut(id) {
-                kept.clone_from(first);
-            }
-        }
-    }
-
-    /// The agents that were planned first.
-    pub(super) fn is_first(&self, id: &str) -> bool {
-        self.first.contains_key(id)
+        futures.extend(self.first.iter().map(|(id, (first, _))| (id.clone(), first.clone())));
     }
 
     /// The reports on the agents that were planned first.
