@@ -49,9 +49,9 @@ def test_goals_are_met_and_others_react(scene: Scene, turned: Scene) -> None:
 
 def test_a_goal_relative_to_another_road_user(scene: Scene) -> None:
     goal = Goal(time_s=5.0, relation=Relation(to="1", behind_m=8.0))
-    followed = scene.generate(goals={"4": goal}, seed=7)
+    followed = scene.generate(goals={"5": goal}, seed=7)
     assert followed.document["agents"], "the relation is part of the scene"
-    own = next(agent for agent in followed.document["agents"] if agent["id"] == "4")
+    own = next(agent for agent in followed.document["agents"] if agent["id"] == "5")
     assert own["conditions"]["goal"] == {"time_s": 5.0, "relation": {"to": "1", "behind_m": 8.0}}
     with pytest.raises(dragtraffic.DragTrafficError, match="relative to"):
         scene.generate(goals={"4": Goal(relation=Relation(to="nobody", ahead_m=1.0))})

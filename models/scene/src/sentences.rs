@@ -52,14 +52,12 @@ crate::messages! {
     relation_lane_ends(agent: &str, short_m: f64, time_s: f64) =
         "relation-lane-ends",
         "The lane ends {short_m:.0} m before the place that is relative to road user {agent} at {time_s:.1} s.";
-    relation_no_lane_left(count: usize, agent: &str, time_s: f64) =
+    relation_no_lane_left(number: usize, agent: &str, time_s: f64) =
         "relation-no-lane-left",
-        [count] "There is no lane to the left of road user {agent} at {time_s:.1} s.",
-        "There are no {count} lanes to the left of road user {agent} at {time_s:.1} s.";
-    relation_no_lane_right(count: usize, agent: &str, time_s: f64) =
+        "Lane {number} to the left of road user {agent} does not exist at {time_s:.1} s.";
+    relation_no_lane_right(number: usize, agent: &str, time_s: f64) =
         "relation-no-lane-right",
-        [count] "There is no lane to the right of road user {agent} at {time_s:.1} s.",
-        "There are no {count} lanes to the right of road user {agent} at {time_s:.1} s.";
+        "Lane {number} to the right of road user {agent} does not exist at {time_s:.1} s.";
     relation_not_passed(agent: &str, within_m: f64) =
         "relation-not-passed", "Road user {agent} does not come within {within_m:.0} m of the goal.";
     relation_off_lanes(agent: &str, time_s: f64) =

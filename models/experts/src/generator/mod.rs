@@ -51,7 +51,7 @@ use crate::cancel::Cancel;
 use crate::clock::{self, Clock};
 use crate::maps::Maps;
 use crate::net::Expert;
-use crate::request::{Answer, Event, GenerateError, Request};
+use crate::request::{Answer, GenerateError, Request};
 use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
 use resources::Resources;
@@ -209,11 +209,6 @@ impl Generator {
     /// # Errors
     /// The errors of the call.
     pub fn answer_unless(&self, request: Request, cancel: Cancel) -> Result<Answer, GenerateError> {
-        for event in self.start(request, cancel)? {
-            if let Event::Final(answer) = event? {
-                return Ok(answer);
-            }
-        }
-        Err(GenerateError::Expert("the call ended without an answer".into()))
+        self.start(request, cancel)?.finished()
     }
 }

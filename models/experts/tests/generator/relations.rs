@@ -118,7 +118,7 @@ fn a_relation_without_a_place_says_why() {
     assert_eq!((*limiting, message.code), (Limiting::Relation, "relation-no-lane-left"));
     assert_eq!(
         (words.as_str(), with.as_deref()),
-        ("There is no lane to the left of road user 1 at 6.0 s.", Some("1"))
+        ("Lane 1 to the left of road user 1 does not exist at 6.0 s.", Some("1"))
     );
     assert!(answer.warnings.iter().any(|warning| warning.message.code == "relation-no-lane-left"));
 }

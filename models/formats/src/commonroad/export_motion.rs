@@ -111,8 +111,9 @@ impl Lost {
         let agents = &scene.agents;
         let ego = problem.and_then(|problem| agents.get(problem.agent));
         let fixed = ego.is_some_and(|ego| {
-            let Conditions { agent_type, length_m, width_m, may_cross, via, .. } = &ego.conditions;
+            let Conditions { agent_type, length_m, width_m, relation, may_cross, via, .. } = &ego.conditions;
             agent_type.is_some()
+                || relation.is_some()
                 || length_m.is_some()
                 || width_m.is_some()
                 || !may_cross.is_empty()

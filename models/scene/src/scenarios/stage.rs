@@ -25,7 +25,7 @@ pub(super) struct Driver<'a> {
 
 /// Place of another agent, relative to a driver.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RelativePlace {
+pub(super) struct PlaceAhead {
     /// Ahead of the way's owner, metres; negative behind it.
     pub(super) ahead_m: f64,
     /// To the left of the way, metres.
@@ -34,7 +34,7 @@ pub(super) struct RelativePlace {
     pub(super) turn_rad: f64,
 }
 
-impl RelativePlace {
+impl PlaceAhead {
     pub(super) fn same_way(&self) -> bool {
         self.turn_rad.abs() < SAME_WAY_RAD
     }
@@ -56,9 +56,9 @@ impl Driver<'_> {
     }
 
     /// Place of a pose relative to the path.
-    pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> RelativePlace {
+    pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> PlaceAhead {
         let foot = self.way.project(position);
-        RelativePlace {
+        PlaceAhead {
             ahead_m: foot.s_m - BEHIND_M,
             left_m: foot.lateral_m,
             turn_rad: wrap_angle(heading_rad - foot.heading_rad),

@@ -4,7 +4,7 @@
 use super::GenerateArgs;
 use super::made::MadeScene;
 use crate::cli::Common;
-use experts::{ReachReport, Resolved, Source as From, WarningCode};
+use experts::{Limiting, ReachReport, Resolved, Source as From, WarningCode};
 use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
 use scene::{AgentFutures, Future};
 
@@ -66,7 +66,10 @@ fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
 /// Is the requested goal met? `None` without a goal.
 pub fn goal(resolved: &Resolved) -> Option<String> {
     let goal = &resolved.goal;
-    let asked = |field: experts::Field| field.from == From::User;
+    if let ReachReport::Unreachable { limiting: Limiting::Relation, words, .. } = &resolved.reach {
+        return Some(format!("goal not placed: {}", words.trim_end_matches('.')));
+    }
+    let asked = |field: experts::Field| matches!(field.from, From::User | From::Relation);
     let placed = asked(goal.x_m);
     if !placed && !asked(goal.speed_mps) && !asked(goal.heading_rad) {
         return None;

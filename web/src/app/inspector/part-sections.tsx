@@ -5,7 +5,7 @@ import { useComputed } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/base/geometry';
 import { rangesOf, topSpeed } from '../../model/base/domain';
 import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/base/kinds';
-import { hasGoal, type GoalSpec } from '../../model/document/scene';
+import { hasGoal, nameIn, type GoalSpec } from '../../model/document/scene';
 import { fromUnit, lengthUnit, lengthUnitWord, num, sizeText, speedText, toUnit } from '../../model/base/units';
 import type { Field } from '../../edit/session/editor';
 import type { HandlePart } from '../../edit/session/drag';
@@ -20,6 +20,7 @@ import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field
 import { RelationRow } from './relation-row';
 import type { LiveAgent } from './use-agent';
 import { placesAlong } from '../../model/document/lanemap';
+import { TEXTS as RELATION } from '../../texts/editing/relation';
 import { TEXTS } from '../../texts/panels/agent';
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
@@ -95,6 +96,8 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     const a = agent.value;
     const drag = editor.reading.throttle.read(() => editor.drag.info.value);
     if (drag?.grip.part === 'goal' && drag.lane) return drag.lane.name;
+    const to = a.goal.relation?.to;
+    if (to !== undefined) return RELATION.relativeTo(nameIn(editor.scene.value!)(to) ?? to);
     if (a.goal.pos && isGoalOfLog(a)) return TEXTS.asRecordedNote;
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;

@@ -1,6 +1,6 @@
 // The field of a goal's relation: typed as a sentence, shown as it was understood.
 import { useRef } from 'preact/hooks';
-import { useComputed, useSignal } from '@preact/signals';
+import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import { nameIn, type Agent } from '../../model/document/scene';
 import { relationWords } from '../../model/words/relation-words';
 import { endRelation, relate } from '../../edit/moves/relating';
@@ -16,6 +16,8 @@ const MOST_CHARACTERS = 200;
 export function RelationRow({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
+  /** Typed text that is not committed; null where there is none. */
+  const typed = useSignal<string | null>(null);
   const why = useSignal<string | null>(null);
   const inWords = (a: Agent): string => {
     const { relation, time } = a.goal;
@@ -23,21 +25,22 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
     return relation ? relationWords(relation, name ?? relation.to, time, editor.view.unitOf(a)) : '';
   };
   const shown = useComputed(() => inWords(agent.value));
+  const text = useComputed(() => typed.value ?? shown.value);
+  const bad = useComputed(() => why.value !== null);
   const isSet = useComputed(() => agent.value.goal.relation !== undefined).value;
   const reset = () => {
-    input.current!.value = shown.peek();
-    why.value = null;
+    typed.value = why.value = null;
   };
   const done = () => {
-    const [a, text] = [agent.peek(), input.current?.value.trim() ?? ''];
-    if (text === shown.peek()) return;
-    if (!text) {
+    const [a, words] = [agent.peek(), typed.peek()?.trim()];
+    if (words === undefined || words === shown.peek()) return reset();
+    if (!words) {
       editor.commits.run(endRelation(editor, a));
-      return;
+      return reset();
     }
-    const read = readRelation(text, editor.scene.peek()!, a);
+    const read = readRelation(words, editor.scene.peek()!, a);
     const { relation, time } = read.why === undefined ? read : { relation: null, time: null };
-    const command = relation && relate(editor, a, relation, time, text);
+    const command = relation && relate(editor, a, relation, time, words);
     why.value = read.why ?? (command ? null : TEXTS.setPlace);
     if (!command) return;
     editor.commits.run(command);
@@ -54,13 +57,16 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
             class="field"
             data-text="relation"
             aria-label={TEXTS.goalRelativeTo}
-            aria-invalid={why.value !== null}
+            aria-invalid={bad}
             placeholder={TEXTS.example}
             maxlength={MOST_CHARACTERS}
             spellcheck={false}
-            value={shown}
+            value={text}
             title={shown}
-            onInput={() => (why.value = null)}
+            onInput={(e) => {
+              typed.value = e.currentTarget.value;
+              why.value = null;
+            }}
             onBlur={done}
             onKeyDown={(e) => {
               if (e.key === 'Escape') reset();
@@ -81,15 +87,18 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
           >
             <Icon name="x" size={12} />
           </button>
-        ) : (
-          <span />
-        )}
+        ) : null}
       </div>
-      {why.value === null ? null : (
-        <p class="note" role="alert">
-          {why}
-        </p>
-      )}
+      <Refusal why={why} />
     </>
+  );
+}
+
+/** Why typed text is refused. */
+function Refusal({ why }: { why: ReadonlySignal<string | null> }) {
+  return why.value === null ? null : (
+    <p class="note" role="alert">
+      {why.value}
+    </p>
   );
 }

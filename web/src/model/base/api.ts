@@ -2288,6 +2288,11 @@ export interface components {
              */
             may_cross?: string[];
             /**
+             * @description What the goal is relative to. It replaces place, heading and, where none is fixed, speed; with `after_s` it
+             *     replaces the time.
+             */
+            relation?: components["schemas"]["GoalRelation"] | null;
+            /**
              * Format: double
              * @description m/s.
              */
@@ -2336,6 +2341,54 @@ export interface components {
              */
             speed_mps: number | null;
         };
+        /**
+         * GoalRelation
+         * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`. It follows the
+         *     motion of the other one: its future of the same call if it is generated too, else the motion that it keeps.
+         */
+        GoalRelation: {
+            /**
+             * Format: double
+             * @description The goal's own place is reached so many seconds after the other one was nearest to it; negative is before.
+             */
+            after_s?: number | null;
+            /**
+             * Format: double
+             * @description Gap from the front of the other one to the own rear, along the lanes, metres.
+             */
+            ahead_m?: number | null;
+            /**
+             * Format: double
+             * @description Gap from the own front to the rear of the other one, along the lanes, metres.
+             */
+            behind_m?: number | null;
+            /**
+             * Format: double
+             * @description The same gap in seconds at the speed of the goal.
+             */
+            behind_s?: number | null;
+            /**
+             * Format: int32
+             * @description Lanes to the left of the other one's lane in its direction; negative is to the right. Not with `after_s`; 0 when
+             *     free.
+             */
+            lanes_left?: number | null;
+            /**
+             * Format: double
+             * @description How much slower than the other one, m/s; negative is faster. Not with `after_s`; 0 when free.
+             */
+            slower_mps?: number | null;
+            /** @description Id of the other road user. Relations form no ring, and no row of more than four. */
+            to: string;
+        } & ({
+            ahead_m: number;
+        } | {
+            behind_m: number;
+        } | {
+            behind_s: number;
+        } | {
+            after_s: number;
+        });
         /**
          * Health
          * @description Health of the server.
@@ -2857,9 +2910,11 @@ export interface components {
          *     `curvature`: Tightness of a turn, 1/m.
          *
          *     `traffic`: Another agent is in the way and stays there.
+         *
+         *     `relation`: The goal is relative to an agent or a lane that is not there.
          * @enum {string}
          */
-        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic";
+        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic" | "relation";
         /**
          * Log
          * @description The word `log`.
@@ -4729,9 +4784,11 @@ export interface components {
          *     `default`: The kind's default.
          *
          *     `model`: Chosen by the generator.
+         *
+         *     `relation`: From the motion of the road user that the goal is relative to.
          * @enum {string}
          */
-        Source: "user" | "log" | "default" | "model";
+        Source: "user" | "log" | "default" | "model" | "relation";
         /**
          * Speeds
          * @description Between which speeds motor vehicles start that move.

@@ -28,6 +28,7 @@ export const TEXTS = table('relation', {
     three: 'three',
     four: 'four',
   },
+  relativeTo: (name: string) => `relative to ${name}`,
   relative: 'Relative',
   goalRelativeTo: 'Goal relative to another road user',
   example: '12 m ahead of Car 1, one lane left',

@@ -1,6 +1,6 @@
 // Sentences of the engine by code: `assets/messages.json` lists them with their values. Each value is text in the units
 // of the page; an absent value is empty.
-import { plural, table, type Values } from '../table';
+import { table, type Values } from '../table';
 
 export const SENTENCES = table('messages', {
   /** Before a sentence that applies from a time on. */
@@ -60,19 +60,11 @@ export const SENTENCES = table('messages', {
       rest: (v: Values) => `The goal is relative to road user ${v.agent} at ${v.time_s}.`,
     },
     'relation-no-lane-left': {
-      title: (v: Values) =>
-        plural(Number(v.count), {
-          one: `No lane to the left of road user ${v.agent}`,
-          other: `No ${v.count} lanes to the left of road user ${v.agent}`,
-        }),
+      title: (v: Values) => `Lane ${v.number} to the left of road user ${v.agent} does not exist`,
       rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
     },
     'relation-no-lane-right': {
-      title: (v: Values) =>
-        plural(Number(v.count), {
-          one: `No lane to the right of road user ${v.agent}`,
-          other: `No ${v.count} lanes to the right of road user ${v.agent}`,
-        }),
+      title: (v: Values) => `Lane ${v.number} to the right of road user ${v.agent} does not exist`,
       rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
     },
     'relation-not-passed': {

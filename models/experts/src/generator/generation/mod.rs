@@ -94,7 +94,8 @@ impl<'g> Generation<'g> {
         let started = (resources.clock)();
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
         let map = maps.known_unless(&request.scene.map, &cancel).ok_or(GenerateError::Cancelled)?;
-        let (request, related) = Related::of(resources, maps, &map, request, &cancel)?;
+        let first = |call: Request| Self::new(resources, maps, call, cancel.clone())?.finished();
+        let (request, related) = Related::of(&map, request, first)?;
         let request = Arc::new(request);
         let start = world(resources, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
@@ -106,6 +107,16 @@ impl<'g> Generation<'g> {
         ledger.timings.encode_ms = milliseconds(resources.clock, started);
         let stage = CallStage::Accept;
         Ok(Self { resources, request, cancel, map, stage, roster, windows, ledger, related })
+    }
+
+    /// Runs to the answer.
+    pub(super) fn finished(self) -> Result<Answer, GenerateError> {
+        for event in self {
+            if let Event::Final(answer) = event? {
+                return Ok(answer);
+            }
+        }
+        Err(GenerateError::Expert("the call ended without an answer".into()))
     }
 
     fn accept(&self) -> Accepted {
@@ -220,9 +231,7 @@ impl<'g> Generation<'g> {
         let world = &self.windows.first.as_ref().ok_or(GenerateError::NoWindow)?.setting.world;
         let guesses = self.roster.guesses();
         let mut sample = self.ledger.finish_sample(&self.request, world, guesses, &self.related);
-        let agents = &self.request.scene.agents;
-        let mut instead = self.ledger.take_instead();
-        instead.retain(|(agent, _), _| !self.related.is_first(&agents[*agent].id));
+        let instead = self.ledger.take_instead();
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.resources.workers, &mut sample, &instead);
             if self.ledger.samples.is_empty() {

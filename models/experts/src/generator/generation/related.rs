@@ -3,13 +3,10 @@
 //! An agent that keeps its motion is followed in that motion. One that the call regenerates is planned first, by a call
 //! of its own in which goals that depend on it are free, and keeps the future that is shown there.
 
-use super::Generation;
-use crate::cancel::Cancel;
 use crate::generator::extrapolation::extrapolated;
-use crate::generator::resources::Resources;
-use crate::maps::{KnownMap, Maps};
+use crate::maps::KnownMap;
 use crate::planning::world::AgentAtStart;
-use crate::request::{Answer, Event, GenerateError, React, Request, Resolved};
+use crate::request::{Answer, GenerateError, React, Request, Resolved};
 use scene::message::Message;
 use scene::relation::{OtherMotion, RelativeGoal, place};
 use scene::{AgentFutures, AgentId, AgentType, Goal, STEP_S, Scene};
@@ -26,16 +23,14 @@ pub(super) struct Related {
 }
 
 impl Related {
-    /// The call with ordinary goals, and what it has to know of the relations.
+    /// The call with ordinary goals, and what it has to know of the relations. `plan` runs a call without relations.
     ///
     /// # Errors
     /// Those of the calls that plan the agents that others are relative to.
     pub(super) fn of(
-        resources: &Resources,
-        maps: &Maps,
         map: &KnownMap,
         request: Request,
-        cancel: &Cancel,
+        plan: impl Fn(Request) -> Result<Answer, GenerateError>,
     ) -> Result<(Request, Self), GenerateError> {
         let mut related = Self::default();
         if request.scene.agents.iter().all(|agent| agent.conditions.relation.is_none()) {
@@ -48,7 +43,7 @@ impl Related {
         while !open.is_empty() {
             let known: Vec<usize> = open.iter().copied().filter(|i| has_known_leader(&request, *i)).collect();
             if known.is_empty() {
-                let first = plan_first(resources, maps, &request, &open, cancel)?;
+                let first = plan(first_call(&request, &open))?;
                 let leaders = leaders(&request, &open);
                 let Some(mut futures) = first.samples.into_iter().next().map(|sample| sample.agents) else {
                     break;
@@ -78,18 +73,9 @@ impl Related {
         Ok((request, related))
     }
 
-    /// The futures of the agents that were planned first, in place of the one that the call has kept.
+    /// The futures of the agents that were planned first. A kept future is not part of an answer otherwise.
     pub(super) fn restore(&self, futures: &mut BTreeMap<AgentId, AgentFutures>) {
-        for (id, (first, _)) in &self.first {
-            if let Some(kept) = futures.get_mut(id) {
-                kept.clone_from(first);
-            }
-        }
-    }
-
-    /// The agents that were planned first.
-    pub(super) fn is_first(&self, id: &str) -> bool {
-        self.first.contains_key(id)
+        futures.extend(self.first.iter().map(|(id, (first, _))| (id.clone(), first.clone())));
     }
 
     /// The reports on the agents that were planned first.
@@ -156,14 +142,8 @@ fn leaders(request: &Request, open: &BTreeSet<usize>) -> BTreeSet<AgentId> {
     open.iter().filter_map(|i| leader(request, *i)).filter(|to| !is_open(to)).cloned().collect()
 }
 
-/// The call with the open goals free.
-fn plan_first(
-    resources: &Resources,
-    maps: &Maps,
-    request: &Request,
-    open: &BTreeSet<usize>,
-    cancel: &Cancel,
-) -> Result<Answer, GenerateError> {
+/// The call with the open goals free, and without relations.
+fn first_call(request: &Request, open: &BTreeSet<usize>) -> Request {
     let mut scene = Scene::clone(&request.scene);
     for (i, agent) in scene.agents.iter_mut().enumerate() {
         agent.conditions.relation = None;
@@ -171,13 +151,7 @@ fn plan_first(
             agent.conditions.goal = Goal::default();
         }
     }
-    let first = Request { scene: Arc::new(scene), samples: 1, feedback: None, ..request.clone() };
-    for event in Generation::new(resources, maps, first, cancel.clone())? {
-        if let Event::Final(answer) = event? {
-            return Ok(answer);
-        }
-    }
-    Err(GenerateError::Expert("the first call ended without an answer".into()))
+    Request { scene: Arc::new(scene), samples: 1, feedback: None, ..request.clone() }
 }
 
 /// The ordinary goal of an agent, or why there is none.

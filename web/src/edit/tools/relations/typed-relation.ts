@@ -75,8 +75,10 @@ function partsOf(text: string): Parts {
   return { keys, lengths: found.length, times: found.time, speeds: found.speed, due, counts };
 }
 
+type Place = { ahead_m: number } | { behind_m: number } | { behind_s: number } | { after_s: number };
+
 /** Where or when: exactly one distance, or one time that is not the goal's. */
-function placeOf({ keys, lengths, times }: Parts): Partial<GoalRelationJson> | null {
+function placeOf({ keys, lengths, times }: Parts): Place | null {
   if (lengths.length + times.length !== 1) return null;
   const [length, time] = [lengths[0], times[0]];
   if (keys.has('behind')) return length === undefined ? { behind_s: time } : { behind_m: length };
@@ -124,7 +126,7 @@ export function readRelation(text: string, scene: Scene, own: Agent): TypedRelat
   if (!place) return { why: TEXTS.sayWhere };
   const relation: GoalRelationJson = { to: named.to.id, ...place };
   const { keys, speeds, counts, due } = parts;
-  if (place.after_s === undefined) {
+  if (!('after_s' in place)) {
     const [speed] = speeds;
     if (speed && (keys.has('slower') || keys.has('faster'))) relation.slower_mps = keys.has('faster') ? -speed : speed;
     const side = keys.has('left') ? 1 : keys.has('right') ? -1 : 0;

@@ -27,6 +27,7 @@ export const german: Said<typeof TEXTS> = {
     three: 'drei',
     four: 'vier',
   },
+  relativeTo: (name) => `relativ zu ${name}`,
   relative: 'Relativ',
   goalRelativeTo: 'Ziel relativ zu einem anderen Verkehrsteilnehmer',
   example: '12 m vor Pkw 1, eine Spur links',

@@ -1,6 +1,5 @@
 import type { SENTENCES } from '../../messages/messages';
 import type { Said, Values } from '../../table';
-import { plural } from '../plural';
 
 export const german: Said<typeof SENTENCES> = {
   since: (time, sentence) => `Ab ${time}: ${sentence}`,
@@ -56,19 +55,11 @@ export const german: Said<typeof SENTENCES> = {
       rest: (v: Values) => `Das Ziel bezieht sich auf Verkehrsteilnehmer ${v.agent} bei ${v.time_s}.`,
     },
     'relation-no-lane-left': {
-      title: (v: Values) =>
-        plural(Number(v.count), {
-          one: `Keine Spur links von Verkehrsteilnehmer ${v.agent}`,
-          other: `Keine ${v.count} Spuren links von Verkehrsteilnehmer ${v.agent}`,
-        }),
+      title: (v: Values) => `Spur ${v.number} links von Verkehrsteilnehmer ${v.agent} gibt es nicht`,
       rest: (v: Values) => `Das gilt für seinen Ort bei ${v.time_s}.`,
     },
     'relation-no-lane-right': {
-      title: (v: Values) =>
-        plural(Number(v.count), {
-          one: `Keine Spur rechts von Verkehrsteilnehmer ${v.agent}`,
-          other: `Keine ${v.count} Spuren rechts von Verkehrsteilnehmer ${v.agent}`,
-        }),
+      title: (v: Values) => `Spur ${v.number} rechts von Verkehrsteilnehmer ${v.agent} gibt es nicht`,
       rest: (v: Values) => `Das gilt für seinen Ort bei ${v.time_s}.`,
     },
     'relation-not-passed': {
