@@ -3,7 +3,7 @@
 use super::BatchRunArgs;
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
-use super::scenes;
+use super::scenes::{self, Selectors};
 use super::tally::OutcomeTally;
 use super::worker::{UnitEnd, UnitWorker};
 use crate::base::clock;
@@ -32,7 +32,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     };
     let shard = share(args.shard, common)?;
     let workers = args.jobs.map_or_else(parallel::cores, usize::from);
-    let plan = read_plan(path)?;
+    let (plan, selectors) = read_plan(path)?;
     let folder = BatchFolder::new(output)?;
     let operations = common.operations_on(1)?;
     let engine = operations.generator.hashes();
@@ -43,7 +43,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
         }
         None => {
             let base = path.parent().unwrap_or(Path::new(""));
-            let scenes = scenes::read(&plan, base, &folder, workers, common)?;
+            let scenes = scenes::read(&plan, &selectors, base, &folder, workers, common)?;
             let record = BatchRecord::new(&plan, engine, scenes);
             record.write(&folder)?;
             record
@@ -156,21 +156,21 @@ fn share(flag: Option<BatchShard>, common: &Common) -> Result<BatchShard, Failur
     Ok(found.unwrap_or_default())
 }
 
-/// Reads a plan and checks what the engine has a say in.
-fn read_plan(path: &Path) -> Result<BatchPlan, Failure> {
+/// Reads a plan with the selectors of its situations, and checks what the engine has a say in.
+fn read_plan(path: &Path) -> Result<(BatchPlan, Selectors), Failure> {
+    let refused = |faults: Vec<PlanFault>| {
+        let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
+        Failure::input(lines.join("\n  "))
+    };
     let bytes = output::read(path)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))?;
-    let plan = BatchPlan::parse(&text).map_err(|faults| refused(path, &faults))?;
-    let mut faults = scenes::selectors(&plan).err().unwrap_or_default();
-    if let Some(Err(reason)) = plan.filter.as_deref().map(FigureFilter::parse) {
-        faults.push(PlanFault::new("where", reason));
+    let plan = BatchPlan::parse(&text).map_err(refused)?;
+    let selectors = scenes::selectors(&plan);
+    let filter = plan.filter.as_deref().map(FigureFilter::parse);
+    let wrong = filter.and_then(Result::err).map(|reason| PlanFault::new("where", reason));
+    match (selectors, wrong) {
+        (Ok(selectors), None) => Ok((plan, selectors)),
+        (selectors, wrong) => Err(refused(selectors.err().into_iter().flatten().chain(wrong).collect())),
     }
-    if faults.is_empty() { Ok(plan) } else { Err(refused(path, &faults)) }
-}
-
-/// The faults of a plan, a line each.
-pub fn refused(path: &Path, faults: &[PlanFault]) -> Failure {
-    let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
-    Failure::input(lines.join("\n  "))
 }

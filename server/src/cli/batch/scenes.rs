@@ -34,18 +34,18 @@ pub fn selectors(plan: &BatchPlan) -> Result<Selectors, Vec<PlanFault>> {
     if faults.is_empty() { Ok(all) } else { Err(faults) }
 }
 
-/// Reads all inputs of a plan; each scene goes into the folder.
+/// Reads all inputs of a plan; each scene goes into the folder. `selectors` are those of the plan.
 ///
 /// # Errors
 /// Exit 3 for an input that does not exist, 1 when a scene cannot be written.
 pub fn read(
     plan: &BatchPlan,
+    selectors: &Selectors,
     base: &Path,
     folder: &BatchFolder,
     workers: usize,
     common: &Common,
 ) -> Result<Vec<CatalogueScene>, Failure> {
-    let selectors = selectors(plan).map_err(|faults| super::run::refused(Path::new("plan"), &faults))?;
     let paths = plan.scenes.iter().map(|path| base.join(path)).collect();
     let sources = Inputs { scenes: paths, jobs: None }.sources()?;
     if let Some(missing) = sources.iter().find(|source| !source.path.exists()) {
@@ -55,7 +55,7 @@ pub fn read(
     let progress = Progress::new("inputs", sources.len() as u64, common.quiet);
     let mut scenes = Vec::new();
     let mut failure = None;
-    let work = |source: &Source| of_source(source, folder, &selectors, start_step);
+    let work = |source: &Source| of_source(source, folder, selectors, start_step);
     parallel::in_order(&sources, workers, work, |_, found| {
         match found {
             Ok(found) => scenes.extend(found),

@@ -151,14 +151,8 @@ impl<'a> UnitWorker<'a> {
         if let Some(template) = situation.template() {
             let graph = self.operations.generator.maps().graph(&scene.map);
             let fixed = situation.parameters_of(&unit.drawn);
-            let casting = template.cast_with(
-                scene,
-                &graph,
-                options.start_step(),
-                options.horizon_s,
-                unit.seed,
-                &fixed,
-            )?;
+            let casting =
+                template.cast(scene, &graph, options.start_step(), options.horizon_s, unit.seed, &fixed)?;
             let conditions = ConditionsDoc::from_conditions(&casting.conditions);
             let conditions = BTreeMap::from([(casting.actor.clone(), conditions)]);
             return Some(Roles { actor: Some(casting.actor.clone()), casting: Some(casting), conditions });
