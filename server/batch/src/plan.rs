@@ -129,12 +129,12 @@ impl JsonSchema for BatchSeeds {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BatchSampling {
-    /// A grid takes every combination; random draws are independent of each other.
+    /// A grid takes every combination; the other methods take `draws` draws.
     pub method: SamplingMethod,
-    /// Random draws for each scene, situation and road user.
+    /// Draws for each scene, situation and road user.
     #[schemars(range(min = 1, max = 1000000))]
     pub draws: u64,
-    /// Seed of the random draws.
+    /// Seed of the draws.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
 }
@@ -147,12 +147,16 @@ impl Default for BatchSampling {
 
 /// How the numbers of a situation are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum SamplingMethod {
     /// Every combination of the values.
     Grid,
     /// Independent draws.
     Random,
+    /// Each range has as many strata of equal width as there are draws, and one draw in each.
+    LatinHypercube,
+    /// Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
+    Sobol,
 }
 
 /// Options of every generation.

@@ -8,9 +8,12 @@ use scene::scenarios::Template;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// What a situation without name is called where nobody is asked for anything.
 const FREE: &str = "free";
+/// Conditions that can be drawn.
+pub const MOST_CONDITIONS: usize = 14;
 /// Longest name, in characters.
 const MOST_NAME: usize = 60;
 
@@ -134,7 +137,7 @@ impl BatchSituation {
         parameters.chain(conditions).collect()
     }
 
-    fn conditions(&self) -> [(&'static str, &Option<Distribution>); 14] {
+    fn conditions(&self) -> [(&'static str, &Option<Distribution>); MOST_CONDITIONS] {
         let Self { goal, start, length_m, width_m, .. } = self;
         [
             ("goal.x_m", &goal.x_m),
@@ -287,10 +290,13 @@ impl GoalRanges {
 
 /// The range of a condition, as its document has it.
 fn range(member: &str) -> (f64, f64) {
-    let schema = match member.split_once('.') {
-        Some(("goal", _)) => schemars::schema_for!(GoalDoc),
-        Some(_) => schemars::schema_for!(StartDoc),
-        None => schemars::schema_for!(ConditionsDoc),
+    static GOAL: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(GoalDoc));
+    static START: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(StartDoc));
+    static CONDITIONS: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(ConditionsDoc));
+    let schema: &Schema = match member.split_once('.') {
+        Some(("goal", _)) => &GOAL,
+        Some(_) => &START,
+        None => &CONDITIONS,
     };
     let name = member.rsplit('.').next().unwrap_or(member);
     if name.ends_with("_rad") {
