@@ -169,6 +169,60 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     assert!(tree(&base.join("one")) == merged);
 }
 
+/// A search for cars that come close: 8 searches of 13 tries in two scenes, and a file that is none.
+const SEARCH: &str = r#"
+scenes = ["scenes/*.json"]
+seeds = 2
+where = "actor.min_distance_m < 1.3 && collisions == 0"
+chunk_units = 24
+[sampling]
+method = "search"
+draws = 13
+[generate]
+horizon_s = 2
+steps = 1
+[[situations]]
+name = "aside"
+agents = ["0", "3"]
+goal = { ahead_m = { uniform = [5, 40] }, left_m = { uniform = [-3, 3] }, speed_mps = { choice = [8, 12] } }
+"#;
+
+#[test]
+fn a_search_is_the_same_whatever_the_threads_shards_and_interruptions() {
+    let folder = prepared();
+    let base = folder.path();
+    std::fs::write(base.join("plan.toml"), SEARCH).unwrap();
+    ends(base, &["plan.toml", "-o", "whole", "--jobs", "1"], 0);
+    ends(base, &["plan.toml", "-o", "threads", "--jobs", "2"], 0);
+    for shard in ["1/2", "0/2"] {
+        ends(base, &["plan.toml", "-o", "shards", "--shard", shard], 0);
+    }
+    for other in ["threads", "shards"] {
+        assert_eq!(differences(&base.join("whole"), &base.join(other)), Vec::<PathBuf>::new());
+    }
+    let kills = [0, 1, 2, 4].iter().filter(|chunks| killed(base, **chunks)).count();
+    assert!(kills >= 2 && tables(base) < 7, "{kills} kills, {} chunks", tables(base));
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
+    // A chunk in the middle is made again from those before it.
+    let mut chunks: Vec<PathBuf> =
+        std::fs::read_dir(base.join("out/chunks")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    chunks.sort();
+    assert_eq!(chunks.len(), 14, "{chunks:?}");
+    std::fs::remove_file(&chunks[3]).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "out"], 0);
+    assert!(told.contains("1 of 7 chunks"), "{told}");
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
+
+    let (text, _) = ends(base, &["status", "out", "--json"], 0);
+    let status = json(&text);
+    let of = |outcome: &str| status["tally"]["outcomes"][outcome].as_u64().unwrap_or(0);
+    assert_eq!((status["units"].as_u64(), of("failed")), (Some(8 * 13 + 1), 1), "{text}");
+    assert!(of("kept") > 0 && of("left-out") > 0, "{text}");
+    let (text, _) = ends(base, &["verify", "out", "--units", "20"], 0);
+    assert_eq!(text, "20 units made again: all equal\n");
+}
+
 /// Starts a run and kills it without mercy once so many chunks are there; false when it had ended by itself.
 fn killed(folder: &Path, chunks: usize) -> bool {
     let mut child = started(folder);

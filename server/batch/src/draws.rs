@@ -2,14 +2,12 @@
 
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
-use crate::plan::{BatchSampling, SamplingMethod};
+use crate::sampling::{BatchSampling, MOST_DRAWS, SamplingMethod};
 use crate::situation::{BatchSituation, MOST_CONDITIONS};
 use crate::{latin_hypercube, sobol};
 use scene::random::Key;
 use std::collections::BTreeMap;
 
-/// Most draws of one situation for one road user.
-const MOST_DRAWS: u64 = 1_000_000;
 // A situation has conditions or the fewer parameters of a template.
 const _: () = assert!(MOST_CONDITIONS <= sobol::DIMENSIONS);
 
@@ -26,7 +24,7 @@ pub fn count(situation: &BatchSituation, sampling: &BatchSampling) -> u64 {
 }
 
 /// The numbers of one draw, by path. A draw depends on the scene, the road user, the situation and the number alone:
-/// neither other situations nor other scenes change it.
+/// neither other situations nor other scenes change it. A search has none: its numbers follow from its earlier tries.
 pub fn drawn(
     situation: &BatchSituation,
     sampling: &BatchSampling,
@@ -44,21 +42,22 @@ pub fn drawn(
                 let points = (distribution.points() as u64).max(1);
                 let place = left % points;
                 left /= points;
-                return distribution.point(place as usize);
+                return Some(distribution.point(place as usize));
             }
             SamplingMethod::Random => key.number(draw).stream().unit(),
             SamplingMethod::LatinHypercube => latin_hypercube::share(&key, draw, sampling.draws),
             SamplingMethod::Sobol => sobol::share(&key, varied, draw),
+            SamplingMethod::Search => return None,
         };
         // The first dimensions spread best: none is spent on a fixed number.
         varied += usize::from(!distribution.is_fixed());
-        distribution.at(share)
+        Some(distribution.at(share))
     };
     let dimensions = situation.dimensions().into_iter();
     dimensions
-        .map(|dimension| {
-            let value = value(&dimension.path, dimension.distribution);
-            (dimension.path, value)
+        .filter_map(|dimension| {
+            let value = value(&dimension.path, dimension.distribution)?;
+            Some((dimension.path, value))
         })
         .collect()
 }
@@ -87,7 +86,7 @@ pub(crate) fn check(
 #[cfg(test)]
 mod tests {
     use super::{count, drawn};
-    use crate::plan::{BatchSampling, SamplingMethod};
+    use crate::sampling::{BatchSampling, SamplingMethod};
     use crate::situation::BatchSituation;
     use std::collections::{BTreeMap, BTreeSet};
 

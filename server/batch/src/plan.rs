@@ -2,6 +2,7 @@
 
 use crate::draws;
 use crate::fault::PlanFault;
+use crate::sampling::{BatchSampling, SamplingMethod};
 use crate::situation::BatchSituation;
 use api::GenerateRequest;
 use api::generate::request::ReactChoice;
@@ -34,7 +35,8 @@ pub struct BatchPlan {
     /// A count from 0 on, or a list. Each draw is generated once for each seed.
     #[serde(default)]
     pub seeds: BatchSeeds,
-    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
+    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search
+    /// looks for them.
     #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<String>,
     /// How the numbers of a situation are chosen.
@@ -123,40 +125,6 @@ impl JsonSchema for BatchSeeds {
             ]
         })
     }
-}
-
-/// How the numbers of a situation are chosen.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct BatchSampling {
-    /// A grid takes every combination; the other methods take `draws` draws.
-    pub method: SamplingMethod,
-    /// Draws for each scene, situation and road user.
-    #[schemars(range(min = 1, max = 1000000))]
-    pub draws: u64,
-    /// Seed of the draws.
-    #[schemars(range(max = 9007199254740991u64))]
-    pub seed: u64,
-}
-
-impl Default for BatchSampling {
-    fn default() -> Self {
-        Self { method: SamplingMethod::Grid, draws: 10, seed: 0 }
-    }
-}
-
-/// How the numbers of a situation are chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SamplingMethod {
-    /// Every combination of the values.
-    Grid,
-    /// Independent draws.
-    Random,
-    /// Each range has as many strata of equal width as there are draws, and one draw in each.
-    LatinHypercube,
-    /// Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
-    Sobol,
 }
 
 /// Options of every generation.
@@ -264,11 +232,8 @@ impl BatchPlan {
                 fault("seeds", "a seed is given twice".into());
             }
         }
-        if !(1..=1_000_000).contains(&self.sampling.draws) {
-            fault("sampling.draws", "1 to 1000000 expected".into());
-        }
-        if self.sampling.seed > MAX_SAFE_INTEGER {
-            fault("sampling.seed", format!("at most {MAX_SAFE_INTEGER} expected"));
+        if self.sampling.method == SamplingMethod::Search && self.filter.is_none() {
+            fault("where", "a search needs a condition that it looks for".into());
         }
         if !(1..=MOST_IN_CHUNK).contains(&self.chunk_units) {
             fault("chunk_units", format!("1 to {MOST_IN_CHUNK} expected"));
@@ -279,6 +244,7 @@ impl BatchPlan {
         if !(0.0..=59.9).contains(&self.generate.start_s) {
             fault("generate.start_s", format!("{} is outside 0 to 59.9", self.generate.start_s));
         }
+        self.sampling.check(&mut faults);
         if let Err(problem) = self.generate.request(0).check_ranges() {
             faults.extend(PlanFault::of_problem("generate", &problem));
         }
@@ -363,6 +329,7 @@ mod tests {
         assert!(fault("[generate]\nhorizon_s = 90").starts_with("generate.horizon_s: "));
         assert!(fault("seeds = [1, 1]").contains("given twice"));
         assert!(fault("seeds = 0").contains("1 to 100000 seeds"));
+        assert!(fault("[sampling]\nmethod = 'search'").starts_with("where: a search needs"));
         assert!(fault("x = [").contains("line"));
         let speed = fault(
             "[[situations]]\nagents = ['6']\ngoal = { speed_mps = { uniform = [5, 200], points = 3 } }",
