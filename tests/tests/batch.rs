@@ -169,6 +169,35 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     assert!(tree(&base.join("one")) == merged);
 }
 
+#[test]
+fn maps_are_filled_by_their_seeds() {
+    let folder = prepared();
+    let base = folder.path();
+    let plan = "[generate]\nhorizon_s = 2\nsteps = 1\n[[maps]]\ntemplate = 'straight'\ncount = 4\nscenes = 2\nseed = 5\n\
+                [[maps]]\nname = 'street'\nfiles = ['scenes/a.json', 'scenes/broken.json']\ncount = 3\n";
+    std::fs::write(base.join("plan.toml"), plan).unwrap();
+    ends(base, &["plan.toml", "-o", "one", "--jobs", "1"], 0);
+    ends(base, &["plan.toml", "-o", "two", "--jobs", "2"], 0);
+    assert_eq!(differences(&base.join("one"), &base.join("two")), Vec::<PathBuf>::new());
+    let record = json(&std::fs::read_to_string(base.join("one/plan.json")).unwrap());
+    let scenes = record["scenes"].as_array().unwrap();
+    let names: Vec<&str> = scenes.iter().map(|scene| scene["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["broken", "straight-0", "straight-1", "street-0"]);
+    assert_eq!(scenes[0]["problem"]["code"], "malformed-json");
+    assert_ne!(scenes[1]["sha256"], scenes[2]["sha256"], "each is filled anew");
+    ends(base, &["merge", "one"], 0);
+    let cases = std::fs::read_to_string(base.join("one/cases.jsonl")).unwrap();
+    let users: Vec<f64> =
+        cases.lines().map(|line| json(line)["figures"]["road_users"].as_f64().unwrap()).collect();
+    // The six cars of the file are left out; a pedestrian of the three finds no place beside the street.
+    let most = [4.0, 4.0, 3.0];
+    assert!(users.len() == 3 && users.iter().zip(most).all(|(n, most)| *n > 0.0 && *n <= most), "{users:?}");
+    ends(base, &["verify", "one"], 0);
+    std::fs::write(base.join("plan.toml"), plan.replace("seed = 5", "seed = 6")).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "one"], 8);
+    assert!(told.contains("another plan"), "{told}");
+}
+
 /// A search for cars that come close: 8 searches of 13 tries in two scenes, and a file that is none.
 const SEARCH: &str = r#"
 scenes = ["scenes/*.json"]
@@ -312,6 +341,7 @@ fn plans_that_make_no_sense_are_refused_with_their_place() {
         ("collisions == 0", "colisions == 0", "where: column 1: no figure is named \"colisions\""),
         ("horizon_s = 2", "horizon_s = 200", "generate.horizon_s: "),
         ("scenes/*.json", "none/*.json", "no file matches"),
+        ("[generate]", "[[maps]]\ntemplate = \"four-army\"\n[generate]", "did you mean four-arms?"),
         ("seeds = 2", "seeds = ", "line 3"),
     ] {
         std::fs::write(base.join("plan.toml"), PLAN.replace(from, to)).unwrap();

@@ -17,6 +17,7 @@ pub mod distribution;
 pub mod draws;
 pub mod fault;
 mod latin_hypercube;
+pub mod map;
 pub mod names;
 mod order;
 pub mod plan;

@@ -2,6 +2,7 @@
 
 use crate::draws;
 use crate::fault::PlanFault;
+use crate::map::BatchMap;
 use crate::sampling::{BatchSampling, SamplingMethod};
 use crate::situation::BatchSituation;
 use api::GenerateRequest;
@@ -27,8 +28,11 @@ const MOST_IN_CHUNK: u64 = 100_000;
 #[schemars(title = "DragTraffic batch plan")]
 pub struct BatchPlan {
     /// Files, folders and patterns such as `logs/**/*.json`, in any format; relative to the folder of the plan.
-    #[schemars(length(min = 1))]
+    #[serde(default)]
     pub scenes: Vec<String>,
+    /// Maps that are filled with road users; their scenes follow those of the files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub maps: Vec<BatchMap>,
     /// What happens in each scene. Without one, all road users are generated freely.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub situations: Vec<BatchSituation>,
@@ -214,8 +218,8 @@ impl BatchPlan {
     fn faults(&self) -> Vec<PlanFault> {
         let mut faults = Vec::new();
         let mut fault = |path: &str, detail: String| faults.push(PlanFault::new(path, detail));
-        if self.scenes.is_empty() {
-            fault("scenes", "at least one file, folder or pattern expected".into());
+        if self.scenes.is_empty() && self.maps.is_empty() {
+            fault("scenes", "at least one file, folder or pattern expected, or maps".into());
         }
         let seeds = match &self.seeds {
             BatchSeeds::Count(count) => *count,
@@ -247,6 +251,17 @@ impl BatchPlan {
         self.sampling.check(&mut faults);
         if let Err(problem) = self.generate.request(0).check_ranges() {
             faults.extend(PlanFault::of_problem("generate", &problem));
+        }
+        let mut labels = BTreeSet::new();
+        for (i, map) in self.maps.iter().enumerate() {
+            let path = format!("maps[{i}]");
+            map.check(&path, &mut faults);
+            // The names of files are not known here.
+            let label = map.label("");
+            if !label.is_empty() && !labels.insert(label) {
+                let detail = format!("another map is called {label}; give each a name");
+                faults.push(PlanFault::new(format!("{path}.name"), detail));
+            }
         }
         let mut names = BTreeSet::new();
         for (i, situation) in self.situations.iter().enumerate().take(MOST_SITUATIONS) {

@@ -303,6 +303,11 @@ fn range(member: &str) -> (f64, f64) {
         let most = api::generate::request::MOST_ANGLE_RAD;
         return (-most, most);
     }
+    schema_range(schema, name)
+}
+
+/// The range of a number, as a schema has it.
+pub(crate) fn schema_range(schema: &Schema, name: &str) -> (f64, f64) {
     let bound =
         |bound: &str| schema.pointer(&format!("/properties/{name}/{bound}")).and_then(|value| value.as_f64());
     (bound("minimum").unwrap_or(f64::MIN), bound("maximum").unwrap_or(f64::MAX))

@@ -3,7 +3,7 @@
 use super::BatchRunArgs;
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
-use super::scenes::{self, Selectors};
+use super::scenes::{self, PlanInputs, Selectors};
 use super::searching;
 use super::tally::OutcomeTally;
 use super::work::{ChunkWork, OpenChunk};
@@ -41,8 +41,14 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
         }
         None => {
             let base = path.parent().unwrap_or(Path::new(""));
-            let scenes = scenes::read(&plan, &selectors, base, &folder, workers, common)?;
-            let record = BatchRecord::new(&plan, engine, scenes);
+            let inputs = PlanInputs {
+                plan: &plan,
+                selectors: &selectors,
+                base,
+                folder: &folder,
+                operations: &operations,
+            };
+            let record = BatchRecord::new(&plan, engine, inputs.read(workers, common)?);
             record.write(&folder)?;
             record
         }
