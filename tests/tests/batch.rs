@@ -169,6 +169,89 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     assert!(tree(&base.join("one")) == merged);
 }
 
+#[test]
+fn maps_are_filled_by_their_seeds() {
+    let folder = prepared();
+    let base = folder.path();
+    let plan = "[generate]\nhorizon_s = 2\nsteps = 1\n[[maps]]\ntemplate = 'straight'\ncount = 4\nscenes = 2\nseed = 5\n\
+                [[maps]]\nname = 'street'\nfiles = ['scenes/a.json', 'scenes/broken.json']\ncount = 3\n";
+    std::fs::write(base.join("plan.toml"), plan).unwrap();
+    ends(base, &["plan.toml", "-o", "one", "--jobs", "1"], 0);
+    ends(base, &["plan.toml", "-o", "two", "--jobs", "2"], 0);
+    assert_eq!(differences(&base.join("one"), &base.join("two")), Vec::<PathBuf>::new());
+    let record = json(&std::fs::read_to_string(base.join("one/plan.json")).unwrap());
+    let scenes = record["scenes"].as_array().unwrap();
+    let names: Vec<&str> = scenes.iter().map(|scene| scene["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["broken", "straight-0", "straight-1", "street-0"]);
+    assert_eq!(scenes[0]["problem"]["code"], "malformed-json");
+    assert_ne!(scenes[1]["sha256"], scenes[2]["sha256"], "each is filled anew");
+    ends(base, &["merge", "one"], 0);
+    let cases = std::fs::read_to_string(base.join("one/cases.jsonl")).unwrap();
+    let users: Vec<f64> =
+        cases.lines().map(|line| json(line)["figures"]["road_users"].as_f64().unwrap()).collect();
+    // The six cars of the file are left out; a pedestrian of the three finds no place beside the street.
+    let most = [4.0, 4.0, 3.0];
+    assert!(users.len() == 3 && users.iter().zip(most).all(|(n, most)| *n > 0.0 && *n <= most), "{users:?}");
+    ends(base, &["verify", "one"], 0);
+    std::fs::write(base.join("plan.toml"), plan.replace("seed = 5", "seed = 6")).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "one"], 8);
+    assert!(told.contains("another plan"), "{told}");
+}
+
+/// A search for cars that come close: 8 searches of 13 tries in two scenes, and a file that is none.
+const SEARCH: &str = r#"
+scenes = ["scenes/*.json"]
+seeds = 2
+where = "actor.min_distance_m < 1.3 && collisions == 0"
+chunk_units = 24
+[sampling]
+method = "search"
+draws = 13
+[generate]
+horizon_s = 2
+steps = 1
+[[situations]]
+name = "aside"
+agents = ["0", "3"]
+goal = { ahead_m = { uniform = [5, 40] }, left_m = { uniform = [-3, 3] }, speed_mps = { choice = [8, 12] } }
+"#;
+
+#[test]
+fn a_search_is_the_same_whatever_the_threads_shards_and_interruptions() {
+    let folder = prepared();
+    let base = folder.path();
+    std::fs::write(base.join("plan.toml"), SEARCH).unwrap();
+    ends(base, &["plan.toml", "-o", "whole", "--jobs", "1"], 0);
+    ends(base, &["plan.toml", "-o", "threads", "--jobs", "2"], 0);
+    for shard in ["1/2", "0/2"] {
+        ends(base, &["plan.toml", "-o", "shards", "--shard", shard], 0);
+    }
+    for other in ["threads", "shards"] {
+        assert_eq!(differences(&base.join("whole"), &base.join(other)), Vec::<PathBuf>::new());
+    }
+    let kills = [0, 1, 2, 4].iter().filter(|chunks| killed(base, **chunks)).count();
+    assert!(kills >= 2 && tables(base) < 7, "{kills} kills, {} chunks", tables(base));
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
+    // A chunk in the middle is made again from those before it.
+    let mut chunks: Vec<PathBuf> =
+        std::fs::read_dir(base.join("out/chunks")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    chunks.sort();
+    assert_eq!(chunks.len(), 14, "{chunks:?}");
+    std::fs::remove_file(&chunks[3]).unwrap();
+    let (_, told) = ends(base, &["plan.toml", "-o", "out"], 0);
+    assert!(told.contains("1 of 7 chunks"), "{told}");
+    assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
+
+    let (text, _) = ends(base, &["status", "out", "--json"], 0);
+    let status = json(&text);
+    let of = |outcome: &str| status["tally"]["outcomes"][outcome].as_u64().unwrap_or(0);
+    assert_eq!((status["units"].as_u64(), of("failed")), (Some(8 * 13 + 1), 1), "{text}");
+    assert!(of("kept") > 0 && of("left-out") > 0, "{text}");
+    let (text, _) = ends(base, &["verify", "out", "--units", "20"], 0);
+    assert_eq!(text, "20 units made again: all equal\n");
+}
+
 /// Starts a run and kills it without mercy once so many chunks are there; false when it had ended by itself.
 fn killed(folder: &Path, chunks: usize) -> bool {
     let mut child = started(folder);
@@ -258,6 +341,7 @@ fn plans_that_make_no_sense_are_refused_with_their_place() {
         ("collisions == 0", "colisions == 0", "where: column 1: no figure is named \"colisions\""),
         ("horizon_s = 2", "horizon_s = 200", "generate.horizon_s: "),
         ("scenes/*.json", "none/*.json", "no file matches"),
+        ("[generate]", "[[maps]]\ntemplate = \"four-army\"\n[generate]", "did you mean four-arms?"),
         ("seeds = 2", "seeds = ", "line 3"),
     ] {
         std::fs::write(base.join("plan.toml"), PLAN.replace(from, to)).unwrap();

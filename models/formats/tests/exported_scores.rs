@@ -55,8 +55,7 @@ fn conditions() -> impl Strategy<Value = Conditions> {
             width_m,
             start: Start { position: moved.then(|| Vec2::new(at.0, at.1)), heading_rad, speed_mps },
             goal: Goal { speed_mps: goal_mps, ..Goal::default() },
-            may_cross: Vec::new(),
-            via: Vec::new(),
+            ..Conditions::default()
         },
     )
 }

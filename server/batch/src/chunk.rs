@@ -16,6 +16,8 @@ pub struct BatchChunk {
     pub number: u64,
     /// Numbers of its units.
     pub units: Range<u64>,
+    /// What shards divide: chunks with an equal number belong to one process, as one follows from the other.
+    pub share: u64,
 }
 
 /// All chunks of so many units, `size` in each but the last.
@@ -23,7 +25,7 @@ pub fn chunks(units: u64, size: u64) -> impl Iterator<Item = BatchChunk> {
     let size = size.max(1);
     (0..units.div_ceil(size)).map(move |number| {
         let first = number * size;
-        BatchChunk { number, units: first..units.min(first + size) }
+        BatchChunk { number, units: first..units.min(first + size), share: number }
     })
 }
 

@@ -1,7 +1,6 @@
 //! A number of a plan: fixed, or drawn from a range or a list.
 
 use crate::fault::PlanFault;
-use scene::random::Stream;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
@@ -50,12 +49,15 @@ impl Distribution {
         matches!(self, Self::Fixed(_))
     }
 
-    /// One value, rounded to four digits behind the point.
-    pub fn draw(&self, stream: &mut Stream) -> f64 {
+    /// The value that has this share of all values before it, 0 to 1; rounded to four digits behind the point.
+    pub fn at(&self, share: f64) -> f64 {
         match self {
             Self::Fixed(value) => *value,
-            Self::Uniform { low, high, .. } => rounded(stream.between(*low, *high)).clamp(*low, *high),
-            Self::Choice(values) => values.get(stream.below(values.len())).copied().unwrap_or_default(),
+            Self::Uniform { low, high, .. } => rounded(low + (high - low) * share).clamp(*low, *high),
+            Self::Choice(values) => {
+                let place = (share * values.len() as f64) as usize;
+                values.get(place).or(values.last()).copied().unwrap_or_default()
+            }
         }
     }
 
@@ -237,11 +239,11 @@ mod tests {
         let points: Vec<f64> = (0..range.points()).map(|place| range.point(place)).collect();
         assert_eq!(points, [0.1, 0.3, 0.5, 0.7]);
         let mut stream = Key::default().number(1).stream();
-        let drawn: Vec<f64> = (0..200).map(|_| range.draw(&mut stream)).collect();
+        let drawn: Vec<f64> = (0..200).map(|_| range.at(stream.unit())).collect();
         assert!(drawn.iter().all(|value| (0.1..=0.7).contains(value)), "{drawn:?}");
         assert!(drawn.iter().any(|value| *value < 0.2) && drawn.iter().any(|value| *value > 0.6));
         let list = read(r#"{"choice":[3,5,8]}"#);
-        let drawn: Vec<f64> = (0..50).map(|_| list.draw(&mut stream)).collect();
+        let drawn: Vec<f64> = (0..50).map(|_| list.at(stream.unit())).collect();
         assert!([3.0, 5.0, 8.0].iter().all(|value| drawn.contains(value)), "{drawn:?}");
     }
 }

@@ -1,31 +1,30 @@
-//! The numbers of a situation: every combination of a grid, or independent draws.
+//! The numbers of a situation: every combination of a grid, or so many draws.
 
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
-use crate::plan::{BatchSampling, SamplingMethod};
-use crate::situation::BatchSituation;
+use crate::sampling::{BatchSampling, MOST_DRAWS, SamplingMethod};
+use crate::situation::{BatchSituation, MOST_CONDITIONS};
+use crate::{latin_hypercube, sobol};
 use scene::random::Key;
 use std::collections::BTreeMap;
 
-/// Most draws of one situation for one road user.
-const MOST_DRAWS: u64 = 1_000_000;
+// A situation has conditions or the fewer parameters of a template.
+const _: () = assert!(MOST_CONDITIONS <= sobol::DIMENSIONS);
 
 /// Number of draws of a situation for one road user of one scene.
 pub fn count(situation: &BatchSituation, sampling: &BatchSampling) -> u64 {
     let dimensions = situation.dimensions();
-    match sampling.method {
-        SamplingMethod::Grid => {
-            let points = dimensions.iter().map(|dimension| dimension.distribution.points() as u64);
-            points.fold(1, u64::saturating_mul)
-        }
-        // Equal numbers are drawn once.
-        SamplingMethod::Random if dimensions.iter().all(|dimension| dimension.distribution.is_fixed()) => 1,
-        SamplingMethod::Random => sampling.draws,
+    if sampling.method == SamplingMethod::Grid {
+        let points = dimensions.iter().map(|dimension| dimension.distribution.points() as u64);
+        return points.fold(1, u64::saturating_mul);
     }
+    // Equal numbers are drawn once.
+    let varies = dimensions.iter().any(|dimension| !dimension.distribution.is_fixed());
+    if varies { sampling.draws } else { 1 }
 }
 
-/// The numbers of one draw, by path. A random draw depends on the scene, the road user, the situation and the number
-/// alone: neither other situations nor other scenes change it.
+/// The numbers of one draw, by path. A draw depends on the scene, the road user, the situation and the number alone:
+/// neither other situations nor other scenes change it. A search has none: its numbers follow from its earlier tries.
 pub fn drawn(
     situation: &BatchSituation,
     sampling: &BatchSampling,
@@ -34,23 +33,31 @@ pub fn drawn(
     draw: u64,
 ) -> BTreeMap<String, f64> {
     let mut left = draw;
-    let value = |path: &str, distribution: &Distribution, left: &mut u64| match sampling.method {
-        SamplingMethod::Grid => {
-            let points = (distribution.points() as u64).max(1);
-            let place = *left % points;
-            *left /= points;
-            distribution.point(place as usize)
-        }
-        SamplingMethod::Random => {
-            let key = Key::default().words(&["batch", situation.name(), scene, actor, path]);
-            distribution.draw(&mut key.number(sampling.seed).number(draw).stream())
-        }
+    let mut varied = 0;
+    let mut value = |path: &str, distribution: &Distribution| {
+        let key =
+            Key::default().words(&["batch", situation.name(), scene, actor, path]).number(sampling.seed);
+        let share = match sampling.method {
+            SamplingMethod::Grid => {
+                let points = (distribution.points() as u64).max(1);
+                let place = left % points;
+                left /= points;
+                return Some(distribution.point(place as usize));
+            }
+            SamplingMethod::Random => key.number(draw).stream().unit(),
+            SamplingMethod::LatinHypercube => latin_hypercube::share(&key, draw, sampling.draws),
+            SamplingMethod::Sobol => sobol::share(&key, varied, draw),
+            SamplingMethod::Search => return None,
+        };
+        // The first dimensions spread best: none is spent on a fixed number.
+        varied += usize::from(!distribution.is_fixed());
+        Some(distribution.at(share))
     };
     let dimensions = situation.dimensions().into_iter();
     dimensions
-        .map(|dimension| {
-            let value = value(&dimension.path, dimension.distribution, &mut left);
-            (dimension.path, value)
+        .filter_map(|dimension| {
+            let value = value(&dimension.path, dimension.distribution)?;
+            Some((dimension.path, value))
         })
         .collect()
 }
@@ -65,8 +72,7 @@ pub(crate) fn check(
     if sampling.method == SamplingMethod::Grid {
         for dimension in situation.dimensions() {
             if let Distribution::Uniform { points: None, .. } = dimension.distribution {
-                let detail =
-                    "a range needs points in a grid, such as points = 5; or sampling.method = \"random\"";
+                let detail = "a range needs points in a grid, such as points = 5; or another sampling.method";
                 faults.push(PlanFault::new(format!("{path}.{}", dimension.path), detail));
             }
         }
@@ -80,9 +86,9 @@ pub(crate) fn check(
 #[cfg(test)]
 mod tests {
     use super::{count, drawn};
-    use crate::plan::{BatchSampling, SamplingMethod};
+    use crate::sampling::{BatchSampling, SamplingMethod};
     use crate::situation::BatchSituation;
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeMap, BTreeSet};
 
     fn situation() -> BatchSituation {
         let text = r#"{"agents":["6"],"width_m":2,"goal":{
@@ -102,16 +108,42 @@ mod tests {
         );
     }
 
+    const DRAWN: [SamplingMethod; 3] =
+        [SamplingMethod::Random, SamplingMethod::LatinHypercube, SamplingMethod::Sobol];
+
     #[test]
-    fn random_draws_depend_on_what_they_are_for() {
+    fn draws_depend_on_what_they_are_for() {
         let situation = situation();
-        let sampling = BatchSampling { method: SamplingMethod::Random, draws: 5, seed: 1 };
-        assert_eq!(count(&situation, &sampling), 5);
-        let at = |scene: &str, actor: &str, draw| drawn(&situation, &sampling, scene, actor, draw);
-        assert_eq!(at("s", "6", 2), at("s", "6", 2));
-        let others = [at("t", "6", 2), at("s", "7", 2), at("s", "6", 3)];
-        assert!(others.iter().all(|other| other["goal.speed_mps"] != at("s", "6", 2)["goal.speed_mps"]));
-        let fixed: BatchSituation = serde_json::from_str(r#"{"agents":["6"],"width_m":2}"#).unwrap();
-        assert_eq!(count(&fixed, &sampling), 1);
+        for method in DRAWN {
+            let sampling = BatchSampling { method, draws: 5, seed: 1 };
+            assert_eq!(count(&situation, &sampling), 5);
+            let at = |scene: &str, actor: &str, draw| drawn(&situation, &sampling, scene, actor, draw);
+            assert_eq!(at("s", "6", 2), at("s", "6", 2));
+            let seed = BatchSampling { seed: 2, ..sampling.clone() };
+            let others =
+                [at("t", "6", 2), at("s", "7", 2), at("s", "6", 3), drawn(&situation, &seed, "s", "6", 2)];
+            assert!(
+                others.iter().all(|other| other["goal.speed_mps"] != at("s", "6", 2)["goal.speed_mps"]),
+                "{method:?}"
+            );
+            let fixed: BatchSituation = serde_json::from_str(r#"{"agents":["6"],"width_m":2}"#).unwrap();
+            assert_eq!(count(&fixed, &sampling), 1);
+        }
+    }
+
+    #[test]
+    fn stratified_draws_hit_each_stratum_of_a_range_and_each_choice_equally_often() {
+        let situation = situation();
+        let hits = |method| {
+            let sampling = BatchSampling { method, draws: 32, seed: 3 };
+            let all: Vec<_> = (0..32).map(|draw| drawn(&situation, &sampling, "s", "6", draw)).collect();
+            assert!(all.iter().all(|numbers| numbers["width_m"] == 2.0));
+            let stratum = |numbers: &BTreeMap<String, f64>| ((numbers["goal.speed_mps"] - 5.0) * 8.0) as u64;
+            let near = all.iter().filter(|numbers| numbers["goal.ahead_m"] == 20.0).count();
+            (all.iter().map(stratum).collect::<BTreeSet<_>>().len(), near)
+        };
+        assert_eq!(hits(SamplingMethod::LatinHypercube), (32, 16));
+        assert_eq!(hits(SamplingMethod::Sobol), (32, 16));
+        assert!(hits(SamplingMethod::Random).0 < 28);
     }
 }

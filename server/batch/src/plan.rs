@@ -2,6 +2,8 @@
 
 use crate::draws;
 use crate::fault::PlanFault;
+use crate::map::BatchMap;
+use crate::sampling::{BatchSampling, SamplingMethod};
 use crate::situation::BatchSituation;
 use api::GenerateRequest;
 use api::generate::request::ReactChoice;
@@ -26,15 +28,19 @@ const MOST_IN_CHUNK: u64 = 100_000;
 #[schemars(title = "DragTraffic batch plan")]
 pub struct BatchPlan {
     /// Files, folders and patterns such as `logs/**/*.json`, in any format; relative to the folder of the plan.
-    #[schemars(length(min = 1))]
+    #[serde(default)]
     pub scenes: Vec<String>,
+    /// Maps that are filled with road users; their scenes follow those of the files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub maps: Vec<BatchMap>,
     /// What happens in each scene. Without one, all road users are generated freely.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub situations: Vec<BatchSituation>,
     /// A count from 0 on, or a list. Each draw is generated once for each seed.
     #[serde(default)]
     pub seeds: BatchSeeds,
-    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
+    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search
+    /// looks for them.
     #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<String>,
     /// How the numbers of a situation are chosen.
@@ -125,36 +131,6 @@ impl JsonSchema for BatchSeeds {
     }
 }
 
-/// How the numbers of a situation are chosen.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct BatchSampling {
-    /// A grid takes every combination; random draws are independent of each other.
-    pub method: SamplingMethod,
-    /// Random draws for each scene, situation and road user.
-    #[schemars(range(min = 1, max = 1000000))]
-    pub draws: u64,
-    /// Seed of the random draws.
-    #[schemars(range(max = 9007199254740991u64))]
-    pub seed: u64,
-}
-
-impl Default for BatchSampling {
-    fn default() -> Self {
-        Self { method: SamplingMethod::Grid, draws: 10, seed: 0 }
-    }
-}
-
-/// How the numbers of a situation are chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum SamplingMethod {
-    /// Every combination of the values.
-    Grid,
-    /// Independent draws.
-    Random,
-}
-
 /// Options of every generation.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -242,8 +218,8 @@ impl BatchPlan {
     fn faults(&self) -> Vec<PlanFault> {
         let mut faults = Vec::new();
         let mut fault = |path: &str, detail: String| faults.push(PlanFault::new(path, detail));
-        if self.scenes.is_empty() {
-            fault("scenes", "at least one file, folder or pattern expected".into());
+        if self.scenes.is_empty() && self.maps.is_empty() {
+            fault("scenes", "at least one file, folder or pattern expected, or maps".into());
         }
         let seeds = match &self.seeds {
             BatchSeeds::Count(count) => *count,
@@ -260,11 +236,8 @@ impl BatchPlan {
                 fault("seeds", "a seed is given twice".into());
             }
         }
-        if !(1..=1_000_000).contains(&self.sampling.draws) {
-            fault("sampling.draws", "1 to 1000000 expected".into());
-        }
-        if self.sampling.seed > MAX_SAFE_INTEGER {
-            fault("sampling.seed", format!("at most {MAX_SAFE_INTEGER} expected"));
+        if self.sampling.method == SamplingMethod::Search && self.filter.is_none() {
+            fault("where", "a search needs a condition that it looks for".into());
         }
         if !(1..=MOST_IN_CHUNK).contains(&self.chunk_units) {
             fault("chunk_units", format!("1 to {MOST_IN_CHUNK} expected"));
@@ -275,8 +248,20 @@ impl BatchPlan {
         if !(0.0..=59.9).contains(&self.generate.start_s) {
             fault("generate.start_s", format!("{} is outside 0 to 59.9", self.generate.start_s));
         }
+        self.sampling.check(&mut faults);
         if let Err(problem) = self.generate.request(0).check_ranges() {
             faults.extend(PlanFault::of_problem("generate", &problem));
+        }
+        let mut labels = BTreeSet::new();
+        for (i, map) in self.maps.iter().enumerate() {
+            let path = format!("maps[{i}]");
+            map.check(&path, &mut faults);
+            // The names of files are not known here.
+            let label = map.label("");
+            if !label.is_empty() && !labels.insert(label) {
+                let detail = format!("another map is called {label}; give each a name");
+                faults.push(PlanFault::new(format!("{path}.name"), detail));
+            }
         }
         let mut names = BTreeSet::new();
         for (i, situation) in self.situations.iter().enumerate().take(MOST_SITUATIONS) {
@@ -359,6 +344,7 @@ mod tests {
         assert!(fault("[generate]\nhorizon_s = 90").starts_with("generate.horizon_s: "));
         assert!(fault("seeds = [1, 1]").contains("given twice"));
         assert!(fault("seeds = 0").contains("1 to 100000 seeds"));
+        assert!(fault("[sampling]\nmethod = 'search'").starts_with("where: a search needs"));
         assert!(fault("x = [").contains("line"));
         let speed = fault(
             "[[situations]]\nagents = ['6']\ngoal = { speed_mps = { uniform = [5, 200], points = 3 } }",

@@ -70,6 +70,8 @@ pub struct BatchRow {
     pub reacting: Option<u64>,
     /// What the actor does, in one sentence.
     pub what: Option<String>,
+    /// How far the result is from the condition of the plan, 0 where it holds.
+    pub miss: Option<f64>,
     /// Figures of the score by name.
     pub figures: BTreeMap<String, f64>,
 }
@@ -164,6 +166,7 @@ pub fn table(rows: &[BatchRow], figures: &'static [String]) -> io::Result<Vec<u8
         column("goal", false, text(|row| row.goal.clone())),
         column("reacting", false, whole(|row| row.reacting)),
         column("what", false, text(|row| row.what.clone())),
+        column("miss", false, ColumnValues::Number(rows.iter().map(|row| row.miss).collect())),
     ];
     columns.extend(figures.iter().map(|name| {
         let values = rows.iter().map(|row| row.figures.get(name).copied()).collect();
@@ -215,6 +218,7 @@ pub fn read(bytes: &Vec<u8>) -> Result<Vec<BatchRow>, ReadError> {
             goal: text("goal"),
             reacting: wholes.get("reacting").copied(),
             what: text("what"),
+            miss: figures.remove("miss"),
             figures,
         });
     }
@@ -244,6 +248,7 @@ mod tests {
             goal: Some("met".into()),
             reacting: Some(0),
             what: None,
+            miss: Some(0.0),
             figures: BTreeMap::from([("actor.min_ttc_s".into(), 1.0 / 3.0), ("collisions".into(), 0.0)]),
         }
     }
@@ -260,6 +265,7 @@ mod tests {
             code: None,
             goal: None,
             reacting: None,
+            miss: None,
             figures: BTreeMap::new(),
             ..row("b")
         };

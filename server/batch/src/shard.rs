@@ -66,9 +66,9 @@ impl BatchShard {
         shard.map(Some).ok_or_else(|| format!("{} lies outside of {} = {count}", names.0, names.1))
     }
 
-    /// Is a chunk, by its number, in this share?
-    pub fn has(self, chunk: u64) -> bool {
-        chunk % self.count == self.index
+    /// Does this process work on the chunks of a share?
+    pub fn has(self, share: u64) -> bool {
+        share % self.count == self.index
     }
 
     /// `I/N`.

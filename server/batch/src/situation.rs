@@ -8,9 +8,12 @@ use scene::scenarios::Template;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// What a situation without name is called where nobody is asked for anything.
 const FREE: &str = "free";
+/// Conditions that can be drawn.
+pub const MOST_CONDITIONS: usize = 20;
 /// Longest name, in characters.
 const MOST_NAME: usize = 60;
 
@@ -163,9 +166,11 @@ impl BatchSituation {
         parameters.chain(conditions).collect()
     }
 
-    fn conditions(&self) -> Vec<(&'static str, &Option<Distribution>)> {
+    fn conditions(&self) -> [(&'static str, &Option<Distribution>); MOST_CONDITIONS] {
         let Self { goal, start, length_m, width_m, .. } = self;
-        let mut all = vec![
+        let relation =
+            |of: fn(&GoalRelationRanges) -> &Option<Distribution>| goal.relation.as_ref().map_or(&None, of);
+        [
             ("goal.x_m", &goal.x_m),
             ("goal.y_m", &goal.y_m),
             ("goal.heading_rad", &goal.heading_rad),
@@ -180,18 +185,13 @@ impl BatchSituation {
             ("start.speed_mps", &start.speed_mps),
             ("length_m", length_m),
             ("width_m", width_m),
-        ];
-        if let Some(relation) = &goal.relation {
-            all.extend([
-                ("goal.relation.ahead_m", &relation.ahead_m),
-                ("goal.relation.behind_m", &relation.behind_m),
-                ("goal.relation.behind_s", &relation.behind_s),
-                ("goal.relation.after_s", &relation.after_s),
-                ("goal.relation.slower_mps", &relation.slower_mps),
-                ("goal.relation.lanes_left", &relation.lanes_left),
-            ]);
-        }
-        all
+            ("goal.relation.ahead_m", relation(|r| &r.ahead_m)),
+            ("goal.relation.behind_m", relation(|r| &r.behind_m)),
+            ("goal.relation.behind_s", relation(|r| &r.behind_s)),
+            ("goal.relation.after_s", relation(|r| &r.after_s)),
+            ("goal.relation.slower_mps", relation(|r| &r.slower_mps)),
+            ("goal.relation.lanes_left", relation(|r| &r.lanes_left)),
+        ]
     }
 
     /// The conditions of a road user, `own` with the drawn numbers in place of its own.
@@ -348,17 +348,26 @@ impl GoalRanges {
 
 /// The range of a condition, as its document has it.
 fn range(member: &str) -> (f64, f64) {
-    let schema = match member.split_once('.') {
-        Some(("goal", rest)) if rest.contains('.') => schemars::schema_for!(GoalRelationDoc),
-        Some(("goal", _)) => schemars::schema_for!(GoalDoc),
-        Some(_) => schemars::schema_for!(StartDoc),
-        None => schemars::schema_for!(ConditionsDoc),
+    static RELATION: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(GoalRelationDoc));
+    static GOAL: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(GoalDoc));
+    static START: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(StartDoc));
+    static CONDITIONS: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(ConditionsDoc));
+    let schema: &Schema = match member.split_once('.') {
+        Some(("goal", rest)) if rest.contains('.') => &RELATION,
+        Some(("goal", _)) => &GOAL,
+        Some(_) => &START,
+        None => &CONDITIONS,
     };
     let name = member.rsplit('.').next().unwrap_or(member);
     if name.ends_with("_rad") {
         let most = api::generate::request::MOST_ANGLE_RAD;
         return (-most, most);
     }
+    schema_range(schema, name)
+}
+
+/// The range of a number, as a schema has it.
+pub(crate) fn schema_range(schema: &Schema, name: &str) -> (f64, f64) {
     let bound =
         |bound: &str| schema.pointer(&format!("/properties/{name}/{bound}")).and_then(|value| value.as_f64());
     (bound("minimum").unwrap_or(f64::MIN), bound("maximum").unwrap_or(f64::MAX))

@@ -1,9 +1,16 @@
 //! The units of a batch: one generation each, in a fixed order, found by number without a list of all.
 
 use crate::catalogue::CatalogueScene;
+use crate::chunk::{self, BatchChunk};
 use crate::draws;
+use crate::order::{UnitBlock, UnitPlace};
 use crate::plan::BatchPlan;
+use crate::sampling::SamplingMethod;
+use crate::search::order::SearchOrder;
+use crate::search::state::SearchState;
+use crate::situation::BatchSituation;
 use scene::ContentHash;
+use scene::random::Key;
 use std::collections::BTreeMap;
 
 /// One generation.
@@ -19,17 +26,10 @@ pub struct BatchUnit {
     pub actor: Option<String>,
     /// Number of the draw.
     pub draw: u64,
-    /// Drawn numbers by path.
+    /// Drawn numbers by path; those of a search have [`GroupSearch`](crate::search::GroupSearch).
     pub drawn: BTreeMap<String, f64>,
     /// Seed of the generation.
     pub seed: u64,
-}
-
-/// Scene, situation and number of the first unit of the two.
-struct UnitBlock {
-    scene: usize,
-    situation: usize,
-    first: u64,
 }
 
 /// All units of a plan over a catalogue.
@@ -37,92 +37,140 @@ pub struct UnitList<'a> {
     plan: &'a BatchPlan,
     scenes: &'a [CatalogueScene],
     seeds: Vec<u64>,
-    blocks: Vec<UnitBlock>,
-    count: u64,
+    order: UnitOrder,
     /// Of all that the units share: version, weights, tuning and options.
     shared: ContentHash,
+}
+
+/// The order of the units.
+enum UnitOrder {
+    /// Draws that do not depend on each other.
+    Draws(Vec<UnitBlock>),
+    /// Tries that follow from each other.
+    Searches(SearchOrder),
 }
 
 impl<'a> UnitList<'a> {
     /// Of a plan. `engine` names the hashes of weights and tuning.
     pub fn new(plan: &'a BatchPlan, scenes: &'a [CatalogueScene], engine: &BTreeMap<String, String>) -> Self {
-        let seeds = plan.seeds.list();
-        let (mut blocks, mut count) = (Vec::new(), 0_u64);
-        for (i, scene) in scenes.iter().enumerate() {
-            // An input that is no scene is one unit: its row says why.
-            let situations = if scene.problem.is_some() { 1 } else { plan.situations.len() };
-            for situation in 0..situations {
-                blocks.push(UnitBlock { scene: i, situation, first: count });
-                count += Self::size(plan, scene, situation, seeds.len() as u64);
-            }
-        }
+        let blocks = UnitBlock::all(plan, scenes);
+        let order = if plan.sampling.method == SamplingMethod::Search {
+            UnitOrder::Searches(SearchOrder::new(plan, blocks))
+        } else {
+            UnitOrder::Draws(blocks)
+        };
         let shared = ContentHash::of(&(env!("CARGO_PKG_VERSION"), engine, &plan.generate));
-        Self { plan, scenes, seeds, blocks, count, shared }
-    }
-
-    /// Units of one situation in one scene.
-    fn size(plan: &BatchPlan, scene: &CatalogueScene, situation: usize, seeds: u64) -> u64 {
-        let of = scene.actors.get(situation).and_then(Option::as_ref);
-        match (&scene.problem, of, plan.situations.get(situation)) {
-            (None, Some(actors), Some(_)) if actors.is_empty() => 1,
-            (None, actors, Some(of)) => {
-                actors.map_or(1, |actors| actors.len() as u64) * draws::count(of, &plan.sampling) * seeds
-            }
-            _ => 1,
-        }
+        Self { plan, scenes, seeds: plan.seeds.list(), order, shared }
     }
 
     /// Number of units.
     pub fn len(&self) -> u64 {
-        self.count
+        match &self.order {
+            UnitOrder::Draws(blocks) => blocks.last().map_or(0, UnitBlock::end),
+            UnitOrder::Searches(order) => order.len(),
+        }
     }
 
     /// Is there none?
     pub fn is_empty(&self) -> bool {
-        self.count == 0
+        self.len() == 0
+    }
+
+    /// The chunks of all units, in their order.
+    pub fn chunks(&self) -> Box<dyn Iterator<Item = BatchChunk> + '_> {
+        match &self.order {
+            UnitOrder::Draws(_) => Box::new(chunk::chunks(self.len(), self.plan.chunk_units)),
+            UnitOrder::Searches(order) => Box::new(order.chunks()),
+        }
+    }
+
+    /// The order of the tries of a plan that searches.
+    pub(crate) fn searches(&self) -> Option<&SearchOrder> {
+        match &self.order {
+            UnitOrder::Draws(_) => None,
+            UnitOrder::Searches(order) => Some(order),
+        }
+    }
+
+    /// Does a chunk follow from the chunks of its share before it?
+    pub fn is_searched(&self) -> bool {
+        self.searches().is_some()
     }
 
     /// The unit of a number below [`Self::len`].
     pub fn unit(&self, number: u64) -> Option<BatchUnit> {
-        let at = self.blocks.partition_point(|block| block.first <= number).checked_sub(1)?;
-        let block = self.blocks.get(at)?;
-        let scene = self.scenes.get(block.scene)?;
-        let situation = self.plan.situations.get(block.situation)?;
-        let seeds = self.seeds.len() as u64;
-        let within = number - block.first;
-        let (seed, rest) = (self.seeds.get((within % seeds) as usize).copied()?, within / seeds);
-        let draws = draws::count(situation, &self.plan.sampling).max(1);
-        let (draw, rest) = (rest % draws, rest / draws);
-        let actors = scene.actors.get(block.situation).and_then(Option::as_ref);
-        let actor = actors.and_then(|actors| actors.get(rest as usize)).cloned();
-        let nobody = scene.problem.is_some() || actors.is_some_and(Vec::is_empty);
-        let drawn = if nobody {
+        self.at(match &self.order {
+            UnitOrder::Draws(blocks) => UnitBlock::place(blocks, number)?,
+            UnitOrder::Searches(order) => order.group_of(number)?.find(number)?.1,
+        })
+    }
+
+    /// The unit of a place.
+    pub(crate) fn at(&self, place: UnitPlace) -> Option<BatchUnit> {
+        let UnitOf { scene, situation, actor, seed, is_nobody } = self.of(place)?;
+        let draw = place.draw;
+        let drawn = if is_nobody {
             BTreeMap::new()
         } else {
-            let of = actor.as_deref().unwrap_or_default();
+            let of = actor.unwrap_or_default();
             draws::drawn(situation, &self.plan.sampling, &scene.sha256, of, draw)
         };
+        // The numbers of a search follow from its ranges and from what it looks for.
+        let searched = self.searches().map(|_| (situation, &self.plan.sampling, &self.plan.filter));
         let (name, template) = (situation.name(), &situation.template);
         let id = ContentHash::of(&(
             &self.shared,
             &scene.sha256,
             &scene.name,
-            name,
-            template,
-            &actor,
+            (name, template, searched),
+            actor,
             draw,
             &drawn,
             seed,
         ));
-        Some(BatchUnit { id, scene: block.scene, situation: block.situation, actor, draw, drawn, seed })
+        let actor = actor.map(str::to_owned);
+        Some(BatchUnit { id, scene: place.scene, situation: place.situation, actor, draw, drawn, seed })
     }
+
+    /// The search of a road user and a seed, at its start; `None` where nobody is meant.
+    pub(crate) fn search(&self, place: UnitPlace) -> Option<SearchState<'a>> {
+        let UnitOf { scene, situation, actor, seed, is_nobody } = self.of(place)?;
+        let words = ["batch search", situation.name(), &scene.sha256, actor.unwrap_or_default()];
+        let key = Key::default().words(&words).number(self.plan.sampling.seed).number(seed);
+        (!is_nobody).then(|| SearchState::new(situation, key))
+    }
+
+    /// What a place names.
+    fn of(&self, place: UnitPlace) -> Option<UnitOf<'a>> {
+        let scene = self.scenes.get(place.scene)?;
+        let actors = scene.actors.get(place.situation).and_then(Option::as_ref);
+        Some(UnitOf {
+            scene,
+            situation: self.plan.situations.get(place.situation)?,
+            actor: actors.and_then(|actors| actors.get(place.actor)).map(String::as_str),
+            seed: self.seeds.get(place.seed).copied()?,
+            is_nobody: scene.problem.is_some() || actors.is_some_and(Vec::is_empty),
+        })
+    }
+}
+
+/// What a unit is about.
+struct UnitOf<'a> {
+    scene: &'a CatalogueScene,
+    situation: &'a BatchSituation,
+    actor: Option<&'a str>,
+    seed: u64,
+    /// The input is no scene, or has nobody whom the situation concerns.
+    is_nobody: bool,
 }
 
 #[cfg(test)]
 mod tests {
-    use super::UnitList;
+    use super::{BatchUnit, UnitList};
     use crate::catalogue::{CatalogueScene, UnitProblem};
     use crate::plan::BatchPlan;
+    use crate::row::{BatchRow, UnitOutcome};
+    use crate::search::GroupSearch;
     use std::collections::{BTreeMap, BTreeSet};
 
     fn plan() -> BatchPlan {
@@ -173,5 +221,80 @@ mod tests {
         // What is kept, and the size of chunks, change no generation.
         other = BatchPlan { filter: Some("collisions == 0".into()), chunk_units: 7, ..plan.clone() };
         assert_eq!(first, id(&other, &scenes, &engine("x")));
+    }
+
+    #[test]
+    fn tries_of_searches_are_in_chunks_by_population() {
+        let text = "scenes = ['a']\nseeds = 2\nwhere = 'collisions == 0'\nchunk_units = 12\n\
+                    [sampling]\nmethod = 'search'\ndraws = 10\n\
+                    [[situations]]\nname = 'fast'\nagents = ['@all']\n\
+                    goal = { speed_mps = { uniform = [5, 9] }, ahead_m = { uniform = [5, 90] } }\n\
+                    [[situations]]\nname = 'slow'\nagents = ['@all']\ngoal = { speed_mps = 2 }";
+        let plan = BatchPlan::parse(text).unwrap();
+        let scene = |name: &str, actors: &[&str]| {
+            let actors: Vec<String> = actors.iter().map(|id| (*id).to_owned()).collect();
+            let sha256 = format!("hash of {name}");
+            let actors = vec![Some(actors.clone()), Some(actors)];
+            CatalogueScene { name: name.into(), sha256, problem: None, actors }
+        };
+        let scenes = [scene("a", &["1", "2"]), scene("empty", &[]), scene("b", &["3"])];
+        let list = UnitList::new(&plan, &scenes, &BTreeMap::new());
+        // Ten tries for each road user and seed, and one where nothing varies; one for nobody.
+        assert_eq!(list.len(), (40 + 4) + (1 + 1) + (20 + 2));
+        let chunks: Vec<_> = list.chunks().collect();
+        // Two searches are a group, with populations of six tries.
+        let sizes: Vec<_> = chunks.iter().map(|c| (c.number, c.share, c.units.end - c.units.start)).collect();
+        let expected = [
+            [(0, 0, 12), (1, 0, 8)].as_slice(),
+            &[(3, 1, 12), (4, 1, 8)],
+            &[(6, 2, 2), (9, 3, 2), (12, 4, 2)],
+            &[(15, 5, 12), (16, 5, 8), (18, 6, 2)],
+        ];
+        assert_eq!(sizes, expected.concat());
+        let units: Vec<_> = chunks.iter().flat_map(|c| c.units.clone()).collect();
+        assert_eq!(units, (0..list.len()).collect::<Vec<_>>());
+        let all: Vec<_> = units.iter().map(|number| list.unit(*number).unwrap()).collect();
+        assert_eq!(all.iter().map(|unit| unit.id).collect::<BTreeSet<_>>().len(), all.len());
+        let told = |i: usize| (all[i].actor.as_deref(), all[i].seed, all[i].draw);
+        assert_eq!(
+            [told(0), told(6), told(12), told(16)],
+            [(Some("1"), 0, 0), (Some("1"), 1, 0), (Some("1"), 0, 6), (Some("1"), 1, 6)]
+        );
+        assert!(list.unit(list.len()).is_none());
+
+        let mut searches = GroupSearch::new(&list, 0).unwrap();
+        let first: Vec<_> = (0..12).map(|number| searches.unit(number).unwrap()).collect();
+        assert!(first.iter().all(|unit| unit.drawn.len() == 2), "{first:?}");
+        assert_ne!(first[0].drawn, first[6].drawn, "each seed has a search of its own");
+        assert_eq!(first[3].id, all[3].id);
+        let before = searches.unit(12).unwrap();
+        let rows: Vec<_> =
+            first.iter().map(|unit| row(unit, (unit.drawn["goal.ahead_m"] - 60.0).abs())).collect();
+        searches.learn(&rows);
+        assert_ne!(searches.unit(12).unwrap().drawn, before.drawn);
+        assert_eq!(GroupSearch::new(&list, 1).unwrap().unit(0), None, "a unit of another group");
+        assert!(GroupSearch::new(&list, 7).is_none());
+    }
+
+    fn row(unit: &BatchUnit, miss: f64) -> BatchRow {
+        BatchRow {
+            unit: unit.id.hex(),
+            scene: String::new(),
+            name: String::new(),
+            situation: String::new(),
+            actor: None,
+            other: None,
+            draw: unit.draw,
+            drawn: unit.drawn.clone(),
+            seed: unit.seed,
+            outcome: UnitOutcome::LeftOut,
+            problem: None,
+            code: None,
+            goal: None,
+            reacting: None,
+            what: None,
+            miss: Some(miss),
+            figures: BTreeMap::new(),
+        }
     }
 }

@@ -93,20 +93,9 @@ impl Template {
     }
 
     /// Casts the situation from a step of a scene on; `None` where no road user fits. `graph` is that of the
-    /// scene's map.
+    /// scene's map. `fixed` has the figures that are not drawn, by name; the others are the same numbers with and
+    /// without them.
     pub fn cast(
-        self,
-        scene: &Scene,
-        graph: &LaneGraph,
-        start_step: usize,
-        horizon_s: f64,
-        seed: u64,
-    ) -> Option<Casting> {
-        self.cast_with(scene, graph, start_step, horizon_s, seed, &BTreeMap::new())
-    }
-
-    /// As [`Self::cast`], with some figures fixed by name. The others are the same numbers as without them.
-    pub fn cast_with(
         self,
         scene: &Scene,
         graph: &LaneGraph,

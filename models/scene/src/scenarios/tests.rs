@@ -1,7 +1,8 @@
-use super::Template;
+use super::{Casting, Template};
 use crate::map::Lane;
 use crate::routes::LaneGraph;
 use crate::{Agent, AgentType, LaneMap, Scene, Signal, SignalState, State, Subtype, Vec2};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A driver along x (or y) for the length of a window.
 fn driver(id: &str, at: (f64, f64), velocity: (f64, f64)) -> Agent {
@@ -35,12 +36,17 @@ fn scene(agents: Vec<Agent>) -> (Scene, LaneGraph) {
     (Scene::bare("test", map, agents), graph)
 }
 
+/// With all figures drawn, from the start on.
+fn casting(template: Template, scene: &Scene, graph: &LaneGraph, seed: u64) -> Option<Casting> {
+    template.cast(scene, graph, 0, 9.0, seed, &BTreeMap::new())
+}
+
 #[test]
 fn the_one_who_is_followed_brakes() {
     let (scene, graph) =
         scene(vec![driver("behind", (-15.0, 0.0), (10.0, 0.0)), driver("ahead", (0.0, 0.0), (10.0, 0.0))]);
     for seed in 0..20 {
-        let cast = Template::Brake.cast(&scene, &graph, 0, 9.0, seed).unwrap();
+        let cast = casting(Template::Brake, &scene, &graph, seed).unwrap();
         assert_eq!((cast.actor.as_str(), cast.other.as_deref()), ("ahead", Some("behind")));
         let goal = cast.conditions.goal;
         let (place, time_s) = (goal.position.unwrap(), goal.time_s.unwrap());
@@ -49,12 +55,10 @@ fn the_one_who_is_followed_brakes() {
         // From 10 m/s to rest at 3.5 to 7.5 m/s2, after at most 1.5 s.
         assert!((1.5..=4.4).contains(&time_s), "{time_s}");
         assert!(cast.words.contains("behind is 10 m behind"), "{}", cast.words);
-        assert_eq!(Template::Brake.cast(&scene, &graph, 0, 9.0, seed), Some(cast));
+        assert_eq!(casting(Template::Brake, &scene, &graph, seed), Some(cast));
     }
-    let times: std::collections::BTreeSet<u64> = (0..20)
-        .map(|seed| {
-            Template::Brake.cast(&scene, &graph, 0, 9.0, seed).unwrap().conditions.goal.time_s.unwrap()
-        })
+    let times: BTreeSet<u64> = (0..20)
+        .map(|seed| casting(Template::Brake, &scene, &graph, seed).unwrap().conditions.goal.time_s.unwrap())
         .map(|time_s| (time_s * 10.0) as u64)
         .collect();
     assert!(times.len() > 5, "{times:?}");
@@ -64,9 +68,9 @@ fn the_one_who_is_followed_brakes() {
 fn the_neighbour_cuts_in() {
     let (scene, graph) =
         scene(vec![driver("own", (0.0, 0.0), (10.0, 0.0)), driver("beside", (6.0, 3.5), (10.0, 0.0))]);
-    let mut actors = std::collections::BTreeSet::new();
+    let mut actors = BTreeSet::new();
     for seed in 0..20 {
-        let cast = Template::CutIn.cast(&scene, &graph, 0, 9.0, seed).unwrap();
+        let cast = casting(Template::CutIn, &scene, &graph, seed).unwrap();
         let goal = cast.conditions.goal;
         let (place, time_s) = (goal.position.unwrap(), goal.time_s.unwrap());
         let (lane_y, other_x) = if cast.actor == "beside" { (0.0, 0.0) } else { (3.5, 6.0) };
@@ -82,13 +86,13 @@ fn the_neighbour_cuts_in() {
 fn a_fixed_figure_holds_and_the_others_stay() {
     let (scene, graph) =
         scene(vec![driver("own", (0.0, 0.0), (10.0, 0.0)), driver("beside", (6.0, 3.5), (10.0, 0.0))]);
-    let fixed = |name: &str, value| std::collections::BTreeMap::from([(name.to_owned(), value)]);
+    let fixed = |name: &str, value| BTreeMap::from([(name.to_owned(), value)]);
     let goal = |seed, fixed| {
-        let cast = Template::CutIn.cast_with(&scene, &graph, 0, 9.0, seed, &fixed).unwrap();
+        let cast = Template::CutIn.cast(&scene, &graph, 0, 9.0, seed, &fixed).unwrap();
         (cast.conditions.goal.time_s.unwrap(), cast.conditions.goal.speed_mps.unwrap())
     };
     for seed in 0..10 {
-        let free = goal(seed, std::collections::BTreeMap::new());
+        let free = goal(seed, BTreeMap::new());
         let (time_s, speed_mps) = goal(seed, fixed("speed_share", 0.5));
         assert_eq!((time_s, speed_mps), (free.0, 5.0), "{seed}");
         assert_eq!(goal(seed, fixed("takes_s", 3.0)).0, 3.0, "{seed}");
@@ -107,7 +111,7 @@ fn the_one_at_red_goes_through() {
     scene.signals =
         vec![Signal { lane: "a".into(), stop, stop_z_m: None, runs: vec![(0, SignalState::Stop)] }];
     for seed in 0..20 {
-        let cast = Template::Late.cast(&scene, &graph, 0, 9.0, seed).unwrap();
+        let cast = casting(Template::Late, &scene, &graph, seed).unwrap();
         assert_eq!((cast.actor.as_str(), cast.other.as_deref()), ("waits", Some("crosses")));
         let goal = cast.conditions.goal;
         let place = goal.position.unwrap();
@@ -121,6 +125,6 @@ fn the_one_at_red_goes_through() {
 fn who_is_alone_plays_nothing() {
     let (scene, graph) = scene(vec![driver("alone", (0.0, 0.0), (10.0, 0.0))]);
     for template in Template::ALL {
-        assert_eq!(template.cast(&scene, &graph, 0, 9.0, 1), None, "{}", template.name());
+        assert_eq!(casting(template, &scene, &graph, 1), None, "{}", template.name());
     }
 }

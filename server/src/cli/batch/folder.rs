@@ -1,8 +1,9 @@
 //! The folder of results: where each file is, and how a chunk gets there.
 
-use crate::cli::{Exit, Failure};
+use crate::cli::{Exit, Failure, output};
 use batch::catalogue::CatalogueScene;
 use batch::chunk::BatchChunk;
+use batch::row::{self, BatchRow};
 use batch::unit::UnitList;
 use formats::folder::{self, Creation};
 use formats::native;
@@ -58,6 +59,16 @@ impl BatchFolder {
     /// Is a chunk there?
     pub fn has(&self, chunk: &str) -> bool {
         self.table(chunk).exists()
+    }
+
+    /// The rows of a chunk that is there.
+    ///
+    /// # Errors
+    /// Exit 3 for a table that cannot be read.
+    pub fn rows(&self, chunk: &str) -> Result<Vec<BatchRow>, Failure> {
+        let path = self.table(chunk);
+        let bytes = output::read(&path)?;
+        row::read(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
     }
 
     /// Each of these chunks with its name, and whether it is there.

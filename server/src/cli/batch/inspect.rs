@@ -2,13 +2,14 @@
 
 use super::folder::{BatchFolder, not_reproducible};
 use super::record::BatchRecord;
+use super::searching;
 use super::tally::OutcomeTally;
 use super::worker::UnitWorker;
 use crate::cli::score::figures;
 use crate::cli::values::whole;
 use crate::cli::{Common, Failure, output, parallel};
-use batch::chunk::{self, BatchChunk};
-use batch::row::{self, BatchRow, UnitOutcome};
+use batch::chunk::BatchChunk;
+use batch::row::{self, UnitOutcome};
 use batch::unit::UnitList;
 use clap::Args;
 use formats::native::MAX_SAFE_INTEGER;
@@ -57,10 +58,9 @@ struct DoneChunks {
 }
 
 impl DoneChunks {
-    fn of(folder: &BatchFolder, record: &BatchRecord, list: &UnitList<'_>) -> Self {
+    fn of(folder: &BatchFolder, list: &UnitList<'_>) -> Self {
         let (mut done, mut all) = (Vec::new(), 0);
-        let chunks = chunk::chunks(list.len(), record.plan.chunk_units);
-        for (chunk, name, is_there) in folder.look_up(chunks, list) {
+        for (chunk, name, is_there) in folder.look_up(list.chunks(), list) {
             all += 1;
             if is_there {
                 done.push((chunk, name));
@@ -68,12 +68,6 @@ impl DoneChunks {
         }
         Self { done, all }
     }
-}
-
-fn rows(folder: &BatchFolder, chunk: &str) -> Result<Vec<BatchRow>, Failure> {
-    let path = folder.table(chunk);
-    let bytes = output::read(&path)?;
-    row::read(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
 }
 
 /// Prints how far a batch is.
@@ -84,10 +78,10 @@ pub fn status(args: &StatusArgs) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &record, &list);
+    let chunks = DoneChunks::of(&folder, &list);
     let mut tally = OutcomeTally::default();
     for (_, name) in &chunks.done {
-        rows(&folder, name)?.iter().for_each(|row| tally.add(row));
+        folder.rows(name)?.iter().for_each(|row| tally.add(row));
     }
     let (done, all, units) = (chunks.done.len(), chunks.all, list.len());
     if args.json {
@@ -117,8 +111,8 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let operations = common.operations_on(1)?;
     record.check(&folder, None, &operations.generator.hashes())?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &record, &list);
-    let worker = UnitWorker::new(&folder, &record, &list, &operations)?;
+    let chunks = DoneChunks::of(&folder, &list);
+    let worker = UnitWorker::new(&folder, &record, &operations)?;
     let mut by_chunk: BTreeMap<usize, BTreeSet<u64>> = BTreeMap::new();
     for (chunk, unit) in sample(&chunks, args.units, args.seed) {
         by_chunk.entry(chunk).or_default().insert(unit);
@@ -126,12 +120,18 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let items: Vec<(usize, BTreeSet<u64>)> = by_chunk.into_iter().collect();
     let check = |(at, units): &(usize, BTreeSet<u64>)| -> Result<usize, Failure> {
         let Some((chunk, name)) = chunks.done.get(*at) else { return Ok(0) };
-        let rows = rows(&folder, name)?;
+        let rows = folder.rows(name)?;
         let cases = output::read(&folder.cases(name))?;
         let cases: BTreeSet<&str> =
             std::str::from_utf8(&cases).unwrap_or_default().split_inclusive('\n').collect();
+        let searches = searching::before(&folder, &list, chunk)?;
+        let missing = |number: &u64| Failure::input(format!("{}: no unit {number}", folder.shown()));
         for number in units {
-            let end = worker.end(*number)?;
+            let unit = match &searches {
+                Some(searches) => searches.unit(*number),
+                None => list.unit(*number),
+            };
+            let end = worker.end(&unit.ok_or_else(|| missing(number))?)?;
             let stored = rows.get((number - chunk.units.start) as usize);
             let listed = end.line.as_ref().is_none_or(|line| cases.contains(line.as_str()));
             if stored != Some(&end.row) || !listed {
@@ -175,10 +175,10 @@ pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &record, &list);
+    let chunks = DoneChunks::of(&folder, &list);
     let (mut tally, mut kept, mut lines) = (OutcomeTally::default(), Vec::new(), Vec::new());
     for (_, name) in &chunks.done {
-        let rows = rows(&folder, name)?;
+        let rows = folder.rows(name)?;
         rows.iter().for_each(|row| tally.add(row));
         kept.extend(rows.into_iter().filter(|row| row.outcome == UnitOutcome::Kept));
         lines.extend(output::read(&folder.cases(name))?);

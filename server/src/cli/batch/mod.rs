@@ -6,7 +6,9 @@ mod inspect;
 mod record;
 mod run;
 mod scenes;
+mod searching;
 mod tally;
+mod work;
 mod worker;
 
 use super::{Common, Failure};

@@ -22,9 +22,9 @@ pub struct BatchRecord {
     program: String,
     /// Hashes of weights and tuning.
     pub engine: BTreeMap<String, String>,
-    /// Hash of the plan with the names of its inputs, which are not in the results.
+    /// Hash of the plan with its inputs, which are not in the results.
     plan_sha256: String,
-    /// The plan without the names of its inputs.
+    /// The plan without its inputs.
     pub plan: BatchPlan,
     /// What the inputs held when the run began.
     pub scenes: Vec<CatalogueScene>,
@@ -39,7 +39,7 @@ impl BatchRecord {
             program: env!("CARGO_PKG_VERSION").into(),
             engine,
             plan_sha256: ContentHash::of(plan).hex(),
-            plan: BatchPlan { scenes: Vec::new(), ..plan.clone() },
+            plan: BatchPlan { scenes: Vec::new(), maps: Vec::new(), ..plan.clone() },
             scenes,
         }
     }

@@ -3,22 +3,20 @@
 use super::BatchRunArgs;
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
-use super::scenes;
+use super::scenes::{self, PlanInputs, Selectors};
+use super::searching;
 use super::tally::OutcomeTally;
-use super::worker::{UnitEnd, UnitWorker};
+use super::work::{ChunkWork, OpenChunk};
+use super::worker::UnitWorker;
 use crate::base::clock;
 use crate::cli::progress::Progress;
-use crate::cli::score::figures::{self, FigureFilter};
+use crate::cli::score::figures::FigureFilter;
 use crate::cli::{Common, Failure, output, parallel};
-use batch::chunk::{self, BatchChunk};
 use batch::fault::PlanFault;
 use batch::plan::BatchPlan;
-use batch::row;
 use batch::shard::BatchShard;
 use batch::unit::UnitList;
 use std::path::Path;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Works on the chunks of one share that are not there.
@@ -32,7 +30,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     };
     let shard = share(args.shard, common)?;
     let workers = args.jobs.map_or_else(parallel::cores, usize::from);
-    let plan = read_plan(path)?;
+    let (plan, selectors) = read_plan(path)?;
     let folder = BatchFolder::new(output)?;
     let operations = common.operations_on(1)?;
     let engine = operations.generator.hashes();
@@ -43,26 +41,42 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
         }
         None => {
             let base = path.parent().unwrap_or(Path::new(""));
-            let scenes = scenes::read(&plan, base, &folder, workers, common)?;
-            let record = BatchRecord::new(&plan, engine, scenes);
+            let inputs = PlanInputs {
+                plan: &plan,
+                selectors: &selectors,
+                base,
+                folder: &folder,
+                operations: &operations,
+            };
+            let record = BatchRecord::new(&plan, engine, inputs.read(workers, common)?);
             record.write(&folder)?;
             record
         }
     };
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let worker = UnitWorker::new(&folder, &record, &list, &operations)?;
-    let mut open: Vec<OpenChunk> = Vec::new();
-    let mut all = 0;
-    let chunks = chunk::chunks(list.len(), record.plan.chunk_units).filter(|chunk| shard.has(chunk.number));
-    for (chunk, name, is_there) in folder.look_up(chunks, &list) {
+    let worker = UnitWorker::new(&folder, &record, &operations)?;
+    let (mut chunks, mut all, mut due, mut units) = (Vec::new(), 0, 0, 0);
+    let of_share = list.chunks().filter(|chunk| shard.has(chunk.share));
+    for (chunk, name, is_there) in folder.look_up(of_share, &list) {
         all += 1;
         if !is_there {
-            open.push(OpenChunk { chunk, name, taken: OnceLock::new() });
+            due += 1;
+            units += chunk.units.end - chunk.units.start;
+        }
+        if !is_there || list.is_searched() {
+            chunks.push(OpenChunk::new(chunk, name, is_there));
         }
     }
-    common.say(&format!("{} units; {} of {all} chunks to do", list.len(), open.len()));
+    common.say(&format!("{} units; {due} of {all} chunks to do", list.len()));
     let began = clock::monotonic();
-    let tally = work(&open, &folder, &worker, workers, common)?;
+    let progress = Progress::new("units", units, common.quiet);
+    let mut work = ChunkWork::new(&folder, &worker, workers, progress);
+    if list.is_searched() {
+        searching::work(&mut work, &folder, &list, &chunks)?;
+    } else {
+        work.make(&chunks, &|number| list.unit(number))?;
+    }
+    let tally = work.tally();
     folder.sweep()?;
     let spent = clock::monotonic().saturating_sub(began);
     if tally.units() > 0 {
@@ -70,67 +84,6 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     }
     common.say(&format!("the results are in {}; dragtraffic batch merge makes the tables", folder.shown()));
     Ok(())
-}
-
-/// A chunk that was not there when the run began.
-struct OpenChunk {
-    chunk: BatchChunk,
-    name: String,
-    /// Another process has made it since.
-    taken: OnceLock<bool>,
-}
-
-fn work(
-    open: &[OpenChunk],
-    folder: &BatchFolder,
-    worker: &UnitWorker<'_>,
-    workers: usize,
-    common: &Common,
-) -> Result<OutcomeTally, Failure> {
-    let units: Vec<(&OpenChunk, u64)> =
-        open.iter().flat_map(|open| open.chunk.units.clone().map(move |number| (open, number))).collect();
-    let progress = Progress::new("units", units.len() as u64, common.quiet);
-    let stopped = AtomicBool::new(false);
-    let make = |(open, number): &(&OpenChunk, u64)| {
-        if stopped.load(Ordering::Relaxed) || *open.taken.get_or_init(|| folder.has(&open.name)) {
-            return None;
-        }
-        Some(worker.end(*number))
-    };
-    let (mut rows, mut lines) = (Vec::new(), String::new());
-    let (mut tally, mut failure) = (OutcomeTally::default(), None);
-    parallel::in_order(&units, workers, make, |(open, number), end| {
-        progress.step();
-        if failure.is_some() {
-            return;
-        }
-        let put = match end {
-            None => Ok(()),
-            Some(Err(error)) => Err(error),
-            Some(Ok(UnitEnd { row, line })) => {
-                tally.add(&row);
-                rows.push(row);
-                lines.extend(line);
-                if number + 1 == open.chunk.units.end {
-                    let table = row::table(&std::mem::take(&mut rows), figures::names());
-                    let lines = std::mem::take(&mut lines);
-                    table
-                        .map_err(Failure::from)
-                        .and_then(|table| folder.put(&open.name, &table, lines.as_bytes()))
-                } else {
-                    Ok(())
-                }
-            }
-        };
-        if let Err(error) = put {
-            stopped.store(true, Ordering::Relaxed);
-            failure = Some(error);
-        }
-    });
-    match failure {
-        Some(failure) => Err(failure),
-        None => Ok(tally),
-    }
 }
 
 fn summary(tally: &OutcomeTally, spent: Duration, engine: Duration, workers: usize) -> String {
@@ -156,21 +109,21 @@ fn share(flag: Option<BatchShard>, common: &Common) -> Result<BatchShard, Failur
     Ok(found.unwrap_or_default())
 }
 
-/// Reads a plan and checks what the engine has a say in.
-fn read_plan(path: &Path) -> Result<BatchPlan, Failure> {
+/// Reads a plan with the selectors of its situations, and checks what the engine has a say in.
+fn read_plan(path: &Path) -> Result<(BatchPlan, Selectors), Failure> {
+    let refused = |faults: Vec<PlanFault>| {
+        let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
+        Failure::input(lines.join("\n  "))
+    };
     let bytes = output::read(path)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))?;
-    let plan = BatchPlan::parse(&text).map_err(|faults| refused(path, &faults))?;
-    let mut faults = scenes::selectors(&plan).err().unwrap_or_default();
-    if let Some(Err(reason)) = plan.filter.as_deref().map(FigureFilter::parse) {
-        faults.push(PlanFault::new("where", reason));
+    let plan = BatchPlan::parse(&text).map_err(refused)?;
+    let selectors = scenes::selectors(&plan);
+    let filter = plan.filter.as_deref().map(FigureFilter::parse);
+    let wrong = filter.and_then(Result::err).map(|reason| PlanFault::new("where", reason));
+    match (selectors, wrong) {
+        (Ok(selectors), None) => Ok((plan, selectors)),
+        (selectors, wrong) => Err(refused(selectors.err().into_iter().flatten().chain(wrong).collect())),
     }
-    if faults.is_empty() { Ok(plan) } else { Err(refused(path, &faults)) }
-}
-
-/// The faults of a plan, a line each.
-pub fn refused(path: &Path, faults: &[PlanFault]) -> Failure {
-    let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
-    Failure::input(lines.join("\n  "))
 }

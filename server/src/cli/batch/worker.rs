@@ -11,7 +11,7 @@ use api::generate::request::{AgentChoice, ReactChoice};
 use api::{GenerateRequest, Operations, Problem, Subject};
 use batch::catalogue::UnitProblem;
 use batch::row::{BatchRow, KeptCase, UnitOutcome};
-use batch::unit::{BatchUnit, UnitList};
+use batch::unit::BatchUnit;
 use experts::Cancel;
 use formats::native::{ConditionsDoc, Members};
 use lru::LruCache;
@@ -41,7 +41,6 @@ pub struct UnitEnd {
 pub struct UnitWorker<'a> {
     folder: &'a BatchFolder,
     record: &'a BatchRecord,
-    list: &'a UnitList<'a>,
     filter: Option<FigureFilter>,
     operations: &'a Operations,
     scenes: Mutex<LruCache<usize, Slot>>,
@@ -65,13 +64,12 @@ impl<'a> UnitWorker<'a> {
     pub fn new(
         folder: &'a BatchFolder,
         record: &'a BatchRecord,
-        list: &'a UnitList<'a>,
         operations: &'a Operations,
     ) -> Result<Self, Failure> {
         let filter = record.plan.filter.as_deref().map(FigureFilter::parse).transpose();
         let filter = filter.map_err(|reason| Failure::input(format!("where: {reason}")))?;
         let scenes = Mutex::new(LruCache::new(SCENES));
-        Ok(Self { folder, record, list, filter, operations, scenes, engine_us: AtomicU64::new(0) })
+        Ok(Self { folder, record, filter, operations, scenes, engine_us: AtomicU64::new(0) })
     }
 
     /// Time inside the engine, the sum over all threads.
@@ -83,9 +81,8 @@ impl<'a> UnitWorker<'a> {
     ///
     /// # Errors
     /// Exit 3 when the folder lacks the scene. All else that can go wrong is a row.
-    pub fn end(&self, number: u64) -> Result<UnitEnd, Failure> {
-        let missing = || Failure::input(format!("{}: no unit {number}", self.folder.shown()));
-        let unit = self.list.unit(number).ok_or_else(missing)?;
+    pub fn end(&self, unit: &BatchUnit) -> Result<UnitEnd, Failure> {
+        let missing = || Failure::input(format!("{}: no unit {}", self.folder.shown(), unit.id.hex()));
         let entry = self.record.scenes.get(unit.scene).ok_or_else(missing)?;
         let situation = self.record.plan.situations.get(unit.situation).ok_or_else(missing)?;
         let mut row = BatchRow {
@@ -104,6 +101,7 @@ impl<'a> UnitWorker<'a> {
             goal: None,
             reacting: None,
             what: None,
+            miss: None,
             figures: BTreeMap::new(),
         };
         if row.problem.is_some() {
@@ -115,7 +113,7 @@ impl<'a> UnitWorker<'a> {
         }
         let scene = self.scene(unit.scene)?;
         let began = clock::monotonic();
-        let answered = self.roles(&unit, &scene).map(|roles| self.answered(&unit, &scene, roles));
+        let answered = self.roles(unit, &scene).map(|roles| self.answered(unit, &scene, roles));
         let spent = clock::monotonic().saturating_sub(began).as_micros();
         self.engine_us.fetch_add(spent as u64, Ordering::Relaxed);
         let line = match answered {
@@ -151,14 +149,8 @@ impl<'a> UnitWorker<'a> {
         if let Some(template) = situation.template() {
             let graph = self.operations.generator.maps().graph(&scene.map);
             let fixed = situation.parameters_of(&unit.drawn);
-            let casting = template.cast_with(
-                scene,
-                &graph,
-                options.start_step(),
-                options.horizon_s,
-                unit.seed,
-                &fixed,
-            )?;
+            let casting =
+                template.cast(scene, &graph, options.start_step(), options.horizon_s, unit.seed, &fixed)?;
             let conditions = ConditionsDoc::from_conditions(&casting.conditions);
             let conditions = BTreeMap::from([(casting.actor.clone(), conditions)]);
             return Some(Roles { actor: Some(casting.actor.clone()), casting: Some(casting), conditions });
@@ -204,8 +196,8 @@ impl<'a> UnitWorker<'a> {
             (row.other, row.what) = (casting.other, Some(casting.words));
         }
         row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
-        let holds = |filter: &FigureFilter| figures.as_ref().is_some_and(|figures| filter.holds(figures));
-        if !self.filter.as_ref().is_none_or(holds) {
+        row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
+        if self.filter.is_some() && row.miss != Some(0.0) {
             row.outcome = UnitOutcome::LeftOut;
             return None;
         }

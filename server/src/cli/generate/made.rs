@@ -71,7 +71,8 @@ impl Maker<'_> {
             None => None,
             Some(template) => {
                 let graph = self.operations.generator.maps().graph(&scene.map);
-                let casting = template.cast(&scene, &graph, args.start_step(), args.horizon, seed);
+                let casting =
+                    template.cast(&scene, &graph, args.start_step(), args.horizon, seed, &BTreeMap::new());
                 let Some(casting) = casting else { return Ok(MakeOutcome::NobodyFits(template)) };
                 Some(casting)
             }

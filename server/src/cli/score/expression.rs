@@ -47,6 +47,13 @@ impl Expression {
     pub fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
         self.0.holds(value)
     }
+
+    /// How far it is from holding for the figures that `value` gives: 0 where it holds, else the sum over the
+    /// comparisons that are joined by `&&`, and the least over those joined by `||`. A comparison counts at most 1:
+    /// half of it where it is missed by as much as its number, or by 1 where that is 0.
+    pub fn miss(&self, value: &dyn Fn(&str) -> Option<f64>) -> f64 {
+        self.0.miss(true, value)
+    }
 }
 
 impl Node {
@@ -70,7 +77,38 @@ impl Node {
     }
 }
 
+impl Node {
+    /// How far it is from being `wanted`.
+    fn miss(&self, wanted: bool, value: &dyn Fn(&str) -> Option<f64>) -> f64 {
+        match self {
+            Self::Not(a) => a.miss(!wanted, value),
+            Self::Or(a, b) | Self::And(a, b) => {
+                let (a, b) = (a.miss(wanted, value), b.miss(wanted, value));
+                let is_both = matches!(self, Self::And(..)) == wanted;
+                if is_both { a + b } else { a.min(b) }
+            }
+            compare if compare.holds(value) == wanted => 0.0,
+            Self::Compare(a, order, b) => match (a.value(value), b.value(value)) {
+                (Some(x), Some(y)) if !(wanted && *order == Order::Unequal) => {
+                    let scale = [a, b].into_iter().find_map(Operand::number).unwrap_or(0.0).abs();
+                    let off = (x - y).abs() / if scale == 0.0 { 1.0 } else { scale };
+                    // Two that are equal miss < by nothing, and yet it does not hold.
+                    (off / (off + 1.0)).max(f64::MIN_POSITIVE)
+                }
+                _ => 1.0,
+            },
+        }
+    }
+}
+
 impl Operand {
+    fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Figure(_) => None,
+        }
+    }
+
     fn value(&self, value: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
@@ -190,6 +228,27 @@ mod tests {
             assert!(!holds(&format!("none {order} 1")), "{order}");
             assert!(holds(&format!("!(none {order} 1)")), "{order}");
         }
+    }
+
+    fn miss(text: &str) -> f64 {
+        Expression::parse(text, &known).unwrap_or_else(|wrong| panic!("{text}: {wrong}")).miss(&value)
+    }
+
+    #[test]
+    fn a_miss_is_zero_where_a_condition_holds_and_grows_with_the_distance() {
+        for text in
+            ["a < b", "!(a > b)", "a == 1 || b == 9", "!(none < 1)", "a > 1", "!(a < b)", "a == 1 && b == 1"]
+        {
+            assert_eq!(miss(text) == 0.0, holds(text), "{text}: {}", miss(text));
+        }
+        // By a half of 2, by a whole 2, by three times 1; by 1 where the number is 0.
+        assert_eq!([miss("a > 2"), miss("a > 4"), miss("a == 0")], [1.0 / 3.0, 3.0 / 7.0, 0.5]);
+        assert!(miss("b < 1.9") < miss("b < 1.5") && miss("b < 1.5") < miss("b < 0.1"));
+        assert_eq!(miss("a > 2 && b < 1"), 1.0 / 3.0 + 0.5);
+        assert_eq!(miss("a > 2 || b < 1"), 1.0 / 3.0);
+        assert_eq!(miss("!(a < 2 || b > 1)"), 1.0 / 3.0 + 0.5);
+        assert_eq!([miss("none < 1"), miss("a != 1"), miss("!(a == 1)")], [1.0, 1.0, f64::MIN_POSITIVE]);
+        assert_eq!(miss("!(a != 2)"), 1.0 / 3.0);
     }
 
     #[test]

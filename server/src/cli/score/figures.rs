@@ -44,6 +44,11 @@ impl FigureFilter {
     pub fn holds(&self, figures: &Figures) -> bool {
         self.expression.holds(&|name| figures.get(name))
     }
+
+    /// How far a score is from it, 0 where it holds.
+    pub fn miss(&self, figures: &Figures) -> f64 {
+        self.expression.miss(&|name| figures.get(name))
+    }
 }
 
 fn unknown(name: &str) -> String {

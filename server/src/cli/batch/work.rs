@@ -1,0 +1,112 @@
+//! The work of a run: units side by side, each chunk written when it is whole.
+
+use super::folder::BatchFolder;
+use super::tally::OutcomeTally;
+use super::worker::{UnitEnd, UnitWorker};
+use crate::cli::progress::Progress;
+use crate::cli::score::figures;
+use crate::cli::{Failure, parallel};
+use batch::chunk::BatchChunk;
+use batch::row;
+use batch::unit::BatchUnit;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A chunk of a run.
+pub struct OpenChunk {
+    /// Its units.
+    pub chunk: BatchChunk,
+    /// Name of its files.
+    pub name: String,
+    /// It was there when the run began.
+    pub is_there: bool,
+    /// Another process has made it since.
+    taken: OnceLock<bool>,
+}
+
+impl OpenChunk {
+    /// A chunk with its name, and whether it is there.
+    pub fn new(chunk: BatchChunk, name: String, is_there: bool) -> Self {
+        Self { chunk, name, is_there, taken: OnceLock::new() }
+    }
+}
+
+/// Makes chunks, and counts what came of their units.
+pub struct ChunkWork<'a> {
+    folder: &'a BatchFolder,
+    worker: &'a UnitWorker<'a>,
+    workers: usize,
+    progress: Progress,
+    tally: OutcomeTally,
+}
+
+impl<'a> ChunkWork<'a> {
+    /// With so many threads.
+    pub fn new(
+        folder: &'a BatchFolder,
+        worker: &'a UnitWorker<'a>,
+        workers: usize,
+        progress: Progress,
+    ) -> Self {
+        Self { folder, worker, workers, progress, tally: OutcomeTally::default() }
+    }
+
+    /// How the units ended that were made.
+    pub fn tally(self) -> OutcomeTally {
+        self.tally
+    }
+
+    /// Makes these chunks, all units side by side. `unit` gives the unit of a number.
+    ///
+    /// # Errors
+    /// Exit 1 when a chunk is there with other bytes, or cannot be written; 3 when the folder lacks a scene.
+    pub fn make(
+        &mut self,
+        chunks: &[OpenChunk],
+        unit: &(dyn Fn(u64) -> Option<BatchUnit> + Sync),
+    ) -> Result<(), Failure> {
+        let Self { folder, worker, workers, progress, tally } = self;
+        let units: Vec<(&OpenChunk, u64)> = chunks
+            .iter()
+            .flat_map(|open| open.chunk.units.clone().map(move |number| (open, number)))
+            .collect();
+        let stopped = AtomicBool::new(false);
+        let missing = |number: &u64| Failure::input(format!("{}: no unit {number}", folder.shown()));
+        let end = |(open, number): &(&OpenChunk, u64)| {
+            if stopped.load(Ordering::Relaxed) || *open.taken.get_or_init(|| folder.has(&open.name)) {
+                return None;
+            }
+            Some(unit(*number).ok_or_else(|| missing(number)).and_then(|unit| worker.end(&unit)))
+        };
+        let (mut rows, mut lines, mut failure) = (Vec::new(), String::new(), None);
+        parallel::in_order(&units, *workers, end, |(open, number), end| {
+            progress.step();
+            if failure.is_some() {
+                return;
+            }
+            let put = match end {
+                None => Ok(()),
+                Some(Err(error)) => Err(error),
+                Some(Ok(UnitEnd { row, line })) => {
+                    tally.add(&row);
+                    rows.push(row);
+                    lines.extend(line);
+                    if number + 1 == open.chunk.units.end {
+                        let table = row::table(&std::mem::take(&mut rows), figures::names());
+                        let lines = std::mem::take(&mut lines);
+                        table
+                            .map_err(Failure::from)
+                            .and_then(|table| folder.put(&open.name, &table, lines.as_bytes()))
+                    } else {
+                        Ok(())
+                    }
+                }
+            };
+            if let Err(error) = put {
+                stopped.store(true, Ordering::Relaxed);
+                failure = Some(error);
+            }
+        });
+        failure.map_or(Ok(()), Err)
+    }
+}
