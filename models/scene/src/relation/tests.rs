@@ -5,7 +5,7 @@ use crate::{AgentType, Goal, LaneMap, Scene, Size, State, Subtype, Vec2};
 
 /// Two lanes eastwards, 3.5 m apart: `a`, 100 m long, leads to `b`; `c` is to the left of `a`.
 fn road() -> LaneGraph {
-    let line = |x: f64, y: f64| (0..=20).map(|i| Vec2::new(x + 5.0 * f64::from(i), y)).collect::<Vec<_>>();
+    let line = |x: f64, y: f64| (0..=20).map(|i| Vec2::new(x + 5.0 * f64::from(i), y)).collect::<Vec<Vec2>>();
     let mut lanes = vec![
         Lane::street("a", line(0.0, 0.0)),
         Lane::street("b", line(100.0, 0.0)),

@@ -115,6 +115,11 @@ fn together(fields: &[(&str, f64)], a: &str, b: &str) -> Result<(), String> {
 /// A goal relative to the road user `to`. Keys: one of `ahead`, `behind`, `behind_s` and `after`; `slower`, `lanes_left`;
 /// `time`, `speed`; and for `after` the place, `x y`.
 fn relative_goal(to: &str, text: &str) -> Result<AskedGoal, String> {
+    let no_place = || "of needs one of ahead, behind, behind_s and after beside it".to_owned();
+    // Numbers without keys have no meaning here.
+    if !text.contains(':') {
+        return Err(no_place());
+    }
     let own = [&PLACE[0], &PLACE[1], &SPEED, &TIME];
     let keys: Vec<&Key> = RELATIVE.iter().chain(own).collect();
     let fields = fields(text, &keys, 0)?;
@@ -122,7 +127,7 @@ fn relative_goal(to: &str, text: &str) -> Result<AskedGoal, String> {
     together(&fields, "x", "y")?;
     let places = ["ahead", "behind", "behind_s", "after"].into_iter().filter_map(value).count();
     if places != 1 {
-        return Err("of needs one of ahead, behind, behind_s and after beside it".into());
+        return Err(no_place());
     }
     let lanes_left = value("lanes_left");
     if lanes_left.is_some_and(|lanes| lanes.fract() != 0.0) {

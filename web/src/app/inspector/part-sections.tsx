@@ -102,6 +102,8 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;
   });
+  // A goal with a place of its own is rarely related to another road user.
+  const own = useComputed(() => agent.value.goal.pos !== null && !agent.value.goal.relation).value;
   const run = (time: number, live = false) => {
     const rounded = Math.round(goalTime(editor.scene.peek(), time) * 100) / 100;
     editor.commits.run(withField(agent.peek(), 'goal', { time: rounded }, live));
@@ -128,7 +130,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
           text={() => num(agent.value.goal.time, 1)}
         />
       </Row>
-      <RelationRow agent={agent} />
+      {all || !own ? <RelationRow agent={agent} /> : null}
       <LeaveLine agent={agent} />
     </section>
   );

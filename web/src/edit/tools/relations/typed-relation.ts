@@ -75,10 +75,10 @@ function partsOf(text: string): Parts {
   return { keys, lengths: found.length, times: found.time, speeds: found.speed, due, counts };
 }
 
-type Place = { ahead_m: number } | { behind_m: number } | { behind_s: number } | { after_s: number };
+type RelationPlace = { ahead_m: number } | { behind_m: number } | { behind_s: number } | { after_s: number };
 
 /** Where or when: exactly one distance, or one time that is not the goal's. */
-function placeOf({ keys, lengths, times }: Parts): Place | null {
+function placeOf({ keys, lengths, times }: Parts): RelationPlace | null {
   if (lengths.length + times.length !== 1) return null;
   const [length, time] = [lengths[0], times[0]];
   if (keys.has('behind')) return length === undefined ? { behind_s: time } : { behind_m: length };
