@@ -76,9 +76,7 @@ pub fn faults(agents: &[Agent]) -> Vec<(usize, Message)> {
             if next == agent.id {
                 return Some(sentences::relation_ring(&row.join(", ")));
             }
-            let Some(relation) = by_id.get(next).and_then(|other| other.conditions.relation.as_ref()) else {
-                return None;
-            };
+            let relation = by_id.get(next).and_then(|other| other.conditions.relation.as_ref())?;
             if row.len() > MAX_RELATED_IN_A_ROW {
                 return Some(sentences::relation_row(MAX_RELATED_IN_A_ROW));
             }
