@@ -199,6 +199,7 @@ export function startStandIn(options = {}) {
         max = (g.time_s ?? 9) * 14;
       const far = d > max;
       resolved[a.id] = {
+        goal: resolvedGoal(g),
         reach: far
           ? {
               status: 'unreachable',
@@ -387,4 +388,16 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     scenes,
   });
   console.log(`stand-in on ${s.url}`);
+}
+
+/** The fields of a goal as they were used; free ones by the model. */
+function resolvedGoal(g) {
+  const field = (value, free) => ({ value: value ?? free, from: value === undefined ? 'model' : 'user' });
+  return {
+    x_m: field(g.x_m, 0),
+    y_m: field(g.y_m, 0),
+    heading_rad: field(g.heading_rad, 0),
+    speed_mps: field(g.speed_mps, 5),
+    time_s: field(g.time_s, 9),
+  };
 }
