@@ -103,3 +103,13 @@ def test_a_view_is_in_the_road_users_frame() -> None:
     lane = observation["lanes"][0]
     assert numpy.hypot(lane[2], lane[3]) == pytest.approx(1.0, abs=1e-4)
     assert numpy.hypot(lane[0], lane[1]) < 3.0, "a car is on a lane"
+
+
+def test_a_recording_with_heights_is_seen_as_one_without() -> None:
+    flat = dragtraffic.open(CROSSING)
+    document = flat.document
+    signals = [{**s, "stop_m": s["stop_m"] and [*s["stop_m"], 1.5]} for s in document["signals"]]
+    lanes = [{**lane, "points_m": [[*p[:2], 1.5] for p in lane["points_m"]]} for lane in document["map"]["lanes"]]
+    high = dragtraffic.Scene({**document, "signals": signals, "map": {**document["map"], "lanes": lanes}})
+    (seen, _), (wanted, _) = (drive(scene=scene, ego="4").reset(seed=1) for scene in (high, flat))
+    assert all(seen[name] == pytest.approx(wanted[name]) for name in wanted)

@@ -54,7 +54,8 @@ class View:
         document = scene.document
         self._lanes = _lane_points(document["map"].get("lanes", []))
         signals = [signal for signal in document.get("signals", []) if signal.get("stop_m")]
-        self._stops = np.array([signal["stop_m"] for signal in signals], dtype=float).reshape(-1, 2)
+        # Recorded points have a height too.
+        self._stops = np.array([signal["stop_m"][:2] for signal in signals], dtype=float).reshape(-1, 2)
         self._states = [[(int(step), str(state)) for step, state in signal["states"]] for signal in signals]
         self._sizes = {a["id"]: (a["length_m"], a["width_m"]) for a in document["agents"]}
 
