@@ -74,3 +74,14 @@ export async function knobOfArm(e, arm) {
   const out = Math.hypot(...arms[arm].mouth_m) + KNOB_M;
   return (degrees) => e.at(out * Math.cos((degrees * Math.PI) / 180), out * Math.sin((degrees * Math.PI) / 180));
 }
+
+/** The example crossing without road users, opened from a file as an own scene. */
+export async function openEmpty(e) {
+  await e.begin();
+  const { json, bytes } = await emptyScene(e);
+  await e.drop('nobody.json', bytes);
+  await e.until(() => /Nobody yet imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
+  await e.settled();
+  await e.page.waitForSelector('.nobody');
+  return json;
+}

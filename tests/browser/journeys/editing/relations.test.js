@@ -4,21 +4,10 @@ import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { distance } from '../../support/editor.js';
 import { journeys } from '../../support/journey.js';
-import { along, emptyScene, lanesBeside } from '../../support/maps.js';
+import { along, lanesBeside, openEmpty } from '../../support/maps.js';
 
 const FIELD = '[data-text="relation"]';
 const GAP_M = 12;
-
-/** The example crossing without road users, opened as an own scene. */
-async function openEmpty(e) {
-  await e.begin();
-  const { json, bytes } = await emptyScene(e);
-  await e.drop('nobody.json', bytes);
-  await e.until(() => /Nobody yet imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
-  await e.settled();
-  await e.page.waitForSelector('.nobody');
-  return json;
-}
 
 async function clickAt(e, x, y) {
   const at = await e.at(x, y);

@@ -3,18 +3,7 @@ import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { distance } from '../../support/editor.js';
 import { journeys } from '../../support/journey.js';
-import { along, boxOf, emptyScene, lanesBeside } from '../../support/maps.js';
-
-/** The example crossing without road users, opened from a file as an own scene. */
-async function openEmpty(e) {
-  await e.begin();
-  const { json, bytes } = await emptyScene(e);
-  await e.drop('nobody.json', bytes);
-  await e.until(() => /Nobody yet imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
-  await e.settled();
-  await e.page.waitForSelector('.nobody');
-  return json;
-}
+import { along, boxOf, lanesBeside, openEmpty } from '../../support/maps.js';
 
 const saved = (e) => e.until(() => document.querySelector('.title small').textContent === 'Saved');
 
