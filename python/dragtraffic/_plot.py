@@ -21,7 +21,7 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
 
     if ax is None:
         _, ax = plt.subplots(figsize=(8, 8))
-    document = scene.document
+    document = scene._peek()
     _draw_map(document["map"], ax)
     frame = scene.to_frame()
     frame = frame[frame["valid"]]

@@ -44,6 +44,7 @@ class Scene:
     def __init__(self, document: Mapping[str, Any]) -> None:
         self._document: dict[str, Any] | None = dict(document)
         self._native: _native.Scene | None = None
+        self._read: dict[str, Any] | None = None
         self.resolved, self.warnings, self.code = {}, [], None
 
     @classmethod
@@ -55,12 +56,19 @@ class Scene:
     @property
     def document(self) -> dict[str, Any]:
         """The scene as JSON has it. Changes of it count in later calls."""
-        if self._document is None:
-            assert self._native is not None
-            self._document = json.loads(self._native.document())
-            # Whoever has the document may change it.
-            self._native = None
+        self._document = self._peek()
+        # Whoever has the document may change it.
+        self._native = self._read = None
         return self._document
+
+    def _peek(self) -> dict[str, Any]:
+        """The document, for those who do not change it: the engine's own scene stays."""
+        if self._document is not None:
+            return self._document
+        if self._read is None:
+            assert self._native is not None
+            self._read = dict(json.loads(self._native.document()))
+        return self._read
 
     def native(self) -> _native.Scene:
         """The scene as the engine has it.
@@ -71,7 +79,7 @@ class Scene:
         return self._native or _native.Scene.of_document(self.bytes())
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_document": None, "_native": self.bytes()}
+        return {**self.__dict__, "_document": None, "_read": None, "_native": self.bytes()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -84,17 +92,17 @@ class Scene:
     @property
     def name(self) -> str:
         """Name for people."""
-        return str(self.document.get("name") or self.document.get("id") or "")
+        return str(self._peek().get("name") or self._peek().get("id") or "")
 
     @property
     def agents(self) -> list[str]:
         """Ids of the road users."""
-        return [agent["id"] for agent in self.document["agents"]]
+        return [agent["id"] for agent in self._peek()["agents"]]
 
     @property
     def duration_s(self) -> float:
         """Recorded time, seconds."""
-        time = self.document["time"]
+        time = self._peek()["time"]
         return float(time["step_s"] * (time["steps"] - 1))
 
     @property
@@ -212,8 +220,8 @@ class Scene:
         import pandas
 
         # Tables have the frame of the source; without an origin that is the scene's own.
-        meta = {name: value for name, value in self.document.get("meta", {}).items() if name != "origin"}
-        text, _ = Scene({**self.document, "meta": meta}).native().export("csv")
+        meta = {name: value for name, value in self._peek().get("meta", {}).items() if name != "origin"}
+        text, _ = Scene({**self._peek(), "meta": meta}).native().export("csv")
         words = {name: "string" for name in ("scenario_id", "agent_id", "type", "subtype", "source")}
         whole = {name: "Int64" for name in ("sample", "mode")}
         frame = pandas.read_csv(io.BytesIO(text), dtype={**words, **whole})

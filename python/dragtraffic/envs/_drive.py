@@ -9,8 +9,8 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of, movers, observation_space
-from ._observe import Floats
+from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of, movers
+from ._observe import Floats, observation_space
 
 #: Most scenes that a reset looks at for one with an ego.
 _TRIES = 20
@@ -22,7 +22,7 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
     ``scene``: a scene, a file, a folder, several of these, or a function from a random generator to a scene; one is drawn
     at each reset. ``fill``: arguments of :meth:`dragtraffic.Scene.place`, which then places road users anew at each reset.
     ``ego``: the road user; without it one of the vehicles that move is drawn. Its goal is that of its conditions, else
-    where its recording ends. ``actions``: ``"acceleration"`` (shares of acceleration and curvature in [-1, 1]) or
+    where its recording ends, else where its likeliest future does. ``actions``: ``"acceleration"`` (shares of acceleration and curvature in [-1, 1]) or
     ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``distance_m``, ``reached``, ``faults``,
     ``acceleration_mps2``, ``sideways_mps2`` and ``jerk_mps3``. An episode ends at the goal and at a fault of the ego, and
     is truncated after ``horizon_s``.

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .._errors import DragTrafficError
 from .._run import Run, State, Step
 from .._scene import Scene, open
-from ._observe import Floats, View, space
+from ._observe import Floats, View
 
 #: A scene, a file, a folder of files, several of them, or a function that makes one from a generator of numbers.
 SceneSource = Union[
@@ -81,7 +81,7 @@ class Scenes:
 def movers(scene: Scene, types: Sequence[str] = ("vehicle",)) -> list[str]:
     """Road users of these types that are there at the start and move, or will."""
     found = []
-    for agent in scene.document["agents"]:
+    for agent in scene._peek()["agents"]:
         steps = _recorded(agent)
         if agent["type"] not in types or not steps or steps[0] > 0:
             continue
@@ -93,7 +93,7 @@ def movers(scene: Scene, types: Sequence[str] = ("vehicle",)) -> list[str]:
 def goal_of(scene: Scene, id: str, seed: int) -> State | None:
     """The goal of a road user: that of its conditions, else where its recording ends, else where its likeliest future
     does. None where it goes nowhere."""
-    agent = next(agent for agent in scene.document["agents"] if agent["id"] == id)
+    agent = next(agent for agent in scene._peek()["agents"] if agent["id"] == id)
     if not _recorded(agent):
         return None
     goal = _asked(agent)
@@ -242,8 +242,3 @@ def action_space(kind: Actions) -> gymnasium.spaces.Box:
         return gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
     most = np.array([1e5, 1e5, np.pi, 100.0, 100.0])
     return gymnasium.spaces.Box(-most, most, dtype=np.float64)
-
-
-def observation_space() -> gymnasium.spaces.Dict:
-    """See :data:`dragtraffic.envs._observe.SHAPES`."""
-    return space()

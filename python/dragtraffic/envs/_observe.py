@@ -39,8 +39,8 @@ SHAPES: dict[str, tuple[int, ...]] = {
 }
 
 
-def space() -> gymnasium.spaces.Dict:
-    """The space of observations."""
+def observation_space() -> gymnasium.spaces.Dict:
+    """The space of observations: boxes of the shapes of :data:`SHAPES`."""
     box = gymnasium.spaces.Box
     return gymnasium.spaces.Dict(
         {name: box(-np.inf, np.inf, shape, np.float32) for name, shape in SHAPES.items()}
@@ -51,7 +51,7 @@ class View:
     """The scene's map, signals and sizes as arrays."""
 
     def __init__(self, scene: Scene) -> None:
-        document = scene.document
+        document = scene._peek()
         self._lanes = _lane_points(document["map"].get("lanes", []))
         signals = [signal for signal in document.get("signals", []) if signal.get("stop_m")]
         # Recorded points have a height too.

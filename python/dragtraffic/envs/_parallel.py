@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
-from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of, observation_space
-from ._observe import Floats
+from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of
+from ._observe import Floats, observation_space
 
 
 class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
