@@ -30,7 +30,7 @@ pub(crate) struct KnownMap {
 
 impl KnownMap {
     fn bytes(&self) -> usize {
-        CELL_BYTES * self.crowding.entries
+        CELL_BYTES * self.crowding.entries + self.drivable.kept_bytes()
     }
 
     fn of(map: &LaneMap, graph: LaneGraph) -> Self {

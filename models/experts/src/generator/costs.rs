@@ -194,7 +194,7 @@ fn off_road(actor: &PlannedActor, states: &Trajectory, map: &KnownMap, tuning: &
         return 0.0;
     };
     let away = |s: &MotionState| {
-        map.graph.nearest_for(s.position, tuning.off_lanes_m, present.agent_type).is_empty()
+        !map.graph.has_lane_for(s.position, tuning.off_lanes_m, present.agent_type)
             && !actor.plan.drivable.is_beside_allowed(s.position)
     };
     let beyond = |s: &MotionState| {

@@ -221,7 +221,6 @@ impl<'a> ShiftSearch<'a> {
 
     /// Whether a shift is allowed at an instant: none at the goal's instant; at most one unit each way at the
     /// two instants around a goal that lies between them.
-    /// around it.
     fn allows(&self, instant: usize, shift: Shift) -> bool {
         let due = self.plan.target.position.is_some()
             && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;
@@ -284,7 +283,7 @@ impl<'a> ShiftSearch<'a> {
     }
 
     fn is_off_lanes(&self, place: Vec2) -> bool {
-        self.field.graph.nearest_for(place, self.field.off_lanes_m, self.plan.present.agent_type).is_empty()
+        !self.field.graph.has_lane_for(place, self.field.off_lanes_m, self.plan.present.agent_type)
     }
 
     /// Metres along the path at each step for one that brakes from a step on until it stands.

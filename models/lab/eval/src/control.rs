@@ -209,7 +209,7 @@ fn drag(
     };
     let agent = &site.blind.agents[case.agent];
     let modes = answered.samples.first().and_then(|s| s.agents.get(id)).map_or(&[][..], |f| &f.modes);
-    let away = |s: &&State| site.graph.nearest_for(s.position(), 2.5, AgentType::Vehicle).is_empty();
+    let away = |s: &&State| !site.graph.has_lane_for(s.position(), 2.5, AgentType::Vehicle);
     let driven = case.agent_type == AgentType::Vehicle && !away(&&case.start);
     let looked_at = || states.iter().take(case.goal_step).step_by(STRIDE).filter(|_| driven);
     Ok(CounterfactualDrag {

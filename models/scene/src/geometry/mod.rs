@@ -1,6 +1,7 @@
 //! Plane geometry of traffic: angles, oriented boxes, polylines.
 
 pub mod crowding;
+mod fine_cells;
 pub mod obb;
 pub mod overlap_energy;
 pub mod polyline;

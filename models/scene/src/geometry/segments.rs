@@ -4,7 +4,9 @@
 //! The grid is one sorted array of occupied cells, with a table of where each cell begins: quick to build, small,
 //! without hashing. Where stray pieces lie far from everything there is no table, and cells are searched for.
 
+use super::fine_cells::{FineCells, Square};
 use super::{Vec2, cross};
+use std::sync::{Arc, OnceLock};
 
 /// Side of a grid cell, metres.
 const CELL_M: f64 = 8.0;
@@ -87,6 +89,9 @@ const CELLS_AN_ENTRY: usize = 16;
 const CELLS_ANYWAY: usize = 4_096;
 /// Within this the nearest piece mostly is, metres.
 const NEAREST_M: f64 = 2.0;
+/// Lists of the likely nearest pieces reach so far, metres, and are no longer than this.
+const LISTED_M: f64 = 1_000.0;
+const MOST_LISTED: usize = 64;
 
 /// Grid of pieces. Built once a map; read by any number of threads.
 #[derive(Clone, Debug, Default)]
@@ -95,6 +100,8 @@ pub struct SegmentIndex {
     /// Cells in rows from south to north, each with a piece that passes through it.
     cells: Vec<(u64, u32)>,
     table: Option<CellTable>,
+    /// In each fine cell, the pieces of which one is the nearest to any point there. Empty where they are far or many.
+    likely: OnceLock<Arc<FineCells>>,
 }
 
 /// Where each cell of a rectangle of cells begins in the array.
@@ -163,7 +170,7 @@ impl SegmentIndex {
         cells.sort_unstable();
         cells.dedup();
         let table = CellTable::of(&cells);
-        Self { all, cells, table }
+        Self { all, cells, table, likely: OnceLock::new() }
     }
 
     /// No pieces.
@@ -174,11 +181,15 @@ impl SegmentIndex {
     /// Pieces that may come within `radius_m` of `point` (some come twice, some are farther). None for a point or
     /// radius that is no number.
     pub fn near(&self, point: Vec2, radius_m: f64) -> impl Iterator<Item = &Segment> {
+        self.around(point, radius_m).map(|(_, number)| &self.all[number as usize])
+    }
+
+    fn around(&self, point: Vec2, radius_m: f64) -> Within<'_> {
         let reach = Vec2::repeat(radius_m);
         self.within(point - reach, point + reach)
     }
 
-    /// Pieces that may enter the rectangle between two corners (some come twice, some do not).
+    /// Cells of pieces that may enter the rectangle between two corners (some come twice, some do not).
     fn within(&self, low: Vec2, high: Vec2) -> Within<'_> {
         let empty = low.x.is_nan() || low.y.is_nan() || !(low.x <= high.x && low.y <= high.y);
         let (left, right) = (cell(low.x), cell(high.x));
@@ -194,17 +205,30 @@ impl SegmentIndex {
 
     /// Nearest piece within `most_m`, with its foot and distance; of several the first.
     pub fn nearest(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
+        match self.likely_nearest(point) {
+            Some(likely) => self.nearest_of(likely.iter().copied(), point).filter(|found| found.2 <= most_m),
+            None => self.nearest_by_search(point, most_m),
+        }
+    }
+
+    fn nearest_of(&self, numbers: impl Iterator<Item = u32>, point: Vec2) -> Option<(&Segment, Vec2, f64)> {
+        let mut best: Option<(u32, Vec2, f64)> = None;
+        for number in numbers {
+            let foot = self.all[number as usize].foot(point);
+            let distance = (foot - point).norm();
+            if best.is_none_or(|b| distance < b.2 || (distance == b.2 && number < b.0)) {
+                best = Some((number, foot, distance));
+            }
+        }
+        best.map(|(number, foot, distance)| (&self.all[number as usize], foot, distance))
+    }
+
+    /// The nearest piece, looked for farther and farther.
+    fn nearest_by_search(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
         let mut radius = NEAREST_M.min(most_m);
         loop {
-            let mut best: Option<(&Segment, Vec2, f64)> = None;
-            for segment in self.near(point, radius) {
-                let foot = segment.foot(point);
-                let distance = (foot - point).norm();
-                if best.is_none_or(|b| distance < b.2) {
-                    best = Some((segment, foot, distance));
-                }
-            }
-            if let Some(found) = best.filter(|b| b.2 <= radius) {
+            let found = self.nearest_of(self.around(point, radius).map(|c| c.1), point);
+            if let Some(found) = found.filter(|found| found.2 <= radius) {
                 return Some(found);
             }
             if radius >= most_m {
@@ -212,6 +236,32 @@ impl SegmentIndex {
             }
             radius = (2.0 * radius).min(most_m);
         }
+    }
+
+    /// Numbers of the pieces of which one is the nearest to a point; `None` where a search has to find it.
+    fn likely_nearest(&self, point: Vec2) -> Option<&[u32]> {
+        let table = self.table.as_ref()?;
+        let lists = self.likely.get_or_init(|| {
+            Arc::new(FineCells::new(CELL_M, [table.left, table.bottom], table.columns, table.rows))
+        });
+        lists.list(point, |square| self.likely_in(square)).filter(|likely| !likely.is_empty())
+    }
+
+    /// Numbers of the pieces of which one is the nearest to any point of a square. From its centre such a piece is
+    /// farther than the nearest by at most the diagonal.
+    fn likely_in(&self, Square { centre, side_m }: Square) -> Box<[u32]> {
+        let Some((.., least_m)) = self.nearest_by_search(centre, LISTED_M) else { return Box::default() };
+        let reach_m = least_m + 1.5 * side_m;
+        let is_likely = |number: &u32| (self.all[*number as usize].foot(centre) - centre).norm() <= reach_m;
+        let mut likely: Vec<u32> = self.around(centre, reach_m).map(|c| c.1).filter(is_likely).collect();
+        likely.sort_unstable();
+        likely.dedup();
+        if likely.len() > MOST_LISTED { Box::default() } else { likely.into() }
+    }
+
+    /// About how many bytes of memory the lists of the nearest pieces take.
+    pub(crate) fn listed_bytes(&self) -> usize {
+        self.likely.get().map_or(0, |lists| lists.bytes())
     }
 
     /// Distance from `from` along the unit vector `way` to the first piece that is met, at most `most_m`; metres.
@@ -228,11 +278,12 @@ impl SegmentIndex {
             let across = cross(segment.from - from, ray) / turn;
             ((0.0..=1.0).contains(&along) && (0.0..=1.0).contains(&across)).then_some(along * most_m)
         };
-        self.within(from.inf(&to), from.sup(&to)).filter_map(met).min_by(f64::total_cmp)
+        let passed = self.within(from.inf(&to), from.sup(&to)).map(|(_, number)| &self.all[number as usize]);
+        passed.filter_map(met).min_by(f64::total_cmp)
     }
 }
 
-/// Pieces by the cells of a rectangle.
+/// Cells with pieces in a rectangle, and the number of each piece.
 struct Within<'a> {
     index: &'a SegmentIndex,
     /// Of the row before `row`, those left.
@@ -271,13 +322,13 @@ impl Within<'_> {
     }
 }
 
-impl<'a> Iterator for Within<'a> {
-    type Item = &'a Segment;
+impl Iterator for Within<'_> {
+    type Item = (u64, u32);
 
-    fn next(&mut self) -> Option<&'a Segment> {
+    fn next(&mut self) -> Option<(u64, u32)> {
         loop {
             if let Some(at) = self.entries.next() {
-                return self.index.all.get(self.index.cells[at].1 as usize);
+                return self.index.cells.get(at).copied();
             }
             if !self.next_row() {
                 return None;
@@ -386,9 +437,13 @@ mod tests {
             }).collect();
             let p = Vec2::new(x, y);
             let least = all.iter().map(|s| (s.foot(p) - p).norm()).fold(f64::INFINITY, f64::min);
-            let grid = SegmentIndex::new(all);
-            let found = grid.nearest(p, 400.0).unwrap();
-            prop_assert!((found.2 - least).abs() < 1e-9);
+            let first = all.iter().position(|s| (s.foot(p) - p).norm() == least).unwrap();
+            let grid = SegmentIndex::new(all.clone());
+            for _ in 0..2 {
+                let (found, _, distance) = grid.nearest(p, 400.0).unwrap();
+                prop_assert_eq!((*found, distance), (all[first], least));
+            }
+            prop_assert!(least == 0.0 || grid.nearest(p, 0.99 * least).is_none());
         }
     }
 }

@@ -275,6 +275,15 @@ impl LaneGraph {
         (hits, looked)
     }
 
+    /// A lane that `agent_type` may use is within `radius_m` of `point`.
+    pub fn has_lane_for(&self, point: Vec2, radius_m: f64, agent_type: AgentType) -> bool {
+        self.index.near(point, radius_m).any(|segment| {
+            let lane = &self.lanes[segment.owner as usize];
+            lane.carries(agent_type)
+                && lane.path.foot_on(segment.piece as usize, point).1 <= radius_m * radius_m
+        })
+    }
+
     /// Lanes within `radius_m` of `point` that `agent_type` may use, nearest first.
     pub fn nearest_for(&self, point: Vec2, radius_m: f64, agent_type: AgentType) -> Vec<LaneHit> {
         self.nearest_lanes(point, radius_m, |_, lane| lane.carries(agent_type))

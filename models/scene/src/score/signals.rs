@@ -61,8 +61,14 @@ struct LineCrossing<'a, 'b> {
     line: &'b SignalStopLine<'a>,
     step: usize,
     part: f64,
-    /// Mean distance from the signal's lane, metres.
-    off_lane_m: f64,
+}
+
+impl LineCrossing<'_, '_> {
+    /// The signal of the line says stop at the time.
+    fn must_stop(&self) -> bool {
+        let state = self.line.signal.at(self.step);
+        state.is_stop() && state != SignalState::FlashingStop
+    }
 }
 
 /// Lines that a vehicle or cyclist crosses at red.
@@ -92,8 +98,7 @@ pub(crate) fn crossed_at_red(
         }
         for step in input.steps.clone() {
             if let Some(part) = crosses(actor, line, step) {
-                let off_lane_m = off_lane_m(actor, line, step, input.steps.end);
-                crossings.push(LineCrossing { line, step, part, off_lane_m });
+                crossings.push(LineCrossing { line, step, part });
             }
         }
     }
@@ -103,11 +108,16 @@ pub(crate) fn crossed_at_red(
     // lane lets it pass. An agent on none of these lanes, nor on one without a signal, is bound by all of
     // them.
     for group in crossings.chunk_by(|a, b| b.step - a.step < 10) {
-        let least = group.iter().map(|c| c.off_lane_m).fold(f64::INFINITY, f64::min);
-        let most = if least < ON_LANE_M { (least + SAME_LANE_M).min(ON_LANE_M) } else { f64::INFINITY };
-        let taken = || group.iter().filter(|c| c.off_lane_m <= most);
         let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
-        if allowed || !taken().all(|c| must_stop(c.line.signal.at(c.step))) {
+        if allowed || !group.iter().any(LineCrossing::must_stop) {
+            continue;
+        }
+        let off_lanes_m: Vec<f64> =
+            group.iter().map(|c| off_lane_m(actor, c.line, c.step, input.steps.end)).collect();
+        let least = off_lanes_m.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = if least < ON_LANE_M { (least + SAME_LANE_M).min(ON_LANE_M) } else { f64::INFINITY };
+        let taken = || group.iter().zip(&off_lanes_m).filter(|(_, off_m)| **off_m <= most).map(|(c, _)| c);
+        if !taken().all(LineCrossing::must_stop) {
             continue;
         }
         if most.is_infinite() && takes_a_free_lane(input, actor, group[0].step, lines) {
@@ -145,10 +155,6 @@ fn takes_a_free_lane(
         let off: f64 = told.iter().map(|p| line.project(*p).distance_m).sum();
         off / (told.len() as f64) < ON_LANE_M
     })
-}
-
-fn must_stop(state: SignalState) -> bool {
-    state.is_stop() && state != SignalState::FlashingStop
 }
 
 /// The front crosses the line between this step and the next, in the lane's direction: how far along
