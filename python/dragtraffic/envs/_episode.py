@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 from .._errors import DragTrafficError
 from .._run import Run, State, Step
 from .._scene import Scene, open
-from ._observe import Floats, View
+from ._gpudrive import GpudriveView, gpudrive_space
+from ._observe import Seen, View, observation_space
 
 #: A scene, a file, a folder of files, several of them, or a function that makes one from a generator of numbers.
 SceneSource = Union[
     Scene, str, "os.PathLike[str]", Sequence[Union[Scene, str]], Callable[[np.random.Generator], Scene]
 ]
 Actions = Literal["acceleration", "state"]
+Observations = Literal["parts", "gpudrive"]
 
 #: Greatest acceleration and braking, m/s2; curvature, 1/m; sideways acceleration, m/s2; speed, m/s.
 ACCELERATION_MPS2, BRAKING_MPS2, CURVATURE_PER_M, SIDEWAYS_MPS2, SPEED_MPS = 3.0, 6.0, 0.2, 6.0, 35.0
@@ -143,6 +145,7 @@ class Driver:
     state: State
     action: tuple[float, float] = (0.0, 0.0)
     reached: bool = False
+    collided: bool = False
     over: bool = False
 
     def distance_m(self) -> float:
@@ -154,11 +157,17 @@ class Episode:
     """Egos among traffic that reacts."""
 
     def __init__(
-        self, scene: Scene, goals: Mapping[str, State], seed: int, step_s: float, horizon_s: float
+        self,
+        scene: Scene,
+        goals: Mapping[str, State],
+        seed: int,
+        step_s: float,
+        horizon_s: float,
+        observation: Observations,
     ) -> None:
         egos = list(goals)
         self.run = Run(scene, egos, seed=seed, step_s=step_s)
-        self.view = View(scene)
+        self.view = GpudriveView(scene) if observation == "gpudrive" else View(scene)
         self.horizon_s = horizon_s
         self.drivers = {id: Driver(id, goal, self.run.present[id]) for id, goal in goals.items()}
 
@@ -176,6 +185,7 @@ class Episode:
 
     def _told(self, driver: Driver, step: Step, distance_m: float, acceleration: float) -> dict[str, Any]:
         faults = [fault["fault"] for fault in step.faults if driver.id in _involved(fault)]
+        driver.collided = any(fault["kind"] == "collision" for fault in faults)
         driver.reached = driver.distance_m() <= AT_GOAL_M
         driver.over = driver.reached or bool(faults)
         rate, curvature = driver.action
@@ -196,11 +206,11 @@ class Episode:
         """The horizon is reached."""
         return self.run.present.number * self.run.step_s >= self.horizon_s - 1e-9
 
-    def observation(self, id: str) -> dict[str, Floats]:
+    def observation(self, id: str) -> Seen:
         """What an ego sees."""
         driver, present = self.drivers[id], self.run.present
         left_s = self.horizon_s - present.number * self.run.step_s
-        return self.view.observation(id, present, driver.goal, left_s, driver.action)
+        return self.view.observation(id, present, driver.goal, left_s, driver.action, driver.collided)
 
 
 def drive(driver: Driver, action: NDArray[Any], kind: Actions, dt: float) -> None:
@@ -234,6 +244,19 @@ def drive(driver: Driver, action: NDArray[Any], kind: Actions, dt: float) -> Non
 def _involved(fault: Mapping[str, Any]) -> set[str]:
     """Road users that a fault is about: whose it is, and whom it meets."""
     return {str(fault["agent"]), *(str(id) for id in [fault["fault"].get("with")] if id is not None)}
+
+
+def seen_space(observation: Observations) -> gymnasium.spaces.Dict | gymnasium.spaces.Box:
+    """The space of observations.
+
+    Raises:
+        ValueError: the observation is neither of the two.
+    """
+    if observation == "parts":
+        return observation_space()
+    if observation == "gpudrive":
+        return gpudrive_space()
+    raise ValueError(f"observation {observation!r}: parts or gpudrive expected")
 
 
 def action_space(kind: Actions) -> gymnasium.spaces.Box:

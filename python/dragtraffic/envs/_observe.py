@@ -12,6 +12,8 @@ from .._run import State, Step
 from .._scene import Scene
 
 Floats = NDArray[np.float32]
+#: An observation: arrays by the names of :data:`SHAPES`, or one row in the order of GPUDrive. Who asked knows which.
+Seen = Any
 
 #: Other road users, lane points and signals that are seen, the nearest first. Rows beyond those there are zero.
 OTHERS, LANE_POINTS, SIGNALS = 16, 64, 4
@@ -64,13 +66,14 @@ class View:
         return self._sizes[id]
 
     def observation(
-        self, id: str, step: Step, goal: State, left_s: float, action: tuple[float, float]
-    ) -> dict[str, Floats]:
-        """What ``id`` sees at the end of a step; ``action`` are acceleration and curvature of that step."""
+        self, id: str, step: Step, goal: State, left_s: float, action: tuple[float, float], collided: bool
+    ) -> Seen:
+        """What ``id`` sees at the end of a step; ``action`` are acceleration and curvature of that step, ``collided``
+        whether it met another in it."""
         own = step[id]
-        frame = _Frame(own)
+        frame = Frame(own)
         to_goal = frame.places(np.array([[goal.x_m, goal.y_m]]))[0]
-        turn = _wrapped(goal.heading_rad - own.heading_rad)
+        turn = float(wrapped(goal.heading_rad - own.heading_rad))
         length_m, width_m = self._sizes[id]
         seen = {
             "own": [own.speed_mps, length_m, width_m, *action],
@@ -81,7 +84,7 @@ class View:
         }
         return {name: np.asarray(value, dtype=np.float32) for name, value in seen.items()}
 
-    def _others(self, id: str, step: Step, own: State, frame: _Frame) -> NDArray[np.float64]:
+    def _others(self, id: str, step: Step, own: State, frame: Frame) -> NDArray[np.float64]:
         others = [row for row, other in enumerate(step.ids) if other != id]
         rows = np.zeros(SHAPES["others"])
         if not others:
@@ -98,7 +101,7 @@ class View:
         rows[: len(found)] = found
         return rows
 
-    def _nearby_lanes(self, own: State, frame: _Frame) -> NDArray[np.float64]:
+    def _nearby_lanes(self, own: State, frame: Frame) -> NDArray[np.float64]:
         rows = np.zeros(SHAPES["lanes"])
         if not len(self._lanes):
             return rows
@@ -112,7 +115,7 @@ class View:
         rows[: len(found)] = found
         return rows
 
-    def _signals(self, step: Step, frame: _Frame) -> NDArray[np.float64]:
+    def _signals(self, step: Step, frame: Frame) -> NDArray[np.float64]:
         rows = np.zeros(SHAPES["signals"])
         if not len(self._stops):
             return rows
@@ -126,7 +129,7 @@ class View:
         return rows
 
 
-class _Frame:
+class Frame:
     """The frame of a road user."""
 
     def __init__(self, own: State) -> None:
@@ -144,8 +147,14 @@ class _Frame:
         return turned
 
 
-def _wrapped(angle: float) -> float:
-    return float((angle + np.pi) % (2 * np.pi) - np.pi)
+def wrapped(angle: Any) -> Any:
+    """Angles within [-pi, pi)."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def flat(points: Any) -> NDArray[np.float64]:
+    """Points without their heights, which recordings have."""
+    return np.asarray(points, dtype=float)[:, :2]
 
 
 def _lane_points(lanes: list[dict[str, Any]]) -> NDArray[np.float64]:
@@ -154,7 +163,7 @@ def _lane_points(lanes: list[dict[str, Any]]) -> NDArray[np.float64]:
     for lane in lanes:
         if lane.get("type") == "bike_lane":
             continue
-        line = np.asarray(lane["points_m"], dtype=float)[:, :2]
+        line = flat(lane["points_m"])
         edges = np.diff(line, axis=0)
         lengths = np.hypot(edges[:, 0], edges[:, 1])
         along = np.concatenate([[0.0], np.cumsum(lengths)])
