@@ -153,6 +153,29 @@ def test_a_view_is_in_the_road_users_frame() -> None:
     assert numpy.hypot(lane[0], lane[1]) < 3.0, "a car is on a lane"
 
 
+def test_the_way_to_the_goal_follows_the_lanes() -> None:
+    env = drive(scene=SCENES / "demo-residential.json", fill={"count": 8, "types": {"vehicle": 1.0}})
+    observation, info = env.reset(seed=3)
+    (driver,) = env.episode.drivers.values()
+    assert driver.left_m() > 1.05 * info["distance_m"], "it turns"
+    lanes, route = observation["lanes"], observation["route"]
+    ahead = route[(numpy.hypot(*route.T) < 10) & (numpy.hypot(*route.T) > 2)]
+    beside = numpy.hypot(*(ahead[:, None] - lanes[None, :, :2]).transpose(2, 0, 1)).min(axis=1)
+    assert len(ahead) and beside.max() < 1.5
+    left = driver.left_m()
+    _, _, _, _, told = env.step(numpy.array([0.0, 0.0]))
+    assert told["progress_m"] == pytest.approx(left - driver.left_m()) and 0 < told["progress_m"] < 2
+
+
+def test_where_no_lanes_lead_the_way_is_straight() -> None:
+    scene = dragtraffic.open(CROSSING)
+    bare = dragtraffic.Scene({**scene.document, "map": {**scene.document["map"], "lanes": []}})
+    env = drive(scene=bare, ego="4")
+    observation, info = env.reset(seed=1)
+    assert env.episode.drivers["4"].left_m() == pytest.approx(info["distance_m"])
+    assert observation["route"][0] == pytest.approx(4 * observation["goal"][:2] / observation["goal"][2], abs=1e-4)
+
+
 def test_a_recording_with_heights_is_seen_as_one_without() -> None:
     flat = dragtraffic.open(CROSSING)
     document = flat.document

@@ -9,13 +9,12 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from ._driver import Actions, action_space
 from ._episode import (
-    Actions,
     Episode,
     Observations,
     Scenes,
     SceneSource,
-    action_space,
     default_reward,
     goal_of,
     movers,

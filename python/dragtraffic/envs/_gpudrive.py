@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from .._run import State, Step
 from .._scene import Scene
-from ._observe import Floats, Frame, View, flat, wrapped
+from ._driver import Driver
+from ._observe import Floats, Frame, View
+from ._route import flat, wrapped
 
 #: Other road users and map elements that have a place, and metres within which they are seen.
 PARTNERS, ROADS, SEEN_M = 63, 200, 50.0
@@ -39,15 +41,13 @@ class GpudriveView(View):
         super().__init__(scene)
         self._roads = _elements(scene._peek()["map"])
 
-    def observation(
-        self, id: str, step: Step, goal: State, left_s: float, action: tuple[float, float], collided: bool
-    ) -> Floats:
-        """What ``id`` sees at the end of a step, shape [2984]."""
-        own = step[id]
+    def observation(self, driver: Driver, step: Step, left_s: float) -> Floats:
+        """What an ego sees at the end of a step, shape [2984]."""
+        id, goal, own = driver.id, driver.goal, step[driver.id]
         frame = Frame(own)
         row = np.zeros(SIZE)
         to_goal = frame.places(np.array([[goal.x_m, goal.y_m]]))[0] / _PLACE_M
-        row[:EGO] = [own.speed_mps / _SPEED_MPS, *self._scaled([id])[0], *to_goal, float(collided)]
+        row[:EGO] = [own.speed_mps / _SPEED_MPS, *self._scaled([id])[0], *to_goal, float(driver.collided)]
         partners = self._partners(id, step, own, frame)
         row[EGO : EGO + partners.size] = partners.ravel()
         row[EGO + PARTNERS * PARTNER :] = self._elements_near(own, frame).ravel()

@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
+from ._driver import Actions, action_space
 from ._episode import (
-    Actions,
     Episode,
     Observations,
     Scenes,
     SceneSource,
-    action_space,
     default_reward,
     goal_of,
     seen_space,
