@@ -8,11 +8,12 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from .._motion import flat
 from .._run import State, Step
 from .._scene import Scene
 from ._driver import Driver
 from ._observe import Floats, Frame, View
-from ._route import flat, wrapped
+from ._route import wrapped
 
 #: Other road users and map elements that have a place, and metres within which they are seen.
 PARTNERS, ROADS, SEEN_M = 63, 200, 50.0

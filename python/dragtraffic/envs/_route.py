@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._motion import flat
 from .._run import State
 
 Numbers = NDArray[np.float64]
@@ -27,11 +28,6 @@ _BEHIND_M, _AHEAD_M = 5.0, 30.0
 def wrapped(angle: Any) -> Any:
     """Angles within [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
-
-
-def flat(points: Any) -> Numbers:
-    """Points without their heights, which recordings have."""
-    return np.asarray(points, dtype=float)[:, :2]
 
 
 class Lanes:
