@@ -178,6 +178,7 @@ class Episode:
         rate, curvature = driver.action
         return {
             "progress_m": left_m - driver.left_m(),
+            "aside_m": driver.route.aside_m,
             "distance_m": driver.distance_m(),
             "reached": driver.reached,
             "faults": faults,

@@ -1,4 +1,4 @@
-"""What a road user sees, as one row of numbers in the order of GPUDrive, for policies that were trained there."""
+"""What a road user sees, as one row of numbers in the order of GPUDrive, for policies of that simulator."""
 
 from __future__ import annotations
 

@@ -120,6 +120,8 @@ class Route:
         self._line = line[keep]
         self._along = np.concatenate([[0.0], np.cumsum(steps[keep[1:]])])
         self._at_m = 0.0
+        #: Metres between the line and the last place.
+        self.aside_m = 0.0
 
     def left_m(self, state: State) -> float:
         """Metres along the line that are left from here; the place is looked for near the last one."""
@@ -131,8 +133,9 @@ class Route:
         way = end - begin
         here = np.array([state.x_m, state.y_m])
         share = np.clip(((here - begin) * way).sum(axis=1) / (way * way).sum(axis=1), 0.0, 1.0)
-        away = begin + share[:, None] * way - here
-        nearest = int(np.argmin((away * away).sum(axis=1)))
+        away = np.hypot(*(begin + share[:, None] * way - here).T)
+        nearest = int(np.argmin(away))
+        self.aside_m = float(away[nearest])
         length = self._along[edges.start + nearest + 1] - self._along[edges.start + nearest]
         self._at_m = float(self._along[edges.start + nearest] + share[nearest] * length)
         return float(self._along[-1] - self._at_m)
