@@ -13,11 +13,10 @@ from __future__ import annotations
 import argparse
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import dragtraffic
 import numpy as np
@@ -104,6 +103,22 @@ def share(outcomes: Sequence[Outcome]) -> tuple[float, float, float]:
     return float(counts[:, 0].sum() / counts[:, 1].sum()), float(low), float(high)
 
 
+def report(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Lines: the share of success, and where the rest is lost, of all and of each type."""
+    said, low, high = share(outcomes)
+    runs = Counter((one.scene, one.seed) for one in outcomes)
+    good = Counter((one.scene, one.seed) for one in outcomes if not one.lost)
+    mean = np.mean([good[run] / count for run, count in runs.items()])
+    yield f"{len(outcomes)} road users with a way to go in {len(runs)} runs"
+    yield f"goal without fault: {said:.1%} ({low:.1%} to {high:.1%}), mean of runs {mean:.1%}"
+    kinds = {"all": list(outcomes)}
+    kinds |= {kind: [one for one in outcomes if one.type == kind] for kind in sorted({one.type for one in outcomes})}
+    for kind, ones in kinds.items():
+        lost = Counter(one.lost for one in ones)
+        told = ", ".join(f"{name or 'success'} {count / len(ones):.1%}" for name, count in lost.most_common())
+        yield f"{kind:10} {len(ones):6}: {told}"
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Drives, counts and prints."""
     parser = argparse.ArgumentParser(description="Drives all road users of recorded scenes.")
@@ -115,27 +130,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     files = sorted(path for path in asked.folder.iterdir() if path.is_file())
     jobs = [(files[number % len(files)], number // len(files)) for number in range(asked.runs)]
     outcomes: list[Outcome] = []
-    runs: list[float] = []
     with ProcessPoolExecutor(asked.processes) as pool:
         for found in pool.map(drive, *zip(*jobs)):
             outcomes += found
-            if found:
-                runs.append(sum(not one.lost for one in found) / len(found))
             if asked.outcomes:
                 with asked.outcomes.open("a") as file:
                     file.writelines(json.dumps(asdict(one)) + "\n" for one in found)
-    said, low, high = share(outcomes)
-    print(f"{len(jobs)} runs, {len(outcomes)} road users with a way to go")
-    print(f"goal without fault: {said:.1%} ({low:.1%} to {high:.1%}), mean of runs {np.mean(runs):.1%}")
-    kinds: dict[str, Any] = {"all": outcomes}
-    kinds |= {kind: [one for one in outcomes if one.type == kind] for kind in sorted({one.type for one in outcomes})}
-    for kind, ones in kinds.items():
-        lost = Counter(one.lost for one in ones)
-        told = ", ".join(f"{name or 'success'} {count / len(ones):.1%}" for name, count in lost.most_common())
-        print(f"{kind:10} {len(ones):6}: {told}")
-    missed = [one.nearest_m for one in outcomes if one.lost == "goal missed"]
-    near = [f"within {most} m {sum(away <= most for away in missed) / len(outcomes):.1%}" for most in (5, 10, 20)]
-    print(f"of all, goal missed but {', '.join(near)}")
+    print(*report(outcomes), sep="\n")
 
 
 if __name__ == "__main__":
