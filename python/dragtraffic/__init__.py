@@ -26,7 +26,7 @@ from ._run import Peek, Run, State, Step  # noqa: E402
 from ._scene import Scene, open, open_all  # noqa: E402
 
 if TYPE_CHECKING:
-    from ._viewer import Viewer
+    from ._viewer import Viewer as Viewer
 
 __all__ = [
     "Condition",
@@ -41,17 +41,17 @@ __all__ = [
     "Step",
     "Velocity",
     "Via",
-    "Viewer",
     "open",
     "open_all",
     "version",
 ]
 
+if not TYPE_CHECKING:
 
-def __getattr__(name: str) -> Any:
-    # The viewer needs packages that only notebooks have.
-    if name == "Viewer":
-        from ._viewer import Viewer
+    def __getattr__(name: str) -> Any:
+        # The viewer needs packages that only notebooks have; for their sake it is not in __all__.
+        if name == "Viewer":
+            from ._viewer import Viewer
 
-        return Viewer
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+            return Viewer
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
