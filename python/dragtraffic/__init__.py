@@ -14,6 +14,7 @@ calls leave other threads running and end with Ctrl-C. Units are in the names: m
 """
 
 import os
+from typing import TYPE_CHECKING, Any
 
 # The engine's tensors are small: threads of the tensor library cost more than they gain.
 os.environ.setdefault("CANDLE_NUM_THREADS", "1")
@@ -23,6 +24,9 @@ from ._errors import DragTrafficError  # noqa: E402
 from ._native import version  # noqa: E402
 from ._run import Peek, Run, State, Step  # noqa: E402
 from ._scene import Scene, open, open_all  # noqa: E402
+
+if TYPE_CHECKING:
+    from ._viewer import Viewer as Viewer
 
 __all__ = [
     "Condition",
@@ -41,3 +45,13 @@ __all__ = [
     "open_all",
     "version",
 ]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        # The viewer needs packages that only notebooks have; for their sake it is not in __all__.
+        if name == "Viewer":
+            from ._viewer import Viewer
+
+            return Viewer
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

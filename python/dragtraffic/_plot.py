@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ._motion import chosen, flat, poses
+
 if TYPE_CHECKING:
-    import pandas
+    from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
     from ._scene import Scene
@@ -16,23 +22,20 @@ GREY = "#8a8f98"
 
 def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
     """See ``Scene.plot``."""
-    import matplotlib.pyplot as plt
     from matplotlib.patches import Polygon
 
-    if ax is None:
-        _, ax = plt.subplots(figsize=(8, 8))
+    ax = _ground(scene, ax)
     document = scene._peek()
-    _draw_map(document["map"], ax)
     frame = scene.to_frame()
     frame = frame[frame["valid"]]
     made = set(frame.loc[frame["source"] == "generated", "agent_id"])
     keys = ["agent_id", "type", "source", "mode"]
     for (agent, kind, source, _), rows in frame.groupby(keys, sort=False, dropna=False):
-        shown = bool(rows["chosen"].iloc[0])
+        picked = bool(rows["chosen"].iloc[0])
         colour = COLOURS.get(str(kind), GREY)
         if source == "log":
             style: dict[str, Any] = {"color": GREY, "lw": 0.8, "ls": "--" if agent in made else "-"}
-        elif shown:
+        elif picked:
             style = {"color": colour, "lw": 2.2}
         elif modes:
             style = {"color": colour, "lw": 0.8, "alpha": 0.5}
@@ -48,19 +51,70 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
         ax.add_patch(Polygon(corners, closed=True, facecolor=face, edgecolor=colour, lw=0.8, zorder=4))
         if agent in made:
             ax.annotate(str(agent), corners[0], fontsize=8, zorder=5)
-    ax.set_aspect("equal")
-    _look_at(frame[frame["agent_id"].isin(made)] if made else frame, ax)
-    ax.set_xlabel("x, metres")
-    ax.set_ylabel("y, metres")
+    shown = frame[frame["agent_id"].isin(made)] if made else frame
+    _look_at(shown[["x_m", "y_m"]].to_numpy(), ax)
     ax.set_title(scene.name)
     return ax
 
 
-def _look_at(rows: pandas.DataFrame, ax: Axes) -> None:
-    """Shows a square about these places, at least 80 m wide."""
-    if rows.empty:
+def animate(scene: Scene, path: str | os.PathLike[str] | None, ax: Axes | None, *, fps: float) -> FuncAnimation:
+    """See ``Scene.animate``."""
+    from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+    from matplotlib.patches import Polygon
+
+    pictures = path is not None and Path(path).suffix.lower() in (".gif", ".webp")
+    if path is not None and not pictures and not FFMpegWriter.isAvailable():
+        raise ValueError(f"{path}: this needs ffmpeg on the path; .gif and .webp do not")
+    ax = _ground(scene, ax)
+    document, motion, made = scene._peek(), poses(scene), chosen(scene)
+    boxes: dict[str, tuple[Polygon, float, float]] = {}
+    for agent in document["agents"]:
+        id, colour = str(agent["id"]), COLOURS.get(agent["type"], GREY)
+        face = colour if id in made else "white"
+        box = Polygon(np.zeros((4, 2)), closed=True, facecolor=face, edgecolor=colour, lw=0.8, zorder=4)
+        ax.add_patch(box)
+        boxes[id] = (box, agent["length_m"], agent["width_m"])
+    _look_at(np.concatenate([rows[:, :2] for id, rows in motion.items() if id in made or not made]), ax)
+    step_s = document["time"]["step_s"]
+
+    def show(step: int) -> list[Any]:
+        for id, (box, length, width) in boxes.items():
+            x, y, heading = motion[id][step].tolist()
+            box.set_visible(not np.isnan(x))
+            if box.get_visible():
+                box.set_xy(_corners(x, y, heading, length, width))
+        return [ax.set_title(f"{scene.name}   {step * step_s:.1f} s"), *(box for box, _, _ in boxes.values())]
+
+    steps = max(map(len, motion.values()), default=0)
+    every = max(1, round(1 / (fps * step_s)))
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    film = FuncAnimation(figure, show, range(0, steps, every), interval=1e3 * every * step_s)
+    if path is not None:
+        rate = 1 / (every * step_s)
+        film.save(Path(path), PillowWriter(fps=rate) if pictures else FFMpegWriter(fps=rate))
+    return film
+
+
+def _ground(scene: Scene, ax: Axes | None) -> Axes:
+    """Axes with the map."""
+    import matplotlib.pyplot as plt
+
+    if ax is None:
+        _, ax = plt.subplots(figsize=(8, 8))
+    _draw_map(scene._peek()["map"], ax)
+    ax.set_aspect("equal")
+    ax.set_xlabel("x, metres")
+    ax.set_ylabel("y, metres")
+    return ax
+
+
+def _look_at(places: Any, ax: Axes) -> None:
+    """Shows a square about these places, shape [n, 2], at least 80 m wide."""
+    places = places[~np.isnan(places).any(axis=1)]
+    if not len(places):
         return
-    low, high = rows[["x_m", "y_m"]].min(), rows[["x_m", "y_m"]].max()
+    low, high = places.min(axis=0), places.max(axis=0)
     half = max(40.0, float((high - low).max()) / 2 + 15.0)
     x, y = (low + high) / 2
     ax.set_xlim(x - half, x + half)
@@ -71,21 +125,16 @@ def _draw_map(of: dict[str, Any], ax: Axes) -> None:
     from matplotlib.patches import Polygon
 
     for area in of.get("drivable", []):
-        ring = _flat(area["polygon_m"])
+        ring = flat(area["polygon_m"])
         ax.add_patch(Polygon(ring, closed=True, facecolor="#eceef1", edgecolor="none", zorder=0))
     for crossing in of.get("crosswalks", []):
-        ring = _flat(crossing["polygon_m"])
+        ring = flat(crossing["polygon_m"])
         ax.add_patch(Polygon(ring, closed=True, facecolor="none", edgecolor="#c9cdd3", hatch="//", zorder=1))
     lines = [("road_edges", "#5b616b", 1.2), ("road_lines", "#c9cdd3", 0.7), ("lanes", "#dfe2e7", 0.7)]
     for member, colour, width in lines:
         for line in of.get(member, []):
-            points = _flat(line["points_m"])
+            points = flat(line["points_m"])
             ax.plot([x for x, _ in points], [y for _, y in points], color=colour, lw=width, zorder=1)
-
-
-def _flat(points: list[list[float]]) -> list[tuple[float, float]]:
-    """The points without their heights, which recordings have."""
-    return [(point[0], point[1]) for point in points]
 
 
 def _corners(x: float, y: float, heading: float, length: float, width: float) -> list[tuple[float, float]]:

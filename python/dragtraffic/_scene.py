@@ -19,6 +19,7 @@ AgentId = Union[str, int]
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
 
@@ -234,6 +235,20 @@ class Scene:
         from ._plot import plot
 
         return plot(self, ax, modes=modes)
+
+    def animate(
+        self, path: str | os.PathLike[str] | None = None, ax: Axes | None = None, *, fps: float = 10.0
+    ) -> FuncAnimation:
+        """The scene in motion from above: chosen futures in filled colour, all others as recorded. With ``path`` it is
+        written: ``.gif`` or ``.webp``, or ``.mp4`` where ffmpeg is on the path. ``fps`` are pictures a second, at most
+        10. Needs matplotlib; keep what is returned while it plays.
+
+        Raises:
+            ValueError: ffmpeg is needed and not there.
+        """
+        from ._plot import animate
+
+        return animate(self, path, ax, fps=fps)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> list[dict[str, Any]]:
         """Writes the scene: as it is, or in another format that ``dragtraffic convert`` knows. Returns what that format

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 from pathlib import Path
 from typing import Any, cast
 
@@ -10,6 +12,7 @@ import numpy
 import pandas
 import pytest
 from dragtraffic import Condition, Goal, Relation, Scene, Start, Velocity, Via
+from dragtraffic._motion import poses
 
 ROOT = Path(__file__).resolve().parents[2]
 CROSSING = ROOT / "assets/scenes/demo-crossing.json"
@@ -174,3 +177,52 @@ def test_the_notebook_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(ROOT)}}).execute()
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     assert any("image/png" in output.get("data", {}) for output in outputs)
+    assert "application/vnd.jupyter.widget-view+json" in outputs[-1]["data"], "the last cell is a viewer"
+
+
+def test_a_film_shows_who_is_there_and_where(turned: Scene, tmp_path: Path) -> None:
+    import matplotlib
+    from matplotlib.patches import Polygon
+    from PIL import Image
+
+    matplotlib.use("Agg")
+    path = tmp_path / "turned.webp"
+    film = turned.animate(path, fps=1)
+    with Image.open(path) as pictures:
+        assert getattr(pictures, "n_frames") == 10, "one a second over nine seconds"
+    shown = cast("Any", film)._func(90)
+    boxes = [box for box in shown if isinstance(box, Polygon) and box.get_visible()]
+    there = [box.get_xy()[:4].mean(axis=0) for box in boxes]
+    assert min(numpy.hypot(*(place - (2.0, 27.5))) for place in there) < 0.1, "car 4 is at its goal"
+    if not shutil.which("ffmpeg"):
+        with pytest.raises(ValueError, match="ffmpeg"):
+            turned.animate(tmp_path / "turned.mp4")
+
+
+def test_motion_is_the_recording_until_a_chosen_future(scene: Scene, turned: Scene) -> None:
+    recorded, made = poses(scene), poses(turned)
+    assert all(rows.shape == (91, 3) for rows in made.values())
+    assert made["4"][0] == pytest.approx(recorded["4"][0]) and made["4"][90, :2] == pytest.approx((2.0, 27.5), abs=0.05)
+    still = next(id for id in made if id not in turned.samples[0]["agents"])
+    assert numpy.array_equal(made[still], recorded[still], equal_nan=True)
+    frame = scene.to_frame()
+    seen = frame[frame["valid"]].groupby("agent_id").size()
+    assert all((~numpy.isnan(rows[:, 0])).sum() == seen[id] for id, rows in recorded.items())
+
+
+def test_a_notebook_cell_takes_goals_and_keeps_what_the_engine_refuses(scene: Scene) -> None:
+    viewer = dragtraffic.Viewer(scene, seed=7)
+    sent: list[Any] = []
+    viewer.send = lambda content, buffers=None: sent.append(content)
+    assert viewer._motion["futures"] == {} and len(viewer._motion["poses"]["4"]) == 91
+    viewer._handle_custom_msg({"kind": "goal", "agent": "4", "x_m": 2.0, "y_m": 27.5}, [])
+    assert viewer._motion["futures"]["4"][-1] == pytest.approx([2.0, 27.5], abs=0.05)
+    assert viewer._motion["goals"] == {"4": [2.0, 27.5]} and "2" in viewer._motion["futures"], "car 2 gives way"
+    before = viewer._motion
+    viewer._handle_custom_msg({"kind": "goal", "agent": "4", "x_m": 1e9, "y_m": 0.0}, [])
+    assert [bool(message["told"]) for message in sent] == [False, True]
+    assert viewer._motion == before and list(viewer.goals) == ["4"]
+    for odd in ("goal", {"kind": "else"}, {"kind": "goal", "agent": "nobody", "x_m": 0, "y_m": 0}, {"kind": "goal"}):
+        viewer._handle_custom_msg(odd, [])
+    assert viewer._motion == before
+    json.dumps([viewer._map, viewer._motion], allow_nan=False)

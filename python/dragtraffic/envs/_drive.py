@@ -9,8 +9,18 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of, movers
-from ._observe import Floats, observation_space
+from ._driver import Actions, action_space
+from ._episode import (
+    Episode,
+    Observations,
+    Scenes,
+    SceneSource,
+    default_reward,
+    goal_of,
+    movers,
+    seen_space,
+)
+from ._observe import Seen
 
 #: Most scenes that a reset looks at for one with an ego.
 _TRIES = 20
@@ -22,8 +32,9 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
     ``scene``: a scene, a file, a folder, several of these, or a function from a random generator to a scene; one is drawn
     at each reset. ``fill``: arguments of :meth:`dragtraffic.Scene.place`, which then places road users anew at each reset.
     ``ego``: the road user; without it one of the vehicles that move is drawn. Its goal is that of its conditions, else
-    where its recording ends, else where its likeliest future does. ``actions``: ``"acceleration"`` (shares of acceleration and curvature in [-1, 1]) or
-    ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``distance_m``, ``reached``, ``faults``,
+    where its recording ends, else where its likeliest future does. ``observation``: ``"parts"`` (arrays by name) or
+    ``"gpudrive"`` (one row in the order of GPUDrive). ``actions``: ``"acceleration"`` (shares of acceleration and curvature
+    in [-1, 1]) or ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``aside_m``, ``distance_m``, ``reached``, ``faults``,
     ``acceleration_mps2``, ``sideways_mps2`` and ``jerk_mps3``. An episode ends at the goal and at a fault of the ego, and
     is truncated after ``horizon_s``.
     """
@@ -36,6 +47,7 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
         *,
         ego: str | int | None = None,
         fill: Mapping[str, Any] | None = None,
+        observation: Observations = "parts",
         actions: Actions = "acceleration",
         reward: Callable[[Mapping[str, Any]], float] = default_reward,
         step_s: float = 0.1,
@@ -43,9 +55,9 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
     ) -> None:
         self._scenes = Scenes(scene, fill)
         self._ego = None if ego is None else str(ego)
-        self._kind, self._reward = actions, reward
+        self._kind, self._reward, self._view = actions, reward, observation
         self._step_s, self._horizon_s = step_s, horizon_s
-        self.observation_space = observation_space()
+        self.observation_space = seen_space(observation)
         self.action_space = action_space(actions)
         self._episode: Episode | None = None
         self._id = ""
@@ -63,7 +75,7 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, Floats], dict[str, Any]]:
+    ) -> tuple[Seen, dict[str, Any]]:
         """Draws a scene and an ego. Equal seeds give equal episodes."""
         super().reset(seed=seed)
         for _ in range(_TRIES):
@@ -77,13 +89,13 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
         else:
             who = "vehicle that moves" if self._ego is None else f"goal of road user {self._ego}"
             raise ValueError(f"no {who} in {_TRIES} scenes")
-        self._episode = Episode(scene, {self._id: goal}, number, self._step_s, self._horizon_s)
+        self._episode = Episode(scene, {self._id: goal}, number, self._step_s, self._horizon_s, self._view)
         driver = self._episode.drivers[self._id]
         return self._episode.observation(self._id), {"ego": self._id, "distance_m": driver.distance_m()}
 
     def step(
         self, action: NDArray[Any]
-    ) -> tuple[dict[str, Floats], float, bool, bool, dict[str, Any]]:
+    ) -> tuple[Seen, float, bool, bool, dict[str, Any]]:
         """Drives one step."""
         episode = self.episode
         info = episode.step({self._id: np.asarray(action)}, self._kind)[self._id]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Union
 
@@ -15,16 +14,17 @@ from numpy.typing import NDArray
 from .._errors import DragTrafficError
 from .._run import Run, State, Step
 from .._scene import Scene, open
-from ._observe import Floats, View
+from ._driver import Actions, Driver, drive
+from ._gpudrive import GpudriveView, gpudrive_space
+from ._observe import Seen, View, observation_space
+from ._route import Lanes
 
 #: A scene, a file, a folder of files, several of them, or a function that makes one from a generator of numbers.
 SceneSource = Union[
     Scene, str, "os.PathLike[str]", Sequence[Union[Scene, str]], Callable[[np.random.Generator], Scene]
 ]
-Actions = Literal["acceleration", "state"]
+Observations = Literal["parts", "gpudrive"]
 
-#: Greatest acceleration and braking, m/s2; curvature, 1/m; sideways acceleration, m/s2; speed, m/s.
-ACCELERATION_MPS2, BRAKING_MPS2, CURVATURE_PER_M, SIDEWAYS_MPS2, SPEED_MPS = 3.0, 6.0, 0.2, 6.0, 35.0
 #: An ego is at its goal within this distance, metres.
 AT_GOAL_M = 2.0
 #: Shortest way to a goal, metres, and least speed of a road user that moves, m/s.
@@ -32,7 +32,7 @@ MOVES_M, MOVES_MPS = 15.0, 1.0
 
 
 def default_reward(info: Mapping[str, Any]) -> float:
-    """Metres of progress to the goal, 10 for reaching it, -10 for each fault, -0.01 for each m/s3 of jerk."""
+    """Metres of progress along the way to the goal, 10 for reaching it, -10 for each fault, -0.01 for each m/s3 of jerk."""
     comfort = 0.01 * abs(info["jerk_mps3"])
     return float(info["progress_m"] + 10.0 * info["reached"] - 10.0 * len(info["faults"]) - comfort)
 
@@ -92,15 +92,17 @@ def movers(scene: Scene, types: Sequence[str] = ("vehicle",)) -> list[str]:
 
 def goal_of(scene: Scene, id: str, seed: int) -> State | None:
     """The goal of a road user: that of its conditions, else where its recording ends, else where its likeliest future
-    does. None where it goes nowhere."""
+    does, on the lanes. None where it goes nowhere."""
     agent = next(agent for agent in scene._peek()["agents"] if agent["id"] == id)
     if not _recorded(agent):
         return None
     goal = _asked(agent)
     if _way_m(agent, goal) < MOVES_M:
         futures = scene.generate([id], seed=seed).samples[0]["agents"][id]
-        future = futures["modes"][futures["chosen"]]
-        goal = State(*(float(future[name][-1]) for name in State._fields))
+        future = np.array([futures["modes"][futures["chosen"]][name] for name in State._fields], dtype=float).T
+        # A future may go on beyond the roads of the map.
+        last = Lanes(scene._peek()["map"].get("lanes", [])).last_near(future[:, :2])
+        goal = State(*future[last].tolist()) if last >= 0 else goal
     return goal if _way_m(agent, goal) >= MOVES_M else None
 
 
@@ -134,38 +136,32 @@ def _way_m(agent: Mapping[str, Any], goal: State) -> float:
     return float(np.hypot(goal.x_m - start.x_m, goal.y_m - start.y_m))
 
 
-@dataclass
-class Driver:
-    """An ego within an episode."""
-
-    id: str
-    goal: State
-    state: State
-    action: tuple[float, float] = (0.0, 0.0)
-    reached: bool = False
-    over: bool = False
-
-    def distance_m(self) -> float:
-        """From the goal, metres."""
-        return float(np.hypot(self.goal.x_m - self.state.x_m, self.goal.y_m - self.state.y_m))
-
-
 class Episode:
     """Egos among traffic that reacts."""
 
     def __init__(
-        self, scene: Scene, goals: Mapping[str, State], seed: int, step_s: float, horizon_s: float
+        self,
+        scene: Scene,
+        goals: Mapping[str, State],
+        seed: int,
+        step_s: float,
+        horizon_s: float,
+        observation: Observations,
     ) -> None:
         egos = list(goals)
         self.run = Run(scene, egos, seed=seed, step_s=step_s)
-        self.view = View(scene)
+        self.view = GpudriveView(scene) if observation == "gpudrive" else View(scene)
         self.horizon_s = horizon_s
-        self.drivers = {id: Driver(id, goal, self.run.present[id]) for id, goal in goals.items()}
+        self.drivers = {id: self._driver(id, goal) for id, goal in goals.items()}
+
+    def _driver(self, id: str, goal: State) -> Driver:
+        start = self.run.present[id]
+        return Driver(id, goal, start, self.view.route(id, start, goal))
 
     def step(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[str, dict[str, Any]]:
         """Makes a step, and says of each ego that drove what came of it. An ego that is done stands where it is."""
         dt = self.run.step_s
-        before = {id: (driver.distance_m(), driver.action[0]) for id, driver in self.drivers.items()}
+        before = {id: (driver.left_m(), driver.action[0]) for id, driver in self.drivers.items()}
         for id, driver in self.drivers.items():
             if driver.over:
                 driver.state = driver.state._replace(vx_mps=0.0, vy_mps=0.0)
@@ -174,13 +170,15 @@ class Episode:
         step = self.run.step({id: driver.state for id, driver in self.drivers.items()})
         return {id: self._told(driver, step, *before[id]) for id, driver in self.drivers.items() if not driver.over}
 
-    def _told(self, driver: Driver, step: Step, distance_m: float, acceleration: float) -> dict[str, Any]:
+    def _told(self, driver: Driver, step: Step, left_m: float, acceleration: float) -> dict[str, Any]:
         faults = [fault["fault"] for fault in step.faults if driver.id in _involved(fault)]
+        driver.collided = any(fault["kind"] == "collision" for fault in faults)
         driver.reached = driver.distance_m() <= AT_GOAL_M
         driver.over = driver.reached or bool(faults)
         rate, curvature = driver.action
         return {
-            "progress_m": distance_m - driver.distance_m(),
+            "progress_m": left_m - driver.left_m(),
+            "aside_m": driver.route.aside_m,
             "distance_m": driver.distance_m(),
             "reached": driver.reached,
             "faults": faults,
@@ -196,39 +194,10 @@ class Episode:
         """The horizon is reached."""
         return self.run.present.number * self.run.step_s >= self.horizon_s - 1e-9
 
-    def observation(self, id: str) -> dict[str, Floats]:
+    def observation(self, id: str) -> Seen:
         """What an ego sees."""
-        driver, present = self.drivers[id], self.run.present
-        left_s = self.horizon_s - present.number * self.run.step_s
-        return self.view.observation(id, present, driver.goal, left_s, driver.action)
-
-
-def drive(driver: Driver, action: NDArray[Any], kind: Actions, dt: float) -> None:
-    """Moves an ego by its action: a target state as it is, or shares of the greatest acceleration and curvature along a
-    curve of that curvature, whose sideways acceleration is bounded."""
-    state = driver.state
-    speed = state.speed_mps
-    if kind == "state":
-        driver.state = State(*(float(number) for number in action))
-        driver.action = ((driver.state.speed_mps - speed) / dt, 0.0)
-        return
-    push, steer = np.clip(np.asarray(action, dtype=float), -1.0, 1.0)
-    rate = push * (ACCELERATION_MPS2 if push > 0 else BRAKING_MPS2)
-    after = float(np.clip(speed + rate * dt, 0.0, SPEED_MPS))
-    middle = 0.5 * (speed + after)
-    most = min(CURVATURE_PER_M, SIDEWAYS_MPS2 / max(middle, 1.0) ** 2)
-    curvature = float(steer) * most
-    turn = middle * curvature * dt
-    halfway, heading = state.heading_rad + 0.5 * turn, state.heading_rad + turn
-    heading = float((heading + np.pi) % (2 * np.pi) - np.pi)
-    driver.state = State(
-        state.x_m + middle * dt * np.cos(halfway),
-        state.y_m + middle * dt * np.sin(halfway),
-        heading,
-        after * np.cos(heading),
-        after * np.sin(heading),
-    )
-    driver.action = ((after - speed) / dt, curvature)
+        present = self.run.present
+        return self.view.observation(self.drivers[id], present, self.horizon_s - present.number * self.run.step_s)
 
 
 def _involved(fault: Mapping[str, Any]) -> set[str]:
@@ -236,9 +205,14 @@ def _involved(fault: Mapping[str, Any]) -> set[str]:
     return {str(fault["agent"]), *(str(id) for id in [fault["fault"].get("with")] if id is not None)}
 
 
-def action_space(kind: Actions) -> gymnasium.spaces.Box:
-    """Shares of acceleration and curvature, or a state: x, y, heading and velocity."""
-    if kind == "acceleration":
-        return gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
-    most = np.array([1e5, 1e5, np.pi, 100.0, 100.0])
-    return gymnasium.spaces.Box(-most, most, dtype=np.float64)
+def seen_space(observation: Observations) -> gymnasium.spaces.Dict | gymnasium.spaces.Box:
+    """The space of observations.
+
+    Raises:
+        ValueError: the observation is neither of the two.
+    """
+    if observation == "parts":
+        return observation_space()
+    if observation == "gpudrive":
+        return gpudrive_space()
+    raise ValueError(f"observation {observation!r}: parts or gpudrive expected")

@@ -10,8 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
-from ._episode import Actions, Episode, Scenes, SceneSource, action_space, default_reward, goal_of
-from ._observe import Floats, observation_space
+from ._driver import Actions, action_space
+from ._episode import (
+    Episode,
+    Observations,
+    Scenes,
+    SceneSource,
+    default_reward,
+    goal_of,
+    seen_space,
+)
+from ._observe import Seen
 
 
 class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
@@ -26,6 +35,7 @@ class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
         egos: Sequence[str | int],
         *,
         fill: Mapping[str, Any] | None = None,
+        observation: Observations = "parts",
         actions: Actions = "acceleration",
         reward: Callable[[Mapping[str, Any]], float] = default_reward,
         step_s: float = 0.1,
@@ -34,9 +44,9 @@ class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
         self._scenes = Scenes(scene, fill)
         self.possible_agents = [str(ego) for ego in egos]
         self.agents: list[str] = []
-        self._kind, self._reward = actions, reward
+        self._kind, self._reward, self._view = actions, reward, observation
         self._step_s, self._horizon_s = step_s, horizon_s
-        self._seen, self._done = observation_space(), action_space(actions)
+        self._seen, self._done = seen_space(observation), action_space(actions)
         self._random = np.random.default_rng()
         self._episode: Episode | None = None
 
@@ -50,7 +60,7 @@ class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, dict[str, Floats]], dict[str, dict[str, Any]]]:
+    ) -> tuple[dict[str, Seen], dict[str, dict[str, Any]]]:
         """Draws a scene. Equal seeds give equal episodes."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
@@ -60,12 +70,12 @@ class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
         known = {id: goal for id, goal in goals.items() if goal is not None}
         if len(known) < len(goals):
             raise ValueError(f"no goal of {', '.join(goals.keys() - known.keys())}")
-        self._episode = Episode(scene, known, number, self._step_s, self._horizon_s)
+        self._episode = Episode(scene, known, number, self._step_s, self._horizon_s, self._view)
         self.agents = list(self.possible_agents)
         return self._observations(self._episode), {id: {} for id in self.agents}
 
     def step(self, actions: dict[str, NDArray[Any]]) -> tuple[
-        dict[str, dict[str, Floats]],
+        dict[str, Seen],
         dict[str, float],
         dict[str, bool],
         dict[str, bool],
@@ -82,5 +92,5 @@ class ParallelDrive(ParallelEnv[str, Any, NDArray[Any]]):
         self.agents = [id for id in self.agents if not over[id] and not late[id]]
         return observations, rewards, over, late, infos
 
-    def _observations(self, episode: Episode) -> dict[str, dict[str, Floats]]:
+    def _observations(self, episode: Episode) -> dict[str, Seen]:
         return {id: episode.observation(id) for id in self.agents}
