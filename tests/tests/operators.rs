@@ -251,6 +251,8 @@ fn what_does_not_fit_into_the_memory_is_refused_and_the_server_goes_on() {
         200
     );
     assert_eq!(server.get("/readyz").unwrap().status, 200);
+    let taken = server.metric("dragtraffic_memory_taken_bytes").unwrap();
+    assert!(taken > 110e6 && taken <= server.metric("dragtraffic_memory_budget_bytes").unwrap(), "{taken}");
     drop(slow);
     let free = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(50));

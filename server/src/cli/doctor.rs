@@ -73,7 +73,7 @@ pub fn run(args: DoctorArgs, common: &Common) -> Result<(), Failure> {
     };
     findings.push(match common.engine() {
         Ok(engine) => {
-            let names: Vec<&str> = engine.generator.weights().iter().map(|(name, _)| name.as_str()).collect();
+            let names: Vec<&str> = engine.generator.weights().keys().map(String::as_str).collect();
             finding("weights", FindingState::Ok, names.join(", "))
         }
         Err(failure) => finding("weights", FindingState::Fault, failure.message),

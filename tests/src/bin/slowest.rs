@@ -136,8 +136,10 @@ fn areas(n: &[u64]) -> Value {
     let mut scene = street(n[2] as usize, 91);
     let star = |_| {
         let corner = |k: u64| {
-            let (angle, r_m) =
-                (k as f64 / n[1] as f64 * std::f64::consts::TAU, if k % 2 == 0 { 30.0 } else { 20.0 });
+            let (angle, r_m) = (
+                k as f64 / n[1] as f64 * std::f64::consts::TAU,
+                if k.is_multiple_of(2) { 30.0 } else { 20.0 },
+            );
             [r_m * angle.cos(), r_m * angle.sin()]
         };
         json!((0..n[1]).map(corner).collect::<Vec<_>>())
@@ -166,8 +168,8 @@ fn file(n: &[u64]) -> Value {
 }
 
 fn crowd(n: &[u64]) -> Value {
-    // The largest reply that is allowed, where this would be larger.
-    let steps = n[3].min(500_000 / (n[0] * n[1] * n[2])).max(1);
+    // Below the largest reply that is allowed, where this would be larger.
+    let steps = n[3].min(400_000 / (n[0] * n[1] * n[2])).max(1);
     json!({"scene": street(n[0] as usize, 11), "agents": "all", "samples": n[1], "modes": n[2], "steps": steps})
 }
 
