@@ -57,7 +57,7 @@ const KINDS: &[Kind] = &[
     Kind {
         name: "all, many samples",
         path: "/v1/generate",
-        ranges: &[(1, 128), (1, 32), (1, 6), (5, 100)],
+        ranges: &[(1, 128), (1, 32), (1, 1), (5, 100)],
         body: crowd,
     },
     Kind {
@@ -168,7 +168,7 @@ fn file(n: &[u64]) -> Value {
 }
 
 fn crowd(n: &[u64]) -> Value {
-    // Below the largest reply that is allowed, where this would be larger.
+    // Below the largest reply that is allowed, where this would be larger. More modes leave room for fewer samples.
     let steps = n[3].min(400_000 / (n[0] * n[1] * n[2])).max(1);
     json!({"scene": street(n[0] as usize, 11), "agents": "all", "samples": n[1], "modes": n[2], "steps": steps})
 }
