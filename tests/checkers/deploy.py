@@ -178,11 +178,14 @@ check("users", user and {user[1], user[2]} == {str(security[n]) for n in ("runAs
 ports = {port["name"]: port["containerPort"] for port in container["ports"]}
 exposed = re.search(r"^EXPOSE (.*)$", dockerfile, re.MULTILINE)[1].split()
 check("ports", [str(ports["http"]), str(ports["probes"])] == exposed)
+mounted = next(volume for volume in pod["volumes"] if volume["name"] == "tokens")
+check("the pod's group reads the tokens", mounted["secret"]["defaultMode"] == 0o440)
+health = re.search(r'^HEALTHCHECK .* CMD \["/usr/local/bin/dragtraffic", "(\w+)"\]$', dockerfile, re.MULTILINE)
+check("the image asks for its health", health and run(program, health[1], "--help")[0] == 0)
 code, printed = run(program, "info", "limits")
 limits = json.loads(printed)
-kept = sum(limits[name]["value"] for name in ("body_bytes", "cached_map_bytes", "cached_scene_bytes", "run_bytes"))
-kept += limits["cached_scene_bytes"]["value"]
-check("memory of the pod", container["resources"]["limits"]["memory"] == "2Gi" and kept + 2**29 <= 2 * 2**30)
+most = limits["memory_bytes"]["value"]
+check("memory of the pod", container["resources"]["limits"]["memory"] == "2Gi" and most * 5 / 4 <= 2 * 2**30)
 check("memory of the container", server["mem_limit"] == "2g")
 claim = objects["StatefulSet"]["spec"]["volumeClaimTemplates"][0]["spec"]["resources"]["requests"]["storage"]
 check("disk of the pod", int(claim.removesuffix("Gi")) * 2**30 >= 2 * limits["store_bytes"]["value"])

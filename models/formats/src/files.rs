@@ -15,8 +15,85 @@ fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
 /// Removes what is half written: for a process that is about to end.
 pub fn abandon() {
     for path in under_way().drain(..) {
-        // A failure means that the file is gone already or cannot be removed; neither can be handled here.
-        let _ = fs::remove_file(path);
+        discard(&path);
+    }
+}
+
+/// A failure means that it is gone already or cannot be removed; neither can be handled here.
+fn discard(partial: &Path) {
+    let is_folder = fs::symlink_metadata(partial).is_ok_and(|found| found.is_dir());
+    let _ = if is_folder { fs::remove_dir_all(partial) } else { fs::remove_file(partial) };
+}
+
+/// A folder being filled. It appears under its name, with all its files on the disk, when [`WholeFolder::finish`]
+/// has succeeded.
+pub struct WholeFolder {
+    target: PathBuf,
+    partial: Option<PathBuf>,
+}
+
+impl WholeFolder {
+    /// Begins a folder where nothing is yet; folders above it that are missing are made.
+    ///
+    /// # Errors
+    /// `AlreadyExists` when something has the name, or another process fills it; when it cannot be made.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        if fs::symlink_metadata(path).is_ok() {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        let (above, name) = (path.parent(), path.file_name());
+        let name = name.ok_or(io::ErrorKind::InvalidInput)?.to_string_lossy();
+        if let Some(above) = above.filter(|above| !above.as_os_str().is_empty()) {
+            fs::create_dir_all(above)?;
+        }
+        let partial = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        fs::create_dir(&partial)?;
+        under_way().push(partial.clone());
+        Ok(Self { target: path.to_path_buf(), partial: Some(partial) })
+    }
+
+    /// Writes a new file of this name.
+    ///
+    /// # Errors
+    /// When there is one already, or it cannot be written.
+    pub fn add(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let Some(partial) = &self.partial else { return Ok(()) };
+        let mut file = File::create_new(partial.join(name))?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    }
+
+    /// Puts the folder in its place.
+    ///
+    /// # Errors
+    /// When something has taken the name in the meantime, or the disk refuses.
+    pub fn finish(mut self) -> io::Result<()> {
+        let Some(partial) = self.partial.clone() else { return Ok(()) };
+        if cfg!(unix) {
+            File::open(&partial)?.sync_all()?;
+        }
+        if fs::symlink_metadata(&self.target).is_ok() {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        fs::rename(&partial, &self.target)?;
+        self.forget();
+        let above = self.target.parent().filter(|above| !above.as_os_str().is_empty());
+        if cfg!(unix) { File::open(above.unwrap_or(Path::new(".")))?.sync_all() } else { Ok(()) }
+    }
+
+    fn forget(&mut self) {
+        if let Some(partial) = self.partial.take() {
+            under_way().retain(|path| *path != partial);
+        }
+    }
+}
+
+impl Drop for WholeFolder {
+    fn drop(&mut self) {
+        if let Some(partial) = &self.partial {
+            discard(partial);
+        }
+        self.forget();
     }
 }
 
@@ -99,7 +176,7 @@ impl Write for Whole {
 impl Drop for Whole {
     fn drop(&mut self) {
         if let Some(partial) = &self.partial {
-            let _ = fs::remove_file(partial);
+            discard(partial);
         }
         self.forget();
     }
@@ -139,6 +216,28 @@ mod tests {
         replace(Path::new("/dev/null"), b"new").unwrap();
         assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
         assert!(!would_replace(Path::new("/dev/null")) && would_replace(&file));
+    }
+
+    #[test]
+    fn a_folder_appears_when_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("above/scenes");
+        let names = || {
+            let names = fs::read_dir(folder.path().join("above")).unwrap();
+            names.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
+        };
+        let half = WholeFolder::create(&path).unwrap();
+        half.add("a", b"1").unwrap();
+        assert_eq!(half.add("a", b"2").unwrap_err().kind(), io::ErrorKind::AlreadyExists);
+        assert!(!path.exists());
+        drop(half);
+        assert!(names().is_empty());
+        let whole = WholeFolder::create(&path).unwrap();
+        whole.add("a", b"1").unwrap();
+        whole.finish().unwrap();
+        assert_eq!((names(), fs::read(path.join("a")).unwrap()), (vec!["scenes".to_owned()], b"1".to_vec()));
+        let refused = WholeFolder::create(&path).err().map(|error| error.kind());
+        assert_eq!(refused, Some(io::ErrorKind::AlreadyExists));
     }
 
     #[test]

@@ -1,22 +1,23 @@
 //! Values kept in memory by key. Where they are too many, the party with most of them drops the one that it has not
 //! used for longest.
 
+use super::memory::{Lender, Memory, MemoryShare};
 use super::party::Party;
 use lru::LruCache;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::hash::Hash;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// A cache of values that are cheap to clone, bounded by what they weigh together.
+/// A cache of values that are cheap to clone, bounded by what they weigh together, bytes.
 pub struct Cache<K: Hash + Eq, V> {
     inside: Mutex<CacheEntries<K, V>>,
-    most: usize,
+    memory: Arc<Memory>,
 }
 
 struct CacheEntries<K: Hash + Eq, V> {
     values: LruCache<K, CacheEntry<V>>,
-    weight: usize,
+    weight: MemoryShare,
     /// Part of the weight, by the party that brought it.
     shares: BTreeMap<Party, usize>,
 }
@@ -28,10 +29,10 @@ struct CacheEntry<V> {
 }
 
 impl<K: Hash + Eq, V: Clone> Cache<K, V> {
-    /// An empty cache with values of total weight `most` at most.
-    pub fn new(most: usize) -> Self {
-        let inside = CacheEntries { values: LruCache::unbounded(), weight: 0, shares: BTreeMap::new() };
-        Self { inside: Mutex::new(inside), most }
+    /// An empty cache whose values take at most this memory together.
+    pub fn new(memory: Arc<Memory>) -> Self {
+        let (values, weight) = (LruCache::unbounded(), memory.nothing());
+        Self { inside: Mutex::new(CacheEntries { values, weight, shares: BTreeMap::new() }), memory }
     }
 
     fn lock(&self) -> MutexGuard<'_, CacheEntries<K, V>> {
@@ -44,21 +45,26 @@ impl<K: Hash + Eq, V: Clone> Cache<K, V> {
         self.lock().values.get(key).map(|entry| entry.value.clone())
     }
 
-    /// Keeps a value that a party brought, in place of the key's older one; not one that is heavier than all may be
-    /// together.
+    /// Keeps a value that a party brought, in place of the key's older one; not one for which there is no room even
+    /// without all others.
     pub fn put(&self, key: K, value: V, weight: usize, party: Party)
     where
         K: Clone,
     {
         let mut inside = self.lock();
         inside.forget(&key);
-        if weight > self.most {
+        if weight as u64 > self.memory.most() {
             return;
         }
-        inside.weight += weight;
+        // The newest has part in the decision which party makes room.
         *inside.shares.entry(party).or_default() += weight;
+        while !inside.weight.grow_within(weight) {
+            if !inside.make_room() {
+                inside.take_from_share(party, weight);
+                return;
+            }
+        }
         inside.values.put(key, CacheEntry { value, weight, party });
-        while inside.weight > self.most && inside.make_room() {}
     }
 
     /// Drops the value of a key.
@@ -70,15 +76,19 @@ impl<K: Hash + Eq, V: Clone> Cache<K, V> {
 impl<K: Hash + Eq, V> CacheEntries<K, V> {
     fn forget(&mut self, key: &K) {
         if let Some(CacheEntry { weight, party, .. }) = self.values.pop(key) {
-            self.weight -= weight;
-            if let Some(share) = self.shares.get_mut(&party) {
-                *share -= weight;
-            }
-            self.shares.retain(|_, share| *share > 0);
+            self.weight.shrink(weight);
+            self.take_from_share(party, weight);
         }
     }
 
-    /// Drops the longest unused value of the party with the largest share; false where there is none.
+    fn take_from_share(&mut self, party: Party, weight: usize) {
+        if let Some(share) = self.shares.get_mut(&party) {
+            *share -= weight;
+        }
+        self.shares.retain(|_, share| *share > 0);
+    }
+
+    /// Drops the longest unused value of the party with the largest share; false where it has none.
     fn make_room(&mut self) -> bool
     where
         K: Clone,
@@ -91,6 +101,14 @@ impl<K: Hash + Eq, V> CacheEntries<K, V> {
     }
 }
 
+impl<K: Hash + Eq + Clone + Send, V: Clone + Send> Lender for Cache<K, V> {
+    fn give_back(&self, bytes: usize) {
+        let mut inside = self.lock();
+        let least = inside.weight.bytes().saturating_sub(bytes);
+        while inside.weight.bytes() > least && inside.make_room() {}
+    }
+}
+
 impl<K: Hash + Eq, V> fmt::Debug for Cache<K, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Cache")
@@ -99,6 +117,7 @@ impl<K: Hash + Eq, V> fmt::Debug for Cache<K, V> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::memory::Memory;
     use super::super::party::Party;
     use super::Cache;
 
@@ -106,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_longest_unused_makes_room() {
-        let cache = Cache::new(2);
+        let cache = Cache::new(Memory::new(2));
         cache.put("a", 1, 1, OWN);
         cache.put("b", 2, 1, OWN);
         assert_eq!(cache.get(&"a"), Some(1));
@@ -116,7 +135,7 @@ mod tests {
 
     #[test]
     fn what_is_heavy_takes_the_room_of_many() {
-        let cache = Cache::new(10);
+        let cache = Cache::new(Memory::new(10));
         (0..5).for_each(|key| cache.put(key, key, 2, OWN));
         cache.put(5, 5, 7, OWN);
         assert_eq!((0..6).filter(|key| cache.get(key).is_some()).collect::<Vec<_>>(), [4, 5]);
@@ -131,9 +150,25 @@ mod tests {
     }
 
     #[test]
+    fn a_short_budget_takes_from_the_cache() {
+        let whole = Memory::new(10);
+        let cache = std::sync::Arc::new(Cache::new(whole.part(8)));
+        let lender: std::sync::Weak<Cache<i32, ()>> = std::sync::Arc::downgrade(&cache);
+        whole.lend(lender);
+        (0..4).for_each(|key| cache.put(key, (), 2, OWN));
+        let held = whole.take(5).unwrap();
+        assert_eq!((0..4).filter(|key| cache.get(key).is_some()).count(), 1);
+        cache.put(9, (), 6, OWN);
+        assert_eq!((cache.get(&9), whole.taken()), (None, 5), "what is not there cannot be kept");
+        drop(held);
+        cache.put(9, (), 6, OWN);
+        assert_eq!((cache.get(&9), whole.taken()), (Some(()), 6));
+    }
+
+    #[test]
     fn who_brings_most_makes_room_for_the_others() {
         let party = |last: u8| Party::of(std::net::IpAddr::from([10, 0, 0, last]));
-        let cache = Cache::new(10);
+        let cache = Cache::new(Memory::new(10));
         cache.put(100, (), 3, party(1));
         (0..8).for_each(|key| cache.put(key, (), 2, party(2)));
         let kept =

@@ -1,5 +1,6 @@
 //! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
 
+use super::memory::OWN_BYTES;
 use api::limits::{Bound, CallLimits, MODES, SAMPLES};
 use scene::geometry::crowding;
 use std::collections::BTreeMap;
@@ -32,6 +33,7 @@ limits! {
     json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
     import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
     import_decoded_bytes = 256 << 20, "uploaded file after Content-Encoding is undone";
+    memory_bytes = 1_536 << 20, "memory of the server (--memory): less 256 MiB for the program itself, the budget of bodies, lines, imports, exports, long replies, runs, open scenes and maps; what does not fit is refused";
     body_bytes = 512 << 20, "all bodies that are in memory: uploads as they arrived, others after Content-Encoding is undone too, long replies of imports";
     uploads = 4, "files that are uploaded or imported at the same time";
     imports = 2, "files that are imported at the same time; one place is never taken by large ones";
@@ -74,6 +76,9 @@ limits! {
 /// Bounds without which nothing could be answered.
 const NEVER_ZERO: [&str; 7] =
     ["connections", "imports", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
+
+/// Least memory of a server: the program, and as much for one request of the usual size.
+const LEAST_MEMORY_BYTES: u64 = OWN_BYTES + (128 << 20);
 
 /// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
 fn fixed() -> [(&'static str, u64, &'static str); 16] {
@@ -123,11 +128,19 @@ impl Limits {
             let names: Vec<_> = Self::default().table().iter().map(|row| row.0).collect();
             format!("no limit is named \"{name}\"; there are {}", names.join(", "))
         })?;
+        if name == "memory_bytes" && number < LEAST_MEMORY_BYTES {
+            return Err(format!("limit {name}: {LEAST_MEMORY_BYTES} or more expected"));
+        }
         if number == 0 && NEVER_ZERO.contains(&name) {
             return Err(format!("limit {name}: 1 or more expected"));
         }
         *slot = number;
         Ok(())
+    }
+
+    /// Bytes that requests and what is kept for them may take together.
+    pub fn budget_bytes(&self) -> u64 {
+        self.memory_bytes.saturating_sub(OWN_BYTES)
     }
 
     /// Those of one call.
@@ -170,6 +183,7 @@ mod tests {
         assert!(limits.set("queue").is_err());
         assert!(limits.set("queue=-1").is_err());
         assert!(limits.set("connections=0").unwrap_err().contains("1 or more"));
+        assert!(limits.set("memory_bytes=1000").unwrap_err().contains("402653184 or more"));
         assert!(limits.set("tail=1").unwrap_err().contains("queue"));
     }
 }

@@ -79,6 +79,12 @@ pub fn store(scenes: u64, bytes: u64) {
     gauge!("dragtraffic_store_bytes").set(bytes as f64);
 }
 
+/// Bytes of the budget that requests and what is kept for them have taken, and all of it.
+pub fn memory(taken: u64, most: u64) {
+    gauge!("dragtraffic_memory_taken_bytes").set(taken as f64);
+    gauge!("dragtraffic_memory_budget_bytes").set(most as f64);
+}
+
 /// Facts about this build and its weights.
 pub fn identity(weights: impl Iterator<Item = (String, String)>) {
     gauge!("dragtraffic_build_info", "version" => env!("CARGO_PKG_VERSION")).set(1.0);

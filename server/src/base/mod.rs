@@ -6,6 +6,8 @@ pub mod clock;
 pub mod descriptors;
 pub mod id;
 pub mod limits;
+pub mod machine;
+pub mod memory;
 pub mod metrics;
 pub mod netconvert;
 pub mod party;

@@ -48,12 +48,12 @@ pub fn run(args: BackupArgs, common: &Common) -> Result<(), Failure> {
 }
 
 /// It is a file, or nothing yet.
-fn takes_a_file(path: &Path) -> bool {
+pub fn takes_a_file(path: &Path) -> bool {
     path != Path::new("-") && path.metadata().map_or(true, |found| found.is_file())
 }
 
 /// Are both paths the same file, or is one a side file of the database?
-fn same_file(db: &Path, output: &Path) -> bool {
+pub fn same_file(db: &Path, output: &Path) -> bool {
     let Ok(db) = db.canonicalize() else { return false };
     let output = output.canonicalize().unwrap_or_else(|_| {
         let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());

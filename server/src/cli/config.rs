@@ -3,6 +3,9 @@
 use clap::{Arg, ArgMatches, Command};
 use std::path::Path;
 
+/// Commands with the options of the server.
+pub const COMMANDS: [&str; 2] = ["serve", "doctor"];
+
 /// The command line, where its options from the file are the defaults; `None` where no file is named.
 ///
 /// # Errors
@@ -10,7 +13,7 @@ use std::path::Path;
 pub fn with_file(command: Command, matches: &ArgMatches) -> Result<Option<Command>, String> {
     let own = match matches.subcommand() {
         None => matches,
-        Some(("serve", own)) => own,
+        Some((name, own)) if COMMANDS.contains(&name) => own,
         Some(_) => return Ok(None),
     };
     let Some(path) = own.get_one::<std::path::PathBuf>("config") else { return Ok(None) };
@@ -27,7 +30,10 @@ pub fn with_file(command: Command, matches: &ArgMatches) -> Result<Option<Comman
             None => arg,
         })
     };
-    Ok(Some(filled(command.mut_subcommand("serve", filled))))
+    // A command that is asked for by itself has no others below it.
+    let named = |name: &&str| command.find_subcommand(name).is_some();
+    let named: Vec<&str> = COMMANDS.into_iter().filter(named).collect();
+    Ok(Some(filled(named.into_iter().fold(command, |command, name| command.mut_subcommand(name, filled)))))
 }
 
 fn with_default(arg: Arg, values: &[String]) -> Arg {

@@ -2,13 +2,14 @@
 
 use super::serve::ServeArgs;
 use super::{Exit, Failure};
+use crate::base::base_path;
 use crate::http::stream::Listener;
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 use tokio::net::TcpListener;
 
 /// Before the path of a unix socket.
-const UNIX: &str = "unix:";
+pub const UNIX: &str = "unix:";
 
 /// What a server listens on.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,6 +44,14 @@ impl ServerEndpoint {
             return Err(wrong("other machines could reach this server; give --token-file as well"));
         }
         Ok(Self::Address(SocketAddr::new(ip, args.port)))
+    }
+
+    /// For people.
+    pub fn shown(&self) -> String {
+        match self {
+            Self::Address(address) => format!("http://{address}{}", base_path::published("/")),
+            Self::File(path, mode) => format!("{UNIX}{} (mode {mode:o})", path.display()),
+        }
     }
 
     /// The listener, and the address that it has.

@@ -19,9 +19,12 @@ mod batch;
 mod common;
 mod config;
 mod convert;
+mod doctor;
 mod document;
 mod exit;
+mod export_all;
 mod generate;
+mod health;
 mod inputs;
 mod interrupt;
 #[cfg(feature = "lab")]
@@ -34,6 +37,7 @@ mod place;
 mod plan;
 mod pointers;
 mod progress;
+mod restore;
 mod score;
 mod serve;
 mod shell;
@@ -94,6 +98,18 @@ enum Command {
     /// Copy the saved scenes of a server, even while it runs.
     #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
     Backup(backup::BackupArgs),
+    /// Put a copy that backup made in the place of the store.
+    #[command(after_help = examples!("dragtraffic restore scenes-monday.sqlite --force", "dragtraffic restore copies/scenes.sqlite --db scenes.sqlite"))]
+    Restore(restore::RestoreArgs),
+    /// Write every saved scene of a store as a file.
+    #[command(after_help = examples!("dragtraffic export-all -o scenes/", "dragtraffic export-all scenes.sqlite -o scenes/ --format openscenario"))]
+    ExportAll(export_all::ExportAllArgs),
+    /// Ask a running server whether it works: exit code 0 or 1.
+    #[command(after_help = examples!("dragtraffic health", "dragtraffic health http://127.0.0.1:9090 --timeout 2"))]
+    Health(health::HealthArgs),
+    /// Look for what this machine lacks to serve.
+    #[command(after_help = examples!("dragtraffic doctor", "dragtraffic doctor --config server.toml --json"))]
+    Doctor(Box<doctor::DoctorArgs>),
     /// Print version, weights, limits and formats as JSON.
     #[command(after_help = examples!("dragtraffic info formats --markdown", "dragtraffic info weights --weights DIR"))]
     Info(document::InfoArgs),
@@ -180,8 +196,8 @@ fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     for flag in server.get_arguments() {
         if matches.value_source(flag.get_id().as_str()) == Some(ValueSource::CommandLine) {
             let name = flag.get_long().unwrap_or_default();
-            let message = if command == "serve" {
-                format!("--{name} belongs behind the command: dragtraffic serve --{name}")
+            let message = if config::COMMANDS.contains(&command) {
+                format!("--{name} belongs behind the command: dragtraffic {command} --{name}")
             } else {
                 format!("--{name} is a flag of serve and means nothing to {command}")
             };
@@ -248,6 +264,10 @@ impl Command {
         match self {
             Self::Serve(args) => serve::run(args, common),
             Self::Backup(args) => backup::run(args, common),
+            Self::Restore(args) => restore::run(args, common),
+            Self::ExportAll(args) => export_all::run(args, common),
+            Self::Health(args) => health::run(args, common),
+            Self::Doctor(args) => doctor::run(*args, common),
             Self::Generate(args) => generate::run(*args, common),
             Self::Batch(args) => batch::run(args, common),
             Self::Map(args) => map::run(args, common),

@@ -66,17 +66,13 @@ impl ServePlan {
 
     /// The plan for people, a fact a line.
     pub fn lines(&self, args: &ServeArgs) -> String {
-        let place = match &self.endpoint {
-            ServerEndpoint::Address(address) => format!("http://{address}{}", base_path::published("/")),
-            ServerEndpoint::File(path, mode) => format!("unix:{} (mode {mode:o})", path.display()),
-        };
         let access = match (&self.tokens, &args.token_file) {
             (Some(tokens), Some(file)) => format!("{} from {}", tokens.summary(), file.display()),
             _ => "none: every process of this user and root".to_owned(),
         };
         let store = if self.db.exists() { "exists" } else { "will be created" };
         let mut lines = vec![
-            ("listens on", place),
+            ("listens on", self.endpoint.shown()),
             ("tokens", access),
             ("store", format!("{} ({store})", self.db.display())),
         ];
@@ -98,10 +94,24 @@ fn limits(args: &ServeArgs) -> Result<Limits, Failure> {
     for assignment in &args.limit {
         limits.set(assignment).map_err(Failure::usage)?;
     }
+    if let Some(text) = &args.memory {
+        let wrong = |reason: String| Failure::usage(format!("--memory {text}: {reason}"));
+        let bytes = bytes_of(text).ok_or_else(|| wrong("a size such as 512m or 2g is expected".into()))?;
+        limits.set(&format!("memory_bytes={bytes}")).map_err(wrong)?;
+    }
     if let Some(threads) = args.threads {
         limits.running = threads;
     }
     Ok(limits)
+}
+
+/// Bytes of a size: a whole number, with k, m or g for powers of 1024.
+fn bytes_of(text: &str) -> Option<u64> {
+    let units = [('k', 10), ('m', 20), ('g', 30)];
+    let text = text.to_ascii_lowercase();
+    let unit = units.iter().find_map(|(letter, power)| Some((text.strip_suffix(*letter)?, *power)));
+    let (number, power) = unit.unwrap_or((&text, 0));
+    number.parse::<u64>().ok()?.checked_mul(1 << power)
 }
 
 fn tokens(path: &std::path::Path) -> Result<Arc<TokenList>, Failure> {

@@ -2,8 +2,9 @@
 
 use super::listen::ServerEndpoint;
 use super::plan::ServePlan;
-use super::{Common, Exit, Failure, output};
+use super::{Common, Exit, Failure, config, output};
 use crate::app::{App, AppParts};
+use crate::base::memory::Memory;
 use crate::base::{base_path, descriptors, metrics};
 use crate::http::audit::AuditLog;
 use crate::http::body::Room;
@@ -16,7 +17,7 @@ use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
 use crate::work::{self, Pool, PoolLane};
 use api::Operations;
-use clap::Args;
+use clap::{Args, FromArgMatches};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -59,7 +60,7 @@ pub struct ServeArgs {
     #[arg(long, env = "DRAGTRAFFIC_ALLOW_ORIGIN", value_name = "ORIGIN", value_delimiter = ',')]
     allow_origin: Vec<String>,
     /// File with a token of at least 32 characters that callers must send, or with lines NAME RIGHT TOKEN (read, edit,
-    /// admin). Its mode must be 0600. A changed file is read again.
+    /// admin). Its mode is at most 0600, or 0640 for a file of root. A changed file is read again.
     #[arg(long, env = "DRAGTRAFFIC_TOKEN_FILE", value_name = "FILE")]
     pub(super) token_file: Option<PathBuf>,
     /// Generations computed in parallel. Default: half the cores.
@@ -68,6 +69,9 @@ pub struct ServeArgs {
     /// Change a limit of /v1/info, such as --limit queue=4.
     #[arg(long, env = "DRAGTRAFFIC_LIMIT", value_name = "NAME=N", value_delimiter = ',')]
     pub(super) limit: Vec<String>,
+    /// Memory of the server, such as 512m or 2g (limit memory_bytes): requests that do not fit are refused.
+    #[arg(long, env = "DRAGTRAFFIC_MEMORY", value_name = "SIZE")]
+    pub(super) memory: Option<String>,
     /// Refuse imports whose licence allows non-commercial use only.
     #[arg(long, env = "DRAGTRAFFIC_REFUSE_NC")]
     refuse_nc: bool,
@@ -90,6 +94,22 @@ pub struct ServeArgs {
     /// Open the editor in the browser.
     #[arg(long, env = "DRAGTRAFFIC_OPEN")]
     open: bool,
+}
+
+impl ServeArgs {
+    /// The options that variables and the configuration file set.
+    ///
+    /// # Errors
+    /// Exit 2.
+    pub(super) fn of_environment() -> Result<Self, Failure> {
+        let refused = |error: clap::Error| Failure::usage(error.to_string());
+        let command = Self::augment_args(clap::Command::new("serve"));
+        let mut matches = command.clone().try_get_matches_from(["serve"]).map_err(refused)?;
+        if let Some(command) = config::with_file(command, &matches).map_err(Failure::usage)? {
+            matches = command.try_get_matches_from(["serve"]).map_err(refused)?;
+        }
+        Self::from_arg_matches(&matches).map_err(refused)
+    }
 }
 
 /// Serves until stopped.
@@ -140,19 +160,20 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         operations.generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())),
     );
     let pool = Pool::start(&limits)?;
-    let cached_bytes = limits.cached_scene_bytes as usize;
-    let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_bytes)?;
+    let memory = Memory::new(limits.budget_bytes());
+    let of_library = memory.part(limits.cached_scene_bytes);
+    let library = Library::start(args.data.as_deref(), Arc::clone(&pool), of_library)?;
     let audit = args.audit.as_deref().map(|target| AuditLog::open(target, args.audit_bytes));
     let audit =
         audit.transpose().map_err(|error| Failure::new(Exit::Failure, format!("--audit: {error}")))?;
     let app = App::new(AppParts {
         gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits), audit: audit.map(Arc::new) },
-        catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
-        room: Arc::new(Room::new(&limits)),
+        catalog: Catalog::new(store, library, Arc::clone(&pool), &limits, &memory),
+        room: Arc::new(Room::new(&limits, &memory)),
         pool,
         patient: operations.beside(cores - 1),
         operations,
-        runs: RunStore::new(&limits),
+        runs: RunStore::new(&limits, &memory),
         warm: AtomicBool::new(false),
         metrics: handle,
         refuse_nc: args.refuse_nc,
@@ -179,7 +200,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         tracing::info!("stopping");
         pool.close();
     };
-    net::serve(listener, router(&app), proxies, &limits, stop, || pool.stop()).await;
+    net::serve(listener, router(&app), proxies, (&limits, &memory), stop, || pool.stop()).await;
     app.pool.stop();
     if let ServerEndpoint::File(path, _) = &endpoint {
         let _ = std::fs::remove_file(path);

@@ -5,6 +5,7 @@
 
 use super::upload::Upload;
 use crate::base::limits::Limits;
+use crate::base::memory::{Memory, MemoryShare};
 use crate::base::problem::{ENCODINGS, Refusal};
 use crate::work::{Pool, PoolLane};
 use api::{Code, Problem};
@@ -41,7 +42,10 @@ pub struct Reading {
 /// Room for the bodies of all requests, in memory, among the uploads and among the imports.
 #[derive(Debug)]
 pub struct Room {
-    bytes: Arc<Semaphore>,
+    /// All that requests take.
+    pub memory: Arc<Memory>,
+    /// Part of it for bodies.
+    bytes: Arc<Memory>,
     uploads: Arc<Semaphore>,
     imports: Arc<Semaphore>,
     /// Those of the imports that take long: small ones never wait for all of these.
@@ -49,12 +53,13 @@ pub struct Room {
 }
 
 impl Room {
-    /// Room for as many bodies as the limits allow.
-    pub fn new(limits: &Limits) -> Self {
+    /// Room for as many bodies as the limits allow, within the budget of all requests.
+    pub fn new(limits: &Limits, memory: &Arc<Memory>) -> Self {
         let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
         let places = |number: u64| Arc::new(Semaphore::new(of(number)));
         Self {
-            bytes: places(limits.body_bytes),
+            memory: Arc::clone(memory),
+            bytes: memory.part(limits.body_bytes),
             uploads: places(limits.uploads),
             imports: places(limits.imports),
             long_imports: places(limits.imports.saturating_sub(1).max(1)),
@@ -86,7 +91,7 @@ impl Room {
     /// Room for bytes that are kept.
     ///
     /// # Errors
-    /// `busy` when they do not fit.
+    /// As [`Self::grow`].
     pub fn keep(&self, bytes: usize) -> Result<Kept, Problem> {
         let mut kept = Kept::default();
         self.grow(&mut kept.room, bytes)?;
@@ -96,24 +101,31 @@ impl Room {
     /// Adds so many bytes to what is held.
     ///
     /// # Errors
-    /// `busy` when they do not fit.
-    fn grow(&self, held: &mut Option<OwnedSemaphorePermit>, bytes: usize) -> Result<(), Problem> {
-        let full =
-            |_| Problem::new(Code::Busy, "The bodies of other requests fill the memory.").retry_after(5);
-        let count = u32::try_from(bytes).unwrap_or(u32::MAX);
-        let more = Arc::clone(&self.bytes).try_acquire_many_owned(count).map_err(full)?;
-        match held {
-            Some(held) => held.merge(more),
-            None => *held = Some(more),
+    /// `body-too-large` where they never fit, `busy` where they do not fit now.
+    fn grow(&self, held: &mut Option<MemoryShare>, bytes: usize) -> Result<(), Problem> {
+        let held = held.get_or_insert_with(|| self.bytes.nothing());
+        let most = self.bytes.most();
+        if (held.bytes() + bytes) as u64 > most {
+            return Err(too_large(most));
         }
-        Ok(())
+        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(5);
+        held.grow(bytes).then_some(()).ok_or_else(full)
+    }
+
+    /// Room for work that takes up to so many bytes beside its body, for as long as the result is kept.
+    ///
+    /// # Errors
+    /// `busy` where they do not fit now.
+    pub fn work(&self, bytes: u64) -> Result<MemoryShare, Problem> {
+        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
+        usize::try_from(bytes).ok().and_then(|bytes| self.memory.take(bytes)).ok_or_else(full)
     }
 }
 
 /// Room that is taken until this is dropped.
 #[derive(Debug, Default)]
 pub struct Kept {
-    room: Option<OwnedSemaphorePermit>,
+    room: Option<MemoryShare>,
     /// Among the uploads.
     place: Option<OwnedSemaphorePermit>,
 }
@@ -472,6 +484,7 @@ fn unpack(encoded: &Blocks, encoding: Encoding, bounds: Bounds, room: &Room) -> 
 mod tests {
     use super::{Blocks, Bounds, Encoding, Held, Room};
     use crate::base::limits::Limits;
+    use crate::base::memory::Memory;
     use api::Problem;
     use std::io::Write;
     use std::time::Duration;
@@ -504,8 +517,12 @@ mod tests {
         assert_eq!(blocks.joined(), bytes);
     }
 
+    fn room(limits: &Limits) -> Room {
+        Room::new(limits, &Memory::new(limits.budget_bytes()))
+    }
+
     fn code(encoded: &[u8], encoding: Encoding) -> &'static str {
-        let room = Room::new(&Limits::default());
+        let room = room(&Limits::default());
         unpack(encoded, encoding, BOUNDS, &room).map_or_else(|p| p.code.name(), |_| "ok")
     }
 
@@ -520,7 +537,7 @@ mod tests {
         );
         let big: Vec<u8> = (0..9u32 << 20).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
         let patient = Bounds { ratio: u64::MAX, ..BOUNDS };
-        let room = Room::new(&Limits::default());
+        let room = room(&Limits::default());
         let encoded = zstd::encode_all(&big[..], 1).unwrap();
         let refused = unpack(&encoded, Encoding::Zstd, patient, &room);
         assert_eq!(refused.unwrap_err().code.name(), "decoded-too-large");
@@ -529,13 +546,13 @@ mod tests {
     #[test]
     fn skippable_frames_decode_to_nothing() {
         let frame = [0x50, 0x2a, 0x4d, 0x18, 4, 0, 0, 0, 1, 2, 3, 4];
-        let room = Room::new(&Limits::default());
+        let room = room(&Limits::default());
         assert_eq!(unpack(&frame, Encoding::Zstd, BOUNDS, &room).unwrap().bytes().len(), 0);
     }
 
     #[test]
     fn bodies_share_the_room() {
-        let room = Room::new(&Limits { body_bytes: 100 << 10, uploads: 1, ..Limits::default() });
+        let room = room(&Limits { body_bytes: 100 << 10, uploads: 1, ..Limits::default() });
         let file: Vec<u8> = (0..60u32 << 10).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
         let encoded = gzip(&file);
         let unpacked = || unpack(&encoded, Encoding::Gzip, BOUNDS, &room);
@@ -544,6 +561,10 @@ mod tests {
         assert_eq!((refused.code.name(), refused.members.retry_after_s), ("busy", Some(5)));
         drop(first);
         assert_eq!(unpacked().unwrap().bytes().len(), file.len());
+        let others = room.work(room.memory.most() - (50 << 10)).unwrap();
+        assert_eq!(unpacked().unwrap_err().code.name(), "busy");
+        drop(others);
+        assert_eq!(room.keep(200 << 10).unwrap_err().code.name(), "body-too-large");
         let place = room.upload().unwrap();
         assert_eq!(room.upload().unwrap_err().code.name(), "busy");
         drop(place);

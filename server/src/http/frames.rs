@@ -2,26 +2,31 @@
 //!
 //! The WebSocket itself reports whole messages alone, so that a client could hold one open for ever.
 
+use crate::base::memory::{Memory, MemoryShare};
 use std::io;
 use std::pin::Pin;
+use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::Sleep;
 
-/// A stream that fails with `TimedOut` where a message takes longer than `patience` from its first byte to its last.
+/// A stream that fails with `TimedOut` where a message takes longer than `patience` from its first byte to its last, and
+/// with `OutOfMemory` where there is no memory for it.
 pub struct WholeMessages<S> {
     stream: S,
     patience: Duration,
     frames: FrameReader,
     /// End of the patience with the message that is arriving.
     limit: Option<Pin<Box<Sleep>>>,
+    /// Of the message that is arriving.
+    memory: MemoryShare,
 }
 
 impl<S> WholeMessages<S> {
     /// Reads from a stream that begins with a frame.
-    pub fn new(stream: S, patience: Duration) -> Self {
-        Self { stream, patience, frames: FrameReader::default(), limit: None }
+    pub fn new(stream: S, patience: Duration, memory: &Arc<Memory>) -> Self {
+        Self { stream, patience, frames: FrameReader::default(), limit: None, memory: memory.nothing() }
     }
 }
 
@@ -91,11 +96,20 @@ impl<S: AsyncRead + Unpin> AsyncRead for WholeMessages<S> {
         let polled = Pin::new(&mut self.stream).poll_read(context, buffer);
         if let Some(bytes) = buffer.filled().get(before..).filter(|bytes| !bytes.is_empty()) {
             let ended = self.frames.read(bytes);
+            let count = bytes.len();
             if ended {
                 self.limit = None;
+                let held = self.memory.bytes();
+                self.memory.shrink(held);
             }
-            if self.limit.is_none() && !self.frames.is_between_messages() {
-                self.limit = Some(Box::pin(tokio::time::sleep(self.patience)));
+            if !self.frames.is_between_messages() {
+                if self.limit.is_none() {
+                    self.limit = Some(Box::pin(tokio::time::sleep(self.patience)));
+                }
+                if !self.memory.grow(count) {
+                    let detail = "Other requests fill the memory.";
+                    return Poll::Ready(Err(io::Error::new(io::ErrorKind::OutOfMemory, detail)));
+                }
             }
         }
         if let Some(limit) = &mut self.limit
@@ -130,6 +144,7 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for WholeMessages<S> {
 #[allow(clippy::unwrap_used, reason = "a failed test panics")]
 mod tests {
     use super::{FrameReader, WholeMessages};
+    use crate::base::memory::Memory;
     use std::time::Duration;
     use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
@@ -168,7 +183,7 @@ mod tests {
     #[tokio::test]
     async fn a_message_that_dribbles_is_cut_and_a_silent_line_is_not() {
         let (mut client, server) = tokio::io::duplex(1 << 10);
-        let mut server = WholeMessages::new(server, Duration::from_millis(40));
+        let mut server = WholeMessages::new(server, Duration::from_millis(40), &Memory::new(1 << 20));
         let mut buffer = [0; 64];
         let whole = frame(0x81, b"{}");
         client.write_all(&whole).await.unwrap();

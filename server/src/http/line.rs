@@ -8,6 +8,7 @@ use super::frames::WholeMessages;
 use super::net::Carrier;
 use crate::base::base_path;
 use crate::base::limits::Limits;
+use crate::base::memory::MemoryShare;
 use crate::base::problem::{ProblemDoc, Refusal};
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
@@ -149,7 +150,7 @@ pub fn open(mut request: Request<Body>, carrier: Carrier, path: String) -> Optio
     tokio::spawn(async move {
         let Ok(stream) = upgrade.await else { return };
         let patience = Duration::from_secs(line.carrier.limits.body_read_s.max(1));
-        let stream = WholeMessages::new(TokioIo::new(stream), patience);
+        let stream = WholeMessages::new(TokioIo::new(stream), patience, &line.carrier.memory);
         line.serve(WebSocketStream::from_raw_socket(stream, Role::Server, Some(config)).await).await;
     });
     let upgraded = [
@@ -200,20 +201,20 @@ struct Questions {
     /// Requests that have not sent their last piece.
     running: HashMap<u64, AbortHandle>,
     /// Requests held back, with their bodies.
-    waiting: VecDeque<(u64, String)>,
+    waiting: VecDeque<(u64, String, MemoryShare)>,
     /// The server ends: no request starts any more.
     closing: bool,
 }
 
 impl Questions {
     fn knows(&self, number: u64) -> bool {
-        self.running.contains_key(&number) || self.waiting.iter().any(|(waiting, _)| *waiting == number)
+        self.running.contains_key(&number) || self.waiting.iter().any(|(waiting, ..)| *waiting == number)
     }
 
     /// Ends a request; true if its last piece was still to come.
     fn end(&mut self, number: u64) -> bool {
         let before = self.waiting.len();
-        self.waiting.retain(|(waiting, _)| *waiting != number);
+        self.waiting.retain(|(waiting, ..)| *waiting != number);
         let task = self.running.remove(&number);
         if let Some(task) = &task {
             task.abort();
@@ -238,7 +239,7 @@ impl Questions {
 
     /// Whether a request of so many bytes may wait: together they take at most twice one message's memory.
     fn may_wait(&self, limits: &Limits) -> bool {
-        let bytes: usize = self.waiting.iter().map(|(_, body)| body.len()).sum();
+        let bytes: usize = self.waiting.iter().map(|(_, body, _)| body.len()).sum();
         self.waiting.len() < WAITING && bytes < limits.line_bytes as usize
     }
 }
@@ -340,7 +341,7 @@ impl Line {
                 () = self.carrier.closes(), if !questions.closing => {
                     questions.closing = true;
                     let waiting = std::mem::take(&mut questions.waiting);
-                    let closing = waiting.into_iter().flat_map(|(number, _)| ServerMessage::closing(number));
+                    let closing = waiting.into_iter().flat_map(|(number, ..)| ServerMessage::closing(number));
                     replies.extend(closing.map(text));
                     continue;
                 }
@@ -404,13 +405,23 @@ impl Line {
                 }
                 if questions.closing {
                     Some(ServerMessage::closing(number))
-                } else if questions.may_wait(&self.carrier.limits) {
-                    questions.waiting.push_back((number, body.get().to_owned()));
-                    self.start_waiting(questions, pieces);
-                    None
                 } else {
-                    let problem = Problem::new(Code::Busy, "Too many questions wait on this line.");
-                    Some(ServerMessage::failed(number, problem.retry_after(RETRY_AFTER_S)))
+                    let may_wait = questions.may_wait(&self.carrier.limits);
+                    match may_wait.then(|| self.carrier.memory.take(body.get().len())) {
+                        Some(Some(memory)) => {
+                            questions.waiting.push_back((number, body.get().to_owned(), memory));
+                            self.start_waiting(questions, pieces);
+                            None
+                        }
+                        refused => {
+                            let detail = match refused {
+                                None => "Too many questions wait on this line.",
+                                Some(_) => "Other requests fill the memory.",
+                            };
+                            let problem = Problem::new(Code::Busy, detail).retry_after(RETRY_AFTER_S);
+                            Some(ServerMessage::failed(number, problem))
+                        }
+                    }
                 }
             }
             ClientMessage { ask: None, body: None, end: Some(number) } => {
@@ -425,7 +436,7 @@ impl Line {
     /// Starts waiting requests, as many as may run at the same time.
     fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<ReplyPiece>) {
         while (questions.tasks.len() as u64) < self.carrier.limits.line_questions.max(1)
-            && let Some((number, body)) = questions.waiting.pop_front()
+            && let Some((number, body, _)) = questions.waiting.pop_front()
         {
             let answer = answer(self.carrier.clone(), self.request(body), number, pieces.clone());
             questions.running.insert(number, questions.tasks.spawn(answer));
@@ -497,6 +508,7 @@ fn close_code(error: &Error) -> CloseCode {
         Error::Capacity(_) => CloseCode::Size,
         Error::Utf8(_) => CloseCode::Invalid,
         Error::Io(error) if error.kind() == std::io::ErrorKind::TimedOut => CloseCode::Policy,
+        Error::Io(error) if error.kind() == std::io::ErrorKind::OutOfMemory => CloseCode::Again,
         _ => CloseCode::Protocol,
     }
 }

@@ -11,6 +11,7 @@ mod frames;
 pub mod guard;
 pub mod idempotency;
 pub mod line;
+pub mod long_replies;
 pub mod net;
 pub mod observe;
 mod owner;

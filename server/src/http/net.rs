@@ -12,6 +12,7 @@ use super::wire::{self, Socket, Wire};
 use super::{observe, owner};
 use crate::base::base_path;
 use crate::base::limits::Limits;
+use crate::base::memory::Memory;
 use crate::base::party::Party;
 use api::{Code, Problem};
 use axum::Router;
@@ -223,6 +224,8 @@ pub struct Carrier {
     closing: watch::Receiver<bool>,
     /// Bounds.
     pub limits: Arc<Limits>,
+    /// What messages of lines take from while they arrive and wait.
+    pub memory: Arc<Memory>,
     /// Longest time for which a reader may leave something waiting.
     pub patience: Duration,
     /// The connection is in use until all of these are gone.
@@ -254,7 +257,7 @@ pub async fn serve(
     listener: Listener,
     router: Router,
     proxies: TrustedProxies,
-    limits: &Limits,
+    (limits, memory): (&Limits, &Arc<Memory>),
     stop: impl Future<Output = ()>,
     on_stop: impl FnOnce(),
 ) {
@@ -264,7 +267,7 @@ pub async fn serve(
     // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
     let mut look = tokio::time::interval(LOOK);
-    let (limits, proxies) = (Arc::new(limits.clone()), Arc::new(proxies));
+    let (bounds, proxies) = ((Arc::new(limits.clone()), Arc::clone(memory)), Arc::new(proxies));
     let mut stop = pin!(stop);
     loop {
         let accepted = tokio::select! {
@@ -302,9 +305,9 @@ pub async fn serve(
             }
         };
         let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
-        let (limits, proxies) = (Arc::clone(&limits), Arc::clone(&proxies));
+        let (bounds, proxies) = (bounds.clone(), Arc::clone(&proxies));
         tokio::spawn(async move {
-            connection(router, &place, &proxies, closed, &limits, stalled).await;
+            connection(router, &place, &proxies, closed, &bounds, stalled).await;
             table.leave(place.number);
         });
     }
@@ -344,7 +347,7 @@ async fn connection(
     place: &Arc<ConnectionEntry>,
     proxies: &Arc<TrustedProxies>,
     mut closed: watch::Receiver<bool>,
-    limits: &Arc<Limits>,
+    (limits, memory): &(Arc<Limits>, Arc<Memory>),
     patience: Duration,
 ) {
     let socket = &place.socket;
@@ -359,6 +362,7 @@ async fn connection(
         place: Arc::clone(place),
         closing: closed.clone(),
         limits: Arc::clone(limits),
+        memory: Arc::clone(memory),
         patience,
         _in_use: held,
     };

@@ -185,13 +185,27 @@ fn read(path: &Path) -> Result<Vec<NamedToken>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     #[cfg(unix)]
     {
-        use std::os::unix::fs::PermissionsExt;
+        use std::os::unix::fs::MetadataExt;
         let metadata = std::fs::metadata(path).map_err(|error| error.to_string())?;
-        if metadata.permissions().mode() & 0o077 != 0 {
-            return Err("others may read it; use chmod 600".into());
-        }
+        check_mode(metadata.mode(), metadata.uid())?;
     }
     parse(&text)
+}
+
+/// Refuses a file that others than its owner may read. A file of root may be read by its group too: root chose the
+/// group, as Kubernetes does for a volume (fsGroup). PostgreSQL has the same rule for the keys of its servers.
+#[cfg(unix)]
+fn check_mode(mode: u32, owner: u32) -> Result<(), String> {
+    let (most, advice) = if owner == 0 { (0o640, "chmod 640") } else { (0o600, "chmod 600") };
+    let beyond = mode & 0o077 & !most;
+    if beyond == 0 {
+        return Ok(());
+    }
+    let who = if beyond & 0o007 == 0 { "its group" } else { "others" };
+    Err(format!(
+        "mode {:o}: {who} may use it; {advice} is the most for its owner (user {owner})",
+        mode & 0o777
+    ))
 }
 
 fn parse(text: &str) -> Result<Vec<NamedToken>, String> {
@@ -244,6 +258,23 @@ mod tests {
         ] {
             let found = parse(&text).unwrap_err();
             assert!(found.starts_with(reason), "{found}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_group_may_read_a_file_of_root_alone() {
+        for (owner, modes) in [(0, &[0o600, 0o400, 0o640, 0o440][..]), (65_532, &[0o600, 0o400, 0o700])] {
+            modes.iter().for_each(|mode| assert_eq!(check_mode(0o100_000 | mode, owner), Ok(()), "{mode:o}"));
+        }
+        for (owner, mode, reason) in [
+            (65_532, 0o440, "mode 440: its group may use it; chmod 600"),
+            (65_532, 0o604, "mode 604: others may use it; chmod 600"),
+            (0, 0o660, "mode 660: its group may use it; chmod 640"),
+            (0, 0o644, "mode 644: others may use it; chmod 640"),
+        ] {
+            let refused = check_mode(0o100_000 | mode, owner).unwrap_err();
+            assert!(refused.starts_with(reason), "{refused}");
         }
     }
 

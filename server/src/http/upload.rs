@@ -1,16 +1,18 @@
 //! Uploaded files: kept as they came, and unpacked while they are read, once more for each reading. Not even the
 //! parts of a form are put together.
 
-use super::body::{Blocks, Bounds, Encoding, Kept, Unfolding};
+use super::body::{Blocks, Bounds, Encoding, Kept, Room, Unfolding};
+use crate::base::memory::MemoryShare;
 use api::{Code, Problem};
 use axum::body::Bytes;
 use formats::Source;
+use formats::limits::memory_for;
 use futures_util::stream;
 use multer::{Field, Multipart};
 use std::future::Future;
 use std::io::{self, Read};
 use std::pin::pin;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
@@ -27,13 +29,31 @@ pub struct Upload {
     fault: Mutex<Option<Problem>>,
     /// One reader has reached its end.
     read: AtomicBool,
+    /// Length that readers go by for the memory that they may take.
+    granted: AtomicU64,
     _kept: Kept,
 }
 
 impl Upload {
     pub(super) fn new(encoded: Blocks, encoding: Encoding, bounds: Bounds, kept: Kept) -> Self {
-        let (fault, read) = (Mutex::default(), AtomicBool::new(false));
-        Self { encoded, encoding, bounds, fault, read, _kept: kept }
+        let (fault, read, granted) = (Mutex::default(), AtomicBool::new(false), encoded.len().into());
+        Self { encoded, encoding, bounds, fault, read, granted, _kept: kept }
+    }
+
+    /// Takes memory for its reading, at most half of all that there is: with less than a file of this size may need,
+    /// readers refuse what does not fit.
+    ///
+    /// # Errors
+    /// `busy` where it is not free.
+    pub fn reserve(&self, room: &Room) -> Result<MemoryShare, Problem> {
+        let length = self.encoded.len();
+        let (own, shared) = (memory_for(length) - length, room.memory.most() / 2);
+        if own > shared {
+            // The inverse of `memory_for`.
+            let granted = (shared + length).saturating_sub(memory_for(0)) / (memory_for(1) - memory_for(0));
+            self.granted.store(granted.min(length), Ordering::Relaxed);
+        }
+        room.work(own.min(shared))
     }
 
     /// Bytes that are to be expected once it is unpacked, a guess for the time that it takes.
@@ -88,7 +108,7 @@ impl Source for Upload {
     }
 
     fn encoded_len(&self) -> u64 {
-        self.encoded.len()
+        self.granted.load(Ordering::Relaxed)
     }
 }
 

@@ -89,8 +89,14 @@ async fn export(
     let name = scene.name.clone();
     let format = import::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
     let map = scene.map.clone();
-    let most = Some(FILE_FACTOR * bytes as u64 + FILE_BYTES);
-    let write = move |_: &_| export::write(&scene, &params.format, params.sample, params.mode, most);
+    let most = FILE_FACTOR * bytes as u64 + FILE_BYTES;
+    let room = Arc::clone(&app.room);
+    let write = move |_: &_| {
+        // What the budget can never give is refused as too long.
+        let most = most.min(room.memory.most() / 2);
+        let _memory = room.work(most)?;
+        export::write(&scene, &params.format, params.sample, params.mode, Some(most))
+    };
     // Writers take about this long a byte.
     let cost = Duration::from_nanos(20 * bytes as u64);
     // Some formats need the lane graph, which is worked out for each file.

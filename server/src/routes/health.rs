@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use crate::base::problem::Refusal;
-use crate::base::process;
+use crate::base::{metrics as counters, process};
 use crate::work::PoolLane;
 use api::{Code, Problem};
 use axum::extract::State;
@@ -68,5 +68,6 @@ pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusa
 pub async fn metrics(State(app): State<App>) -> impl IntoResponse {
     app.metrics.run_upkeep();
     process::measure();
+    counters::memory(app.room.memory.taken(), app.room.memory.most());
     ([(header::CONTENT_TYPE, "text/plain; version=0.0.4; charset=utf-8")], app.metrics.render())
 }

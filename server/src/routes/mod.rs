@@ -26,7 +26,7 @@ use crate::base::problem::Refusal;
 use crate::http::guard::Guard;
 use crate::http::idempotency::{self, Replies};
 use crate::http::observe::RequestGate;
-use crate::http::{below, embed, observe};
+use crate::http::{below, embed, long_replies, observe};
 use api::Problem;
 use axum::Router;
 use axum::response::{IntoResponse, Redirect, Response};
@@ -89,6 +89,7 @@ pub fn router(app: &App) -> Router {
         // Bodies are bounded by `http::body`, with limits of their own.
         .layer(axum::extract::DefaultBodyLimit::disable())
         .layer(tower_http::catch_panic::CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(Arc::clone(&app.room.memory), long_replies::hold))
         .layer(axum::middleware::from_fn_with_state(Replies::default(), idempotency::once))
         .layer(axum::middleware::from_fn_with_state(app.gate.clone(), observe::observe))
         .with_state(app.clone());

@@ -1,6 +1,7 @@
 //! Runs that clients step: in memory, bounded in number, bytes and share of one party, and forgotten when idle.
 
 use crate::base::limits::Limits;
+use crate::base::memory::{Memory, MemoryShare};
 use crate::base::party::Party;
 use crate::scenes::bytes_of;
 use api::runs::unknown_run;
@@ -30,7 +31,8 @@ pub type SharedRun = Arc<tokio::sync::Mutex<HeldRun>>;
 struct RunEntry {
     run: SharedRun,
     party: Party,
-    bytes: usize,
+    /// Dropped with the run.
+    _memory: MemoryShare,
     used: Instant,
 }
 
@@ -38,12 +40,14 @@ struct RunEntry {
 pub struct RunStore {
     entries: Mutex<BTreeMap<String, RunEntry>>,
     limits: Arc<Limits>,
+    memory: Arc<Memory>,
 }
 
 impl RunStore {
     /// An empty one.
-    pub fn new(limits: &Arc<Limits>) -> Self {
-        Self { entries: Mutex::default(), limits: Arc::clone(limits) }
+    pub fn new(limits: &Arc<Limits>, memory: &Arc<Memory>) -> Self {
+        let memory = memory.part(limits.run_bytes);
+        Self { entries: Mutex::default(), limits: Arc::clone(limits), memory }
     }
 
     /// Refuses a run before any work where there would be no room for it afterwards.
@@ -53,7 +57,7 @@ impl RunStore {
     pub fn expects(&self, party: Party) -> Result<(), Problem> {
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
-        self.check(&entries, party, 0)
+        self.check(&entries, party, 0).map(drop)
     }
 
     /// Keeps a run that a party has begun.
@@ -65,9 +69,9 @@ impl RunStore {
         let bytes = bytes_of(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
-        self.check(&entries, party, bytes)?;
+        let memory = self.check(&entries, party, bytes)?;
         let run = Arc::new(tokio::sync::Mutex::new(HeldRun { run, last: None }));
-        entries.insert(id.to_owned(), RunEntry { run, party, bytes, used: Instant::now() });
+        entries.insert(id.to_owned(), RunEntry { run, party, _memory: memory, used: Instant::now() });
         Ok(())
     }
 
@@ -107,13 +111,21 @@ impl RunStore {
         entries.retain(|_, entry| entry.used.elapsed() < idle || Arc::strong_count(&entry.run) > 1);
     }
 
-    fn check(&self, entries: &BTreeMap<String, RunEntry>, party: Party, bytes: usize) -> Result<(), Problem> {
-        let (most, room) = (self.limits.runs as usize, self.limits.run_bytes as usize);
+    /// The memory of a run of so many bytes, where there is room for it.
+    fn check(
+        &self,
+        entries: &BTreeMap<String, RunEntry>,
+        party: Party,
+        bytes: usize,
+    ) -> Result<MemoryShare, Problem> {
+        let most = self.limits.runs as usize;
         let share = most.div_ceil(2);
         let own = entries.values().filter(|entry| entry.party == party).count();
-        let all: usize = entries.values().map(|entry| entry.bytes).sum();
-        if own < share && entries.len() < most && all + bytes <= room {
-            return Ok(());
+        if own < share
+            && entries.len() < most
+            && let Some(memory) = self.memory.take(bytes)
+        {
+            return Ok(memory);
         }
         let oldest = entries.values().map(|entry| entry.used.elapsed().as_secs()).max().unwrap_or(0);
         let wait_s = self.limits.run_idle_s.saturating_sub(oldest).clamp(1, 60);
@@ -131,6 +143,7 @@ impl RunStore {
 mod tests {
     use super::RunStore;
     use crate::base::limits::Limits;
+    use crate::base::memory::Memory;
     use crate::base::party::Party;
     use api::Code;
     use experts::{Cancel, Generator, Run, RunSettings};
@@ -143,7 +156,8 @@ mod tests {
         let scene = Arc::new(Scene::bare("empty", LaneMap::default(), Vec::new()));
         let run =
             || Run::new(scene.clone(), &[], RunSettings::default(), &generator, &Cancel::default()).unwrap();
-        let store = |limits: Limits| RunStore::new(&Arc::new(limits));
+        let whole = Memory::new(1 << 30);
+        let store = |limits: Limits| RunStore::new(&Arc::new(limits), &whole);
         let party = |last: u8| Party::of(std::net::IpAddr::from([10, 0, 0, last]));
         let few = store(Limits { runs: 3, ..Limits::default() });
         let add = |store: &RunStore, id: &str, last: u8| {
@@ -160,6 +174,9 @@ mod tests {
         assert_eq!(add(&few, "d", 2), Ok(()));
         let small = store(Limits { run_bytes: 10, ..Limits::default() });
         assert_eq!(add(&small, "a", 1), Err(Some(64)));
+        let held = whole.take((whole.most() - whole.taken()) as usize).unwrap();
+        assert_eq!(add(&store(Limits::default()), "a", 1), Err(Some(64)), "no memory is left");
+        drop(held);
         let brief = store(Limits { run_idle_s: 0, ..Limits::default() });
         add(&brief, "a", 1).unwrap();
         brief.tidy();

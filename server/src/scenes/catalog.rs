@@ -8,13 +8,14 @@ use super::weight;
 use crate::base::cache::Cache;
 use crate::base::id;
 use crate::base::limits::Limits;
+use crate::base::memory::Memory;
 use crate::base::party::Party;
 use crate::work::Pool;
 use api::home::not_found;
 use api::{Code, Home, Opened, Problem};
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene, Shared};
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 /// Bytes that one step of one road user takes in JSON, about.
 const STEP_BYTES: usize = 40;
@@ -42,9 +43,20 @@ pub struct Catalog {
 
 impl Catalog {
     /// Over a store and a library, with maps and saved scenes in memory up to these limits.
-    pub fn new(store: Store, library: Library, pool: Arc<Pool>, limits: &Limits) -> Self {
-        let maps = Arc::new(Cache::new(limits.cached_map_bytes as usize));
-        let open = Arc::new(Cache::new(limits.cached_scene_bytes as usize));
+    pub fn new(
+        store: Store,
+        library: Library,
+        pool: Arc<Pool>,
+        limits: &Limits,
+        memory: &Arc<Memory>,
+    ) -> Self {
+        let maps = Arc::new(Cache::new(memory.part(limits.cached_map_bytes)));
+        let open = Arc::new(Cache::new(memory.part(limits.cached_scene_bytes)));
+        // A map is read again, a held scene is not.
+        let lent: Weak<Cache<ContentHash, Shared<LaneMap>>> = Arc::downgrade(&maps);
+        memory.lend(lent);
+        let lent: Weak<Cache<String, Opened>> = Arc::downgrade(&open);
+        memory.lend(lent);
         Self { store, library, maps, open, pool, party: Party::default() }
     }
 

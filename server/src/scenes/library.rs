@@ -9,6 +9,7 @@ use super::weight;
 use crate::base::cache::Cache;
 use crate::base::clock;
 use crate::base::id;
+use crate::base::memory::Memory;
 use crate::base::netconvert::companions;
 use crate::base::party::Party;
 use crate::work::Pool;
@@ -20,7 +21,7 @@ use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, PoisonError, RwLock, Weak};
 use std::time::SystemTime;
 
 /// Demo scenes in native JSON.
@@ -48,7 +49,7 @@ struct Entry {
 
 struct LibraryState {
     entries: RwLock<BTreeMap<String, Entry>>,
-    open: Cache<String, Opened>,
+    open: Arc<Cache<String, Opened>>,
     pool: Arc<Pool>,
     folder: Option<FolderReader>,
 }
@@ -58,14 +59,15 @@ struct LibraryState {
 pub struct Library(Arc<LibraryState>);
 
 impl Library {
-    /// The demos at once; the folder's files as they are read. Keeps opened scenes in memory, so many bytes at
-    /// most.
+    /// The demos at once; the folder's files as they are read. Keeps opened scenes in this memory.
     ///
     /// # Errors
     /// When the folder cannot be opened, or the system gives no thread.
-    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached_bytes: usize) -> io::Result<Self> {
+    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, memory: Arc<Memory>) -> io::Result<Self> {
         let reader = folder.map(FolderReader::start).transpose()?;
-        let (entries, open) = (RwLock::default(), Cache::new(cached_bytes));
+        let (entries, open) = (RwLock::default(), Arc::new(Cache::new(Arc::clone(&memory))));
+        let lent: Weak<Cache<String, Opened>> = Arc::downgrade(&open);
+        memory.lend_whole(lent);
         let library = Self(Arc::new(LibraryState { entries, open, pool, folder: reader }));
         library.add_demos();
         if let Some(folder) = folder.map(DataFolder::open).transpose()? {
@@ -265,7 +267,7 @@ mod tests {
     #[test]
     fn demos_are_there_before_anybody_can_ask() {
         let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
-        let library = Library::start(None, pool, 1 << 20).unwrap();
+        let library = Library::start(None, pool, Memory::new(1 << 20)).unwrap();
         assert_eq!(library.items().len(), DemoScenes::iter().filter(|n| n.ends_with(".json")).count());
         assert!(library.has("demo-crossing"));
     }

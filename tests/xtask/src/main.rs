@@ -4,6 +4,7 @@
 //! `cargo xtask dependencies`: shows which crates came and went since the list of them was committed.
 //! `cargo xtask fuzz`: readers and requests, with unexpected inputs.
 //! `cargo xtask imports`: how long readers take, and how much memory.
+//! `cargo xtask slowest`: the slowest valid request, and a drag beside it.
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
 //! `cargo xtask quick`: checks of what changed, in two minutes.
@@ -26,6 +27,7 @@ mod packages;
 mod quick;
 mod report;
 mod schemathesis;
+mod slowest;
 mod soak;
 mod suites;
 mod system;
@@ -94,6 +96,7 @@ fn main() -> ExitCode {
         Some((command, rest)) if command == "fuzz" || command == "imports" => {
             alone(fuzzing::command(command, rest))
         }
+        Some((command, rest)) if command == "slowest" => alone(slowest::command(rest)),
         Some((command, rest)) if command == "schemathesis" => alone(schemathesis::command(rest)),
         _ => {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
@@ -104,6 +107,7 @@ fn main() -> ExitCode {
                  cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
                  cargo xtask fuzz --guided [READER…] [--seconds N]\n       \
                  cargo xtask imports [FORMAT…] [--megabytes N]\n       \
+                 cargo xtask slowest [--tries N] [--seed S]\n       \
                  cargo xtask schemathesis [--examples N] [--seed S]\nchecks: {names}"
             );
             ExitCode::from(2)

@@ -56,7 +56,11 @@ pub struct ConvertArgs {
     force: bool,
 }
 
-fn writable(text: &str) -> Result<&'static str, String> {
+/// Id of a format that is written.
+///
+/// # Errors
+/// Names of those that are.
+pub(super) fn writable(text: &str) -> Result<&'static str, String> {
     format_of(text, "written", |info| info.export)
 }
 
@@ -71,7 +75,7 @@ fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static 
 }
 
 /// Ids of the formats for which this holds.
-fn ids(can: fn(&Info) -> bool) -> String {
+pub(super) fn ids(can: fn(&Info) -> bool) -> String {
     let infos = FORMATS.iter().map(|format| format.info()).filter(can);
     infos.map(|info| info.id).collect::<Vec<_>>().join(", ")
 }

@@ -24,6 +24,8 @@ const MINUTE: Duration = Duration::from_secs(60);
 #[derive(Debug, Serialize)]
 pub struct Crowd {
     clients: usize,
+    /// They wait after a refusal for as long as it says.
+    obedient: bool,
     seconds: f64,
     answered_per_s: f64,
     refused_per_s: f64,
@@ -49,8 +51,8 @@ pub struct Strain {
     drag: DragLatency,
 }
 
-/// Crowds of these sizes request one road user's futures repeatedly, without a pause after a refusal, for the given
-/// time each. Then one client drags, first alone, then beside four calls for all road users in 32 samples of 100 steps.
+/// Crowds of these sizes request one road user's futures repeatedly for the given time each: first without a pause after
+/// a refusal, then with the one that the refusal asks for. Then one client drags, first alone, then beside four calls for all road users in 32 samples of 100 steps.
 pub fn strain(
     scene: &Scene,
     sizes: &[usize],
@@ -65,7 +67,11 @@ pub fn strain(
     let drag = json!({"scene_id": saved["id"], "agents": [asked], "score": false, "futures": "compact"});
     let drag = drag.to_string().into_bytes();
     let time = Duration::from_secs_f64(seconds);
-    let crowds: Result<_, Failure> = sizes.iter().map(|size| crowd(&server, &drag, *size, time)).collect();
+    let crowds: Result<_, Failure> = sizes
+        .iter()
+        .flat_map(|size| [false, true].map(|obedient| (*size, obedient)))
+        .map(|(size, obedient)| crowd(&server, &drag, size, obedient, time))
+        .collect();
     let count = scene.counts()[..3].iter().sum::<usize>().min(128);
     // As many samples as one reply may hold.
     let samples = (500_000 / (90 * count.max(1))).clamp(1, 32);
@@ -78,14 +84,21 @@ pub fn strain(
 }
 
 /// Times of answers in milliseconds and the number of refusals of one caller, until the crowd goes home.
-fn caller(port: u16, body: &[u8], over: &AtomicBool) -> Result<(Vec<f64>, usize), Failure> {
+fn caller(port: u16, body: &[u8], obedient: bool, over: &AtomicBool) -> Result<(Vec<f64>, usize), Failure> {
     let (mut answers, mut refused) = (Vec::new(), 0);
     let mut kept = Connection::open(port)?;
     while !over.load(Ordering::Relaxed) {
         let reply = kept.send("POST", "/v1/generate", JSON, body)?;
         match reply.status {
             200 => answers.push(reply.ms),
-            _ => refused += 1,
+            _ => {
+                refused += 1;
+                if obedient {
+                    let problem: Value = serde_json::from_slice(&reply.body).unwrap_or_default();
+                    let wait = problem["retry_after_ms"].as_u64().unwrap_or(0);
+                    std::thread::sleep(Duration::from_millis(wait));
+                }
+            }
         }
         if reply.closes {
             kept = Connection::open(port)?;
@@ -94,12 +107,18 @@ fn caller(port: u16, body: &[u8], over: &AtomicBool) -> Result<(Vec<f64>, usize)
     Ok((answers, refused))
 }
 
-fn crowd(server: &Served, body: &[u8], clients: usize, time: Duration) -> Result<Crowd, Failure> {
+fn crowd(
+    server: &Served,
+    body: &[u8],
+    clients: usize,
+    obedient: bool,
+    time: Duration,
+) -> Result<Crowd, Failure> {
     let (over, began) = (AtomicBool::new(false), Instant::now());
     let mut memory_mb = Vec::new();
     let (answers, refused) = std::thread::scope(|scope| {
         let callers: Vec<_> =
-            (0..clients).map(|_| scope.spawn(|| caller(server.port, body, &over))).collect();
+            (0..clients).map(|_| scope.spawn(|| caller(server.port, body, obedient, &over))).collect();
         while began.elapsed() < time {
             std::thread::sleep(MINUTE.min(time.saturating_sub(began.elapsed())));
             memory_mb.extend(server.memory_mb());
@@ -117,6 +136,7 @@ fn crowd(server: &Served, body: &[u8], clients: usize, time: Duration) -> Result
     let seconds = began.elapsed().as_secs_f64();
     Ok(Crowd {
         clients,
+        obedient,
         seconds,
         answered_per_s: answers.len() as f64 / seconds,
         refused_per_s: refused as f64 / seconds,

@@ -45,6 +45,7 @@ impl ImportOrder {
     /// Reads the files and makes their scenes ready: nothing is stored unless all of them can be. Also the formats
     /// of the files that were read.
     pub(super) fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
+        let _memory = self.upload.reserve(room)?;
         let ready = self.read(room, cancel);
         // A broken body is reported rather than the faults that follow from it.
         self.upload.check()?;

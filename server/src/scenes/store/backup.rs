@@ -35,6 +35,29 @@ pub fn backup(from: &Path, to: &Path) -> Result<Copied, StoreError> {
     copy(&source, to)
 }
 
+/// Puts a copy in the place of a store, whole or not at all. What is there must be a store, or nothing.
+///
+/// # Errors
+/// [`StoreError::InUse`] where a server works on the file, and those of [`backup`].
+pub fn restore(from: &Path, to: &Path) -> Result<Copied, StoreError> {
+    if to.exists() {
+        let connection = Connection::open(to)?;
+        migrations::check(&connection)?;
+        // Only the last one to have the file open may do without the log; what is in it goes into the file, so that
+        // nothing of it is taken for the log of the copy.
+        let mode =
+            connection.pragma_update_and_check(None, "journal_mode", "DELETE", |row| row.get::<_, String>(0));
+        match mode {
+            Ok(mode) if mode == "delete" => {}
+            Err(error) if error.sqlite_error_code() != Some(rusqlite::ErrorCode::DatabaseBusy) => {
+                return Err(error.into());
+            }
+            _ => return Err(StoreError::InUse),
+        }
+    }
+    backup(from, to)
+}
+
 /// Copies what a connection sees, under the same promises.
 ///
 /// # Errors

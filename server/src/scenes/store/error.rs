@@ -52,6 +52,9 @@ pub enum StoreError {
     /// The file that was opened has no name any more.
     #[error("the store's file was removed or replaced")]
     Gone,
+    /// Another process has the file open.
+    #[error("another process uses the store; end it first")]
+    InUse,
     /// The writer thread has ended.
     #[error("the store is closed")]
     Closed,

@@ -5,6 +5,7 @@
 //! survives a power cut.
 
 mod backup;
+mod dump;
 mod error;
 mod identity;
 mod list;
@@ -12,7 +13,8 @@ mod migrations;
 mod records;
 mod reserve;
 
-pub use backup::backup;
+pub use backup::{backup, restore};
+pub use dump::{DumpedScene, count, each};
 pub use error::StoreError;
 pub use list::{PageQuery, Sort};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};

@@ -1,4 +1,4 @@
-// A server with a token: the page asks for it once, and everything works by the cookie.
+// A server with a token: the page asks for it once, and everything works by the cookie. So it does below a path.
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -11,6 +11,30 @@ import { Program } from '../../support/program.js';
 const TOKEN = '0123456789abcdef+0123456789abcdef';
 
 journeys('signing in', (stage) => {
+  it('works below the path at which a proxy publishes the server', { timeout: 60_000 }, async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'dragtraffic-path-'));
+    const file = join(folder, 'token');
+    writeFileSync(file, TOKEN, { mode: 0o600 });
+    const program = await Program.start(undefined, ['--base-path', '/tools/drag', '--token-file', file]);
+    try {
+      const place = new URL('/tools/drag/scenes/demo-crossing', program.url);
+      const e = await stage.visit(place.href, { scene: false });
+      await e.page.getByLabel('Token').fill(TOKEN);
+      await e.page.getByRole('button', { name: 'Sign in' }).click();
+      await e.ready();
+      await e.begin();
+      assert.equal(new URL(e.page.url()).pathname, place.pathname);
+      const car = await carOnTheMove(e);
+      await e.choose(car.id);
+      await e.page.waitForSelector('.fu');
+      const [cookie] = await e.page.context().cookies();
+      assert.equal(cookie.path.replace(/\/$/, ''), '/tools/drag');
+    } finally {
+      await program.stop();
+      rmSync(folder, { recursive: true, force: true });
+    }
+  });
+
   it('asks for the token, refuses another one, and then edits as always', { timeout: 60_000 }, async () => {
     const folder = mkdtempSync(join(tmpdir(), 'dragtraffic-token-'));
     const file = join(folder, 'token');

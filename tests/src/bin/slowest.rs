@@ -1,0 +1,353 @@
+//! `slowest [--tries N] [--seed S]`: looks for the slowest valid request within the limits, and for what a drag takes
+//! beside it. `cargo xtask slowest` builds it and runs it.
+//!
+//! Each kind of request is tried at its limits first. Then the slowest ones are changed at random, and a change that
+//! takes longer is kept. A request counts by the core time that the server spends on it, so that other work on the
+//! machine does not matter; a drag counts by the clock.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
+
+use anyhow::{Context, bail};
+use dragtraffic_tests::random::Random;
+use dragtraffic_tests::scenes::{car, street};
+use dragtraffic_tests::{Request, Server};
+use serde_json::{Value, json};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Most core time of a request, seconds.
+const MOST_S: f64 = 10.0;
+/// Most time of 19 of 20 drags beside it, milliseconds, on a quiet machine.
+const DRAG_MS: f64 = 100.0;
+/// Ticks a second in which Linux counts core time.
+const TICKS: f64 = 100.0;
+/// Time between two drags: those of a hand.
+const PAUSE: Duration = Duration::from_millis(16);
+
+/// Numbers that make a request, each with its most.
+struct Kind {
+    name: &'static str,
+    path: &'static str,
+    /// Least and most of each number.
+    ranges: &'static [(u64, u64)],
+    body: fn(&[u64]) -> Value,
+}
+
+const KINDS: &[Kind] = &[
+    Kind {
+        name: "lanes that cross",
+        path: "/v1/generate",
+        ranges: &[(1, 60), (2, 4_096), (30, 3_000)],
+        body: tangle,
+    },
+    Kind { name: "lanes on one place", path: "/v1/generate", ranges: &[(1, 19_990), (2, 20)], body: pile },
+    Kind {
+        name: "lanes on one place, filled",
+        path: "/v1/place",
+        ranges: &[(1, 19_990), (2, 20)],
+        body: filled_pile,
+    },
+    Kind {
+        name: "areas on one place",
+        path: "/v1/generate",
+        ranges: &[(1, 97), (3, 4_096), (2, 40)],
+        body: areas,
+    },
+    Kind { name: "linked lanes", path: "/v1/generate", ranges: &[(2, 3_000), (1, 64), (1, 40)], body: graph },
+    Kind {
+        name: "all, many samples",
+        path: "/v1/generate",
+        ranges: &[(1, 128), (1, 32), (1, 1), (5, 100)],
+        body: crowd,
+    },
+    Kind {
+        name: "goals far off with vias",
+        path: "/v1/generate",
+        ranges: &[(1, 128), (0, 4), (20, 300)],
+        body: goals,
+    },
+    Kind { name: "score of a crowd", path: "/v1/score", ranges: &[(1, 256), (2, 600), (0, 30)], body: score },
+    Kind {
+        name: "export to CommonRoad",
+        path: "/v1/export?format=commonroad",
+        ranges: &[(2, 3_000), (1, 64)],
+        body: file,
+    },
+    Kind {
+        name: "export to OpenDRIVE",
+        path: "/v1/export?format=opendrive",
+        ranges: &[(2, 3_000), (1, 64)],
+        body: file,
+    },
+    Kind {
+        name: "export to SUMO",
+        path: "/v1/export?format=sumo",
+        ranges: &[(2, 3_000), (1, 64)],
+        body: file,
+    },
+    Kind {
+        name: "export of a recording",
+        path: "/v1/export?format=mcap",
+        ranges: &[(1, 256), (2, 600)],
+        body: long,
+    },
+];
+
+fn with_lanes(agents: usize, lanes: Vec<Value>) -> Value {
+    let mut scene = street(agents, 20);
+    if let Some(all) = scene["map"]["lanes"].as_array_mut() {
+        all.extend(lanes);
+    }
+    scene
+}
+
+fn one(scene: Value) -> Value {
+    json!({"scene": scene, "agents": ["0"]})
+}
+
+fn lane(id: String, points: Vec<[f64; 2]>) -> Value {
+    json!({"id": id, "type": "surface_street", "points_m": points})
+}
+
+/// So many lanes of so many points anywhere on a square of this side.
+fn tangle(n: &[u64]) -> Value {
+    let [lanes, points, side_m] = [n[0], n[1], n[2]];
+    let mut random = Random::new(7);
+    let mut at = || side_m as f64 * (random.below(10_000) as f64 / 10_000.0 - 0.5);
+    let lanes = (0..lanes).map(|i| lane(format!("t{i}"), (0..points).map(|_| [at(), at()]).collect()));
+    one(with_lanes(2, lanes.collect()))
+}
+
+fn piled(n: &[u64]) -> Value {
+    let points = |i: u64| (0..n[1]).map(|k| [k as f64 * 5.0, i as f64 * 1e-4]).collect();
+    with_lanes(2, (0..n[0]).map(|i| lane(format!("p{i}"), points(i))).collect())
+}
+
+fn pile(n: &[u64]) -> Value {
+    one(piled(n))
+}
+
+fn filled_pile(n: &[u64]) -> Value {
+    json!({"scene": piled(n), "density": {"count": 100}})
+}
+
+/// Stars of so many corners at one place, under so many cars.
+fn areas(n: &[u64]) -> Value {
+    let mut scene = street(n[2] as usize, 91);
+    let star = |_| {
+        let corner = |k: u64| {
+            let (angle, r_m) = (
+                k as f64 / n[1] as f64 * std::f64::consts::TAU,
+                if k.is_multiple_of(2) { 30.0 } else { 20.0 },
+            );
+            [r_m * angle.cos(), r_m * angle.sin()]
+        };
+        json!((0..n[1]).map(corner).collect::<Vec<_>>())
+    };
+    let area = |i: u64| json!({"id": format!("a{i}"), "polygon_m": star(i)});
+    scene["map"]["drivable"] = json!((0..n[0]).map(area).collect::<Vec<_>>());
+    json!({"scene": scene, "agents": "all"})
+}
+
+fn linked(lanes: u64, links: u64, agents: usize) -> Value {
+    let ids =
+        |i: u64| (1..=links.min(lanes - 1)).map(|k| format!("g{}", (i + k) % lanes)).collect::<Vec<_>>();
+    let lane = |i: u64| {
+        let (x, y) = ((i % 30) as f64 * 30.0 - 100.0, (i / 30) as f64 * 4.0);
+        json!({"id": format!("g{i}"), "type": "surface_street", "points_m": [[x, y], [x + 30.0, y]], "successors": ids(i)})
+    };
+    with_lanes(agents, (0..lanes).map(lane).collect())
+}
+
+fn graph(n: &[u64]) -> Value {
+    json!({"scene": linked(n[0], n[1], n[2] as usize), "agents": "all"})
+}
+
+fn file(n: &[u64]) -> Value {
+    linked(n[0], n[1], 2)
+}
+
+fn crowd(n: &[u64]) -> Value {
+    // Below the largest reply that is allowed, where this would be larger. More modes leave room for fewer samples.
+    let steps = n[3].min(400_000 / (n[0] * n[1] * n[2])).max(1);
+    json!({"scene": street(n[0] as usize, 11), "agents": "all", "samples": n[1], "modes": n[2], "steps": steps})
+}
+
+fn goals(n: &[u64]) -> Value {
+    let far = |part: f64| json!({"x_m": part * n[2] as f64, "y_m": 10.0 * part});
+    let vias: Vec<Value> = (0..n[1]).map(|k| far((k + 1) as f64 / (n[1] + 1) as f64)).collect();
+    let condition = json!({"goal": far(1.0), "via": vias});
+    let conditions: serde_json::Map<_, _> = (0..n[0]).map(|i| (i.to_string(), condition.clone())).collect();
+    json!({"scene": street(n[0] as usize, 11), "agents": "all", "conditions": conditions})
+}
+
+/// Cars that drive through each other: so many metres between them.
+fn score(n: &[u64]) -> Value {
+    let mut scene = street(0, n[1] as usize);
+    let near = |i: u64| {
+        let mut car = car(0, n[1] as usize);
+        car["id"] = i.to_string().into();
+        let moved = |value: &Value| value.as_f64().unwrap_or(0.0) + i as f64 * n[2] as f64 / 10.0;
+        let x: Vec<f64> = car["track"]["x_m"].as_array().into_iter().flatten().map(moved).collect();
+        car["track"]["x_m"] = json!(x);
+        car
+    };
+    scene["agents"] = json!((0..n[0]).map(near).collect::<Vec<_>>());
+    json!({"scene": scene})
+}
+
+fn long(n: &[u64]) -> Value {
+    street(n[0] as usize, n[1] as usize)
+}
+
+/// What a request came to.
+struct Tried {
+    kind: usize,
+    numbers: Vec<u64>,
+    core_s: f64,
+    seconds: f64,
+    status: u16,
+    code: String,
+    kilobytes: usize,
+    drags_ms: Vec<f64>,
+}
+
+impl Tried {
+    /// The time of 19 of 20 drags beside it; `None` with fewer.
+    fn p95_ms(&self) -> Option<f64> {
+        let mut sorted = self.drags_ms.clone();
+        sorted.sort_by(f64::total_cmp);
+        (sorted.len() >= 20).then(|| sorted.get(sorted.len() * 19 / 20).copied()).flatten()
+    }
+}
+
+/// Core time of a process, seconds.
+fn core_s(pid: u32) -> anyhow::Result<f64> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat"))?;
+    let (_, fields) = stat.rsplit_once(')').context("no fields")?;
+    let mut fields = fields.split_whitespace().skip(11).map(str::parse::<f64>);
+    let mut next = || fields.next().context("no field")?.context("no number");
+    Ok((next()? + next()?) / TICKS)
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("{error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether all requests keep to their time.
+fn run() -> anyhow::Result<bool> {
+    let (mut tries, mut seed) = (24, 1);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    for pair in arguments.chunks(2) {
+        match pair {
+            [flag, number] if flag == "--tries" => tries = number.parse()?,
+            [flag, number] if flag == "--seed" => seed = number.parse()?,
+            _ => bail!("usage: slowest [--tries N] [--seed S]"),
+        }
+    }
+    let server = Server::start(&[])?;
+    server.wait_ready()?;
+    let mut all = Vec::new();
+    for (kind, of_kind) in KINDS.iter().enumerate() {
+        // At the limits; where those together are refused, each number is lowered in turn.
+        let mut numbers: Vec<u64> = of_kind.ranges.iter().map(|(_, most)| *most).collect();
+        for round in 0..8 * numbers.len() {
+            let tried = attempt(&server, kind, &numbers)?;
+            let fits = tried.status < 400 || tried.status >= 500;
+            all.push(tried);
+            if fits {
+                break;
+            }
+            let at = round % numbers.len();
+            numbers[at] = (numbers[at] / 2).max(of_kind.ranges[at].0);
+        }
+    }
+    let mut random = Random::new(seed);
+    for _ in 0..tries {
+        all.sort_by(|a, b| b.core_s.total_cmp(&a.core_s));
+        // One of the slowest, with one number changed.
+        let Some(parent) = all.iter().filter(|tried| tried.status == 200).nth(random.index(4)) else { break };
+        let (kind, mut numbers) = (parent.kind, parent.numbers.clone());
+        let at = random.index(numbers.len());
+        let (least, most) = KINDS[kind].ranges[at];
+        let changed = numbers[at] as f64 * (0.5 + random.below(1_500) as f64 / 1_000.0);
+        numbers[at] = (changed as u64).clamp(least, most);
+        all.push(attempt(&server, kind, &numbers)?);
+    }
+    all.sort_by(|a, b| b.core_s.total_cmp(&a.core_s));
+    Ok(report(&all))
+}
+
+/// Sends a request, and drags beside it.
+fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Tried> {
+    let of_kind = &KINDS[kind];
+    let body = serde_json::to_vec(&(of_kind.body)(numbers))?;
+    let kilobytes = body.len() / 1_000;
+    let request = Request::new("POST", of_kind.path).header("content-type", "application/json").body(body);
+    let drag = Request::new("POST", "/v1/generate")
+        .json(&json!({"scene_id": "demo-crossing", "agents": ["5"], "score": false, "futures": "compact"}));
+    let (address, before, began) = (server.address, core_s(server.pid())?, Instant::now());
+    let asked = std::thread::spawn(move || request.send(address));
+    let (mut drags_ms, mut of_drags) = (Vec::new(), 0);
+    while !asked.is_finished() {
+        let began = Instant::now();
+        let reply = server.send(&drag)?;
+        if reply.status == 200 && !asked.is_finished() {
+            drags_ms.push(began.elapsed().as_secs_f64() * 1e3);
+        }
+        of_drags += 1;
+        std::thread::sleep(PAUSE);
+    }
+    let seconds = began.elapsed().as_secs_f64();
+    let reply = asked.join().map_err(|_| anyhow::anyhow!("the request broke off"))??;
+    let busy_s = core_s(server.pid())? - before;
+    // Drags beside it take core time too: that of as many alone.
+    let before = core_s(server.pid())?;
+    let alone = of_drags.min(20);
+    (0..alone).try_for_each(|_| server.send(&drag).map(drop))?;
+    let each_s = (core_s(server.pid())? - before) / f64::from(alone.max(1));
+    let core_s = (busy_s - each_s * f64::from(of_drags)).max(0.0);
+    let code = if reply.status == 200 { String::new() } else { reply.code() };
+    let tried = Tried {
+        kind,
+        numbers: numbers.to_vec(),
+        core_s,
+        seconds,
+        status: reply.status,
+        code,
+        kilobytes,
+        drags_ms,
+    };
+    eprintln!("{}", line(&tried));
+    Ok(tried)
+}
+
+fn line(tried: &Tried) -> String {
+    let drag = tried.p95_ms().map_or("-".to_owned(), |ms| format!("{ms:.0}"));
+    let Tried { core_s, seconds, status, code, kilobytes, .. } = tried;
+    let name = KINDS.get(tried.kind).map_or("", |kind| kind.name);
+    format!("{core_s:7.2} {seconds:7.2} {drag:>7} {kilobytes:7} {status:4} {name} {:?} {code}", tried.numbers)
+}
+
+/// Prints the table; whether the bounds hold.
+fn report(all: &[Tried]) -> bool {
+    println!(" core s  wall s drag ms      kB");
+    all.iter()
+        .filter(|tried| tried.status < 400 || tried.status >= 500)
+        .take(12)
+        .for_each(|t| println!("{}", line(t)));
+    let slowest = all.iter().map(|tried| tried.core_s).fold(0.0, f64::max);
+    let drag = all.iter().filter_map(Tried::p95_ms).fold(0.0, f64::max);
+    let failed = all.iter().any(|tried| tried.status >= 500);
+    println!(
+        "slowest {slowest:.2} s of a core (at most {MOST_S}); p95 of a drag beside it at worst {drag:.0} ms (at most {DRAG_MS})"
+    );
+    slowest <= MOST_S && drag <= DRAG_MS && !failed
+}

@@ -1,0 +1,22 @@
+//! The slowest valid request, and what a drag takes beside it (`tests/src/bin/slowest.rs`). The figures are those of a
+//! release build: `DRAGTRAFFIC_BIN` names another one.
+
+use super::{Outcome, built, cargo_command, root, run, target};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Searches, prints the table, and fails where a bound is not kept.
+pub fn command(arguments: &[String]) -> anyhow::Result<Outcome> {
+    let search = built("slowest")?;
+    let program = match std::env::var_os("DRAGTRAFFIC_BIN") {
+        Some(given) => PathBuf::from(given),
+        None => {
+            let build = ["build", "--release", "--locked", "--package", "dragtraffic"];
+            if let failed @ Outcome::Failed(_) = run(cargo_command().args(build))? {
+                return Ok(failed);
+            }
+            target().join("release").join(format!("dragtraffic{}", std::env::consts::EXE_SUFFIX))
+        }
+    };
+    run(Command::new(search).args(arguments).env("DRAGTRAFFIC_BIN", program).current_dir(root()))
+}
