@@ -157,6 +157,7 @@ fn condition_cases() -> Vec<Case> {
         case("client without revision", with("/client", json!("a")), 422, "invalid-field"),
         case("job id with dots", with("/job", json!("../x")), 422, "invalid-field"),
         case("reply of a million points", reply_too_large(), 422, "reply-too-large"),
+        case("57 s of a core", too_much_work(), 422, "too-much-work"),
         case("129 road users to regenerate", many(), 422, "too-many-agents"),
         case("collisions 1e244 s ahead", threshold("ttc_s", 1e244), 422, "out-of-range"),
         case("a gap below nothing", threshold("gap_m", -2e12), 422, "out-of-range"),
@@ -181,6 +182,13 @@ fn reply_too_large() -> Request {
     let mut body = generate(100);
     body["agents"] = json!("all");
     body["samples"] = json!(32);
+    post("/v1/generate").body(body.to_string())
+}
+
+fn too_much_work() -> Request {
+    let mut body = generate(128);
+    body["agents"] = json!("all");
+    (body["samples"], body["modes"], body["steps"]) = (json!(32), json!(1), json!(100));
     post("/v1/generate").body(body.to_string())
 }
 

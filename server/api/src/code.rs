@@ -66,6 +66,7 @@ codes! {
     MapTooLarge "map-too-large" "Map too large" "The map has more lines, points or signals than a scene may hold.";
     MapTooComplex "map-too-complex" "Map too complex" "The map has more links, corners of areas, or lines over each other in one place than a scene may have; `errors` gives the bounds.";
     ReplyTooLarge "reply-too-large" "Reply would be too large" "samples x modes x road users x steps of a generation, or the bytes of an exported file, are above `limit`.";
+    TooMuchWork "too-much-work" "Call would take too long" "The expected work of a generation is above `limit` seconds of a core: road users x samples x windows of 9 s, with their steps and via points.";
     UnsupportedVersion "unsupported-version" "Newer version" "The document was written by a newer version of the format.";
     FormatUnknown "format-unknown" "Format not recognised" "The file is in no format this server reads, or no format has this name.";
     CannotRepresent "cannot-represent" "Format cannot hold this" "The format has no place for something that the scene cannot do without.";

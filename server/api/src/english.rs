@@ -32,6 +32,8 @@ scene::messages! {
         "{count} road users to regenerate; at most {most}";
     too_many_points(points: usize, most: usize) =
         "too-many-points", "the reply would have {points} points; at most {most}";
+    too_much_work(seconds: usize, most: usize) =
+        "too-much-work", "the call would take about {seconds} s of a core; at most {most}";
     no_future_kept() =
         "no-future-kept", "the scene keeps no future of this road user from the start on";
     replan_interval(got: f64) = "replan-interval", "{got} s; null, 3, 6 or 9 expected";

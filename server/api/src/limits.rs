@@ -27,11 +27,13 @@ pub struct CallLimits {
     pub regenerated_agents: u64,
     /// Samples x modes x road users x steps of a reply.
     pub reply_points: u64,
+    /// Expected work of a generation, seconds of a core.
+    pub work_s: u64,
 }
 
 impl Default for CallLimits {
     fn default() -> Self {
-        Self { regenerated_agents: 128, reply_points: 500_000 }
+        Self { regenerated_agents: 128, reply_points: 500_000, work_s: u64::MAX }
     }
 }
 

@@ -43,6 +43,7 @@ limits! {
     uri_bytes = 8 << 10, "path and query of a request";
     regenerated_agents = CallLimits::default().regenerated_agents, "road users regenerated or reacting in one call";
     reply_points = CallLimits::default().reply_points, "samples x modes x road users x steps of a reply";
+    work_s = 10, "expected work of a generation, in seconds of a core";
     import_scenes = 200, "scenes taken from one upload";
     import_files = 32, "files in one form";
     running = 0, "calls worked on at the same time, and as many long ones beside them; 0 means half the cores, 1 to 8";
@@ -145,7 +146,11 @@ impl Limits {
 
     /// Those of one call.
     pub fn of_a_call(&self) -> CallLimits {
-        CallLimits { regenerated_agents: self.regenerated_agents, reply_points: self.reply_points }
+        CallLimits {
+            regenerated_agents: self.regenerated_agents,
+            reply_points: self.reply_points,
+            work_s: self.work_s,
+        }
     }
 
     /// Generations that may run at the same time.

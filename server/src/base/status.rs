@@ -29,6 +29,7 @@ pub fn status_of(code: Code) -> u16 {
         | Code::MapTooLarge
         | Code::MapTooComplex
         | Code::ReplyTooLarge
+        | Code::TooMuchWork
         | Code::UnsupportedVersion
         | Code::FormatUnknown
         | Code::CannotRepresent

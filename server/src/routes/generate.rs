@@ -20,7 +20,7 @@ use axum::response::Response;
 use std::time::Duration;
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK,
-    NotAcceptable, Exists, Superseded, StaleRevision, NotAsked, ReplyTooLarge, NonFiniteOutput);
+    NotAcceptable, Exists, Superseded, StaleRevision, NotAsked, ReplyTooLarge, TooMuchWork, NonFiniteOutput);
 
 /// Generates futures. The reply is a stream of events (NDJSON or SSE) or only the last event (JSON), by
 /// Accept. Stores nothing.

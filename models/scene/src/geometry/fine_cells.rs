@@ -46,7 +46,8 @@ impl FineCells {
     pub(super) fn list(&self, point: Vec2, make: impl FnOnce(Square) -> Box<[u32]>) -> Option<&[u32]> {
         let at = point / self.cell_m;
         let (column, row) = (at.x.floor(), at.y.floor());
-        let inside = |place: f64, count: usize| (place >= 0.0 && place < count as f64).then_some(place as usize);
+        let inside =
+            |place: f64, count: usize| (place >= 0.0 && place < count as f64).then_some(place as usize);
         let i = inside(column - f64::from(self.first[0]), self.columns)?;
         let j = inside(row - f64::from(self.first[1]), self.rows)?;
         let lists = self.filled(&self.cells[j * self.columns + i])?;
@@ -96,7 +97,8 @@ mod tests {
         assert_eq!(ask(-6.1, 17.9), Some(vec![93, 17]));
         assert_eq!(made.get(), 1);
         assert_eq!(ask(7.9, 23.9), Some(vec![107, 23]));
-        let outside = [(-8.1, 17.0), (8.0, 17.0), (0.0, 15.9), (0.0, 24.0), (f64::NAN, 17.0), (0.0, f64::NAN)];
+        let outside =
+            [(-8.1, 17.0), (8.0, 17.0), (0.0, 15.9), (0.0, 24.0), (f64::NAN, 17.0), (0.0, f64::NAN)];
         assert!(outside.iter().all(|(x, y)| ask(*x, *y).is_none()));
         assert_eq!(made.get(), 2);
     }

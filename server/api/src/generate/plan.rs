@@ -12,11 +12,14 @@ use crate::problem::{Problem, refuse, shortened};
 use experts::{Generator, MapCost, Request};
 use formats::{FieldProblem, pointer_token};
 use scene::score::Thresholds;
-use scene::{Conditions, ContentHash, Scene, Start, licence};
+use scene::{Agent, Conditions, ContentHash, Scene, Start, licence};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Work for a via point of a road user, window and sample, where it lies far off every way; milliseconds of a core.
+const VIA_MS: f64 = 16.0;
 
 /// A generation that can be started.
 #[derive(Clone)]
@@ -65,7 +68,7 @@ impl GenerateRequest {
         head.stale = self.keeps_stale(scene, &applied, &request);
         let stricter = |weights: &String| !licence::is_open(weights);
         head.licence = generator.licence().filter(stricter);
-        Ok(GenerationPlan {
+        let plan = GenerationPlan {
             request,
             drafts: true,
             standings: None,
@@ -77,7 +80,13 @@ impl GenerateRequest {
             score: self.score,
             with_kept: self.kept_futures == KeptFutures::Answered,
             head,
-        })
+        };
+        let (work_s, most) = (plan.work_ms() * 1e-3, limits.work_s);
+        if work_s > most as f64 {
+            let message = english::too_much_work(work_s.ceil() as usize, most as usize);
+            return Err(Problem::of(Code::TooMuchWork, message).at("/samples").limit(most));
+        }
+        Ok(plan)
     }
 
     /// Refuses conditions that would change no motion: of road users that are not generated and keep no future. One that
@@ -158,19 +167,26 @@ impl GenerationPlan {
         ContentHash::of(&of).short()
     }
 
-    /// About how long it takes one thread. Measured on two cores of 2.6 GHz, scores included: 4 ms for each road
-    /// user, window and sample, and a tenth of one for each denoising step. A map that is not known is worked out
-    /// first, and searches on a crowded one take longer.
+    /// About how long it takes one thread. A map that is not known is worked out first.
     pub fn cost(&self) -> Duration {
+        self.map_cost.preparation + Duration::from_secs_f64(1e-3 * self.work_ms())
+    }
+
+    /// The same without the map. Measured on two cores of 2.6 GHz, scores included: 4 ms for each road user, window and
+    /// sample, a tenth of one for each denoising step, and [`VIA_MS`] for each via point. Searches on a crowded map take
+    /// longer.
+    fn work_ms(&self) -> f64 {
         let Request { agents, samples, steps, horizon_steps, replan_steps, .. } = &self.request;
         let windows = horizon_steps.div_ceil(replan_steps.unwrap_or(scene::HORIZON_STEPS).max(1));
         let concerned = concerned(&self.request);
         let asked = agents.as_ref().map_or(concerned, BTreeSet::len);
         let each_ms = 4.0 + 0.1 * *steps as f64;
         let others_ms = 0.3 * concerned.saturating_sub(asked) as f64;
-        let work_ms =
-            (windows * samples) as f64 * (each_ms * asked as f64 + others_ms) * self.map_cost.crowded;
-        self.map_cost.preparation + Duration::from_secs_f64(1e-3 * work_ms)
+        let is_asked = |agent: &&Agent| agents.as_ref().is_none_or(|asked| asked.contains(&agent.id));
+        let asked_agents = self.request.scene.agents.iter().filter(is_asked);
+        let vias: usize = asked_agents.map(|agent| agent.conditions.via.len()).sum();
+        let sample_ms = each_ms * asked as f64 + others_ms + VIA_MS * vias as f64;
+        (windows * samples) as f64 * sample_ms * self.map_cost.crowded
     }
 
     /// The longest wait for a first draft.

@@ -3589,7 +3589,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "step-order" | "too-many-runs" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "step-order" | "too-many-runs" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "too-much-work" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -6428,7 +6428,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, not-asked, reply-too-large */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version, not-asked, reply-too-large, too-much-work */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6436,7 +6436,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "not-asked" | "reply-too-large";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "not-asked" | "reply-too-large" | "too-much-work";
                     };
                 };
             };

@@ -37,6 +37,7 @@ export const refused: Readonly<Record<string, string>> = {
   'too-many-agents': 'Das sind mehr Verkehrsteilnehmer als erlaubt.',
   'map-too-large': 'Die Karte ist größer als erlaubt.',
   'map-too-complex': 'An einer Stelle der Karte liegen zu viele Linien, oder sie hat zu viele Verbindungen.',
+  'too-much-work': 'Die Berechnung würde zu lange dauern. Weniger Varianten oder Verkehrsteilnehmer berechnen.',
   'reply-too-large': 'Die Antwort wäre zu groß. Weniger Varianten oder Verkehrsteilnehmer berechnen.',
   'unsupported-version': 'Diese Daten stammen aus einer neueren Version.',
   'format-unknown': 'Dieses Format wird nicht erkannt.',

@@ -14,6 +14,7 @@ export const SENTENCES = table('problem-messages', {
         other: `${v.count} road users to regenerate; at most ${v.most}`,
       }),
     'too-many-points': (v: Values) => `the reply would have ${v.points} points; at most ${v.most}`,
+    'too-much-work': (v: Values) => `the call would take about ${v.seconds} s of a core; at most ${v.most}`,
     'no-future-kept': 'the scene keeps no future of this road user from the start on',
     'replan-interval': (v: Values) => `${v.got} s; null, 3, 6 or 9 expected`,
     'more-than-a-turn': (v: Values) => `${v.got} rad is more than a turn; ${v.got} degrees are ${v.radians} rad`,

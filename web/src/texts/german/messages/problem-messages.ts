@@ -16,6 +16,7 @@ export const german: Said<typeof SENTENCES> = {
         other: `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
       }),
     'too-many-points': (v: Values) => `Die Antwort hätte ${v.points} Punkte; höchstens ${v.most}`,
+    'too-much-work': (v: Values) => `Die Anfrage würde etwa ${v.seconds} s eines Kerns brauchen; höchstens ${v.most}`,
     'no-future-kept': 'Die Szene hat ab dem Start keine Zukunft dieses Verkehrsteilnehmers',
     'replan-interval': (v: Values) => `${v.got} s; erwartet wird null, 3, 6 oder 9`,
     'more-than-a-turn': (v: Values) => `${v.got} rad ist mehr als eine Umdrehung; ${v.got} Grad sind ${v.radians} rad`,
