@@ -25,11 +25,45 @@ fn discard(partial: &Path) {
     let _ = if is_folder { fs::remove_dir_all(partial) } else { fs::remove_file(partial) };
 }
 
+/// What is written under a name beside its own until it is whole. It is removed unless it was put in place.
+struct Partial {
+    path: PathBuf,
+    in_place: bool,
+}
+
+impl Partial {
+    /// The name beside a target.
+    fn beside(target: &Path) -> PathBuf {
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        target.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+    }
+
+    fn of(path: PathBuf) -> Self {
+        under_way().push(path.clone());
+        Self { path, in_place: false }
+    }
+
+    fn put(mut self, target: &Path) -> io::Result<()> {
+        fs::rename(&self.path, target)?;
+        self.in_place = true;
+        Ok(())
+    }
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        if !self.in_place {
+            discard(&self.path);
+        }
+        under_way().retain(|path| *path != self.path);
+    }
+}
+
 /// A folder being filled. It appears under its name, with all its files on the disk, when [`WholeFolder::finish`]
 /// has succeeded.
 pub struct WholeFolder {
     target: PathBuf,
-    partial: Option<PathBuf>,
+    partial: Partial,
 }
 
 impl WholeFolder {
@@ -41,15 +75,13 @@ impl WholeFolder {
         if fs::symlink_metadata(path).is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
-        let (above, name) = (path.parent(), path.file_name());
-        let name = name.ok_or(io::ErrorKind::InvalidInput)?.to_string_lossy();
-        if let Some(above) = above.filter(|above| !above.as_os_str().is_empty()) {
+        path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
+        if let Some(above) = path.parent().filter(|above| !above.as_os_str().is_empty()) {
             fs::create_dir_all(above)?;
         }
-        let partial = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        let partial = Partial::beside(path);
         fs::create_dir(&partial)?;
-        under_way().push(partial.clone());
-        Ok(Self { target: path.to_path_buf(), partial: Some(partial) })
+        Ok(Self { target: path.to_path_buf(), partial: Partial::of(partial) })
     }
 
     /// Writes a new file of this name.
@@ -57,8 +89,7 @@ impl WholeFolder {
     /// # Errors
     /// When there is one already, or it cannot be written.
     pub fn add(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let Some(partial) = &self.partial else { return Ok(()) };
-        let mut file = File::create_new(partial.join(name))?;
+        let mut file = File::create_new(self.partial.path.join(name))?;
         file.write_all(bytes)?;
         file.sync_all()
     }
@@ -67,33 +98,16 @@ impl WholeFolder {
     ///
     /// # Errors
     /// When something has taken the name in the meantime, or the disk refuses.
-    pub fn finish(mut self) -> io::Result<()> {
-        let Some(partial) = self.partial.clone() else { return Ok(()) };
+    pub fn finish(self) -> io::Result<()> {
         if cfg!(unix) {
-            File::open(&partial)?.sync_all()?;
+            File::open(&self.partial.path)?.sync_all()?;
         }
         if fs::symlink_metadata(&self.target).is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
-        fs::rename(&partial, &self.target)?;
-        self.forget();
+        self.partial.put(&self.target)?;
         let above = self.target.parent().filter(|above| !above.as_os_str().is_empty());
         if cfg!(unix) { File::open(above.unwrap_or(Path::new(".")))?.sync_all() } else { Ok(()) }
-    }
-
-    fn forget(&mut self) {
-        if let Some(partial) = self.partial.take() {
-            under_way().retain(|path| *path != partial);
-        }
-    }
-}
-
-impl Drop for WholeFolder {
-    fn drop(&mut self) {
-        if let Some(partial) = &self.partial {
-            discard(partial);
-        }
-        self.forget();
     }
 }
 
@@ -107,7 +121,7 @@ pub fn would_replace(path: &Path) -> bool {
 pub struct Whole {
     target: PathBuf,
     /// `None` where there is nothing to put in place.
-    partial: Option<PathBuf>,
+    partial: Option<Partial>,
     file: BufWriter<File>,
 }
 
@@ -128,10 +142,8 @@ impl Whole {
         if let Some(folder) = target.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder)?;
         }
-        let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let partial = target.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-        under_way().push(partial.clone());
-        let file = File::create(&partial)?;
+        let partial = Partial::of(Partial::beside(&target));
+        let file = File::create(&partial.path)?;
         if let Ok(found) = found {
             file.set_permissions(found.permissions())?;
         }
@@ -140,7 +152,7 @@ impl Whole {
 
     /// Path of the unfinished file, for callers that write to it by name; `None` for a device or a pipe.
     pub fn partial(&self) -> Option<&Path> {
-        self.partial.as_deref()
+        self.partial.as_ref().map(|partial| partial.path.as_path())
     }
 
     /// Puts the file in its place.
@@ -149,17 +161,9 @@ impl Whole {
     /// When what was written cannot be kept; the file of before is then still there.
     pub fn finish(mut self) -> io::Result<()> {
         self.file.flush()?;
-        let Some(partial) = self.partial.clone() else { return Ok(()) };
+        let Some(partial) = self.partial else { return Ok(()) };
         self.file.get_ref().sync_all()?;
-        fs::rename(&partial, &self.target)?;
-        self.forget();
-        Ok(())
-    }
-
-    fn forget(&mut self) {
-        if let Some(partial) = self.partial.take() {
-            under_way().retain(|path| *path != partial);
-        }
+        partial.put(&self.target)
     }
 }
 
@@ -170,15 +174,6 @@ impl Write for Whole {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
-    }
-}
-
-impl Drop for Whole {
-    fn drop(&mut self) {
-        if let Some(partial) = &self.partial {
-            discard(partial);
-        }
-        self.forget();
     }
 }
 

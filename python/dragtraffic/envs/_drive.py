@@ -34,9 +34,9 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
     ``ego``: the road user; without it one of the vehicles that move is drawn. Its goal is that of its conditions, else
     where its recording ends, else where its likeliest future does. ``observation``: ``"parts"`` (arrays by name) or
     ``"gpudrive"`` (one row in the order of GPUDrive). ``actions``: ``"acceleration"`` (shares of acceleration and curvature
-    in [-1, 1]) or ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``aside_m``, ``distance_m``, ``reached``, ``faults``,
-    ``acceleration_mps2``, ``sideways_mps2`` and ``jerk_mps3``. An episode ends at the goal and at a fault of the ego, and
-    is truncated after ``horizon_s``.
+    in [-1, 1]) or ``"state"``. ``reward``: a function of ``info``, which has ``progress_m``, ``aside_m``, ``distance_m``,
+    ``reached``, ``faults``, ``acceleration_mps2``, ``sideways_mps2`` and ``jerk_mps3``. An episode ends at the goal and at
+    a fault of the ego, and is truncated after ``horizon_s``.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
