@@ -10,7 +10,7 @@ use super::trajectory::{
 use crate::planning::{INSTANTS, MODES, PER_INSTANT};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
-use scene::motion::{Gear, Reach};
+use scene::motion::{Gear, Reach, Smoothing};
 use scene::{AgentType, Vec2};
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
@@ -142,7 +142,7 @@ impl Material<'_> {
         let (slot, places, near) = self.seen()?;
         let plan = &self.actor.plan;
         let motion = match missed {
-            Some(reach) => short_along(plan, &places, false).with_reason_of(reach),
+            Some(reach) => short_along(plan, &places, Smoothing::DRIVEN, false).with_reason_of(reach),
             None if near => driven_again(plan, slot, &places),
             None => return None,
         };
@@ -155,7 +155,7 @@ impl Material<'_> {
         let free = self.under_way && !self.actor.only_rests() && plan.model.gear == Gear::Forward;
         let shown = self.shown.filter(|_| free && self.actor.kept.is_none())?;
         let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
-        let motion = self.without_creep(short_along(plan, &places, true));
+        let motion = self.without_creep(short_along(plan, &places, Smoothing::DRIVEN, true));
         let apart = |c: &&MotionCandidate| distance(&c.motion.states, &motion.states);
         let modes = alternatives.iter().filter(|c| matches!(c.origin, CandidateOrigin::Mode(_)));
         let slot = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?.origin.slot()?;
@@ -165,7 +165,7 @@ impl Material<'_> {
     /// The same where the motion that was shown last stops before another agent.
     pub(super) fn shown_stopping(&self) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
-        let motion = || short_along(&self.actor.plan, &places, false);
+        let motion = || short_along(&self.actor.plan, &places, Smoothing::DRIVEN, false);
         (!near).then(|| MotionCandidate {
             probability: 0.0,
             origin: CandidateOrigin::Stopping(slot),

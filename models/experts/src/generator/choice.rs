@@ -6,7 +6,7 @@ use crate::tuning::ChoiceTuning;
 use crate::tuning::fixed::choice::{LEAST_SPREAD_M, MOST_MOMENTS};
 use scene::HORIZON_STEPS;
 use scene::motion::Trajectory;
-use scene::score::{SweptBoxes, dangerous_moments, overlap};
+use scene::score::{CLOSE_M, SweptBoxes, Thresholds, comes_within, dangerous_moments, overlap};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -157,12 +157,14 @@ impl Choice<'_> {
     /// For each road user, the others whose options can come near one of its own.
     fn near(&self) -> Vec<Vec<usize>> {
         let n = self.agents.len();
+        // From this distance on two that cross cost something.
+        let margin_m = Thresholds::default().gap_m.max(CLOSE_M);
         let mut near = vec![Vec::new(); n];
         for i in 0..n {
             for j in i + 1..n {
                 let meet = self.agents[i]
                     .iter()
-                    .any(|a| self.agents[j].iter().any(|b| overlap(a.boxes(), b.boxes()).close));
+                    .any(|a| self.agents[j].iter().any(|b| comes_within(a.boxes(), b.boxes(), margin_m)));
                 if meet {
                     near[i].push(j);
                     near[j].push(i);

@@ -13,7 +13,7 @@ use crate::tuning::fixed::replan::{
 };
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
-use scene::motion::{Gear, MotionKind, Trajectory};
+use scene::motion::{Gear, MotionKind, Smoothing, Trajectory};
 use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::score::CLOSE_M;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
@@ -165,7 +165,7 @@ pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Tra
     let centres: [Vec2; INSTANTS] =
         std::array::from_fn(|i| search.path.extrapolate(along_m[(i + 1) * PER_INSTANT]).position);
     let gets_there = along_m[plan.target.step] >= search.along_m[plan.target.step] - THERE_M;
-    Some(short_along(plan, &centres, gets_there))
+    Some(short_along(plan, &centres, Smoothing::WISHED, gets_there))
 }
 
 impl<'a> ShiftSearch<'a> {

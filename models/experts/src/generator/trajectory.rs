@@ -15,8 +15,8 @@ use crate::tuning::fixed::trajectory::{
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
-    Gear, Knots, Limiting, MotionKind, MotionModel, MotionState, Projection, Reach, Sampled, Target,
-    TargetError, Trajectory, fit, project, refit_after,
+    Gear, Knots, Limiting, MotionKind, MotionModel, MotionState, Projection, Reach, Sampled, Smoothing,
+    Target, TargetError, Trajectory, fit, project, refit_after,
 };
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -209,26 +209,49 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The motion that was driven past these box centres, driven again in the manner that stays nearer to them.
+/// The motion that was driven past these box centres, driven again in the manner that stays nearest to them: hurried
+/// or as possible, along the lane at the goal or not.
 pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
     let places = facing_on(plan, centres);
-    let samples = samples(plan, &places);
-    let within = |model: &MotionModel| through_within(plan, model, slot, &places, &samples);
-    let (hurried, possible) = (within(&plan.model.hurried()), within(&plan.model));
-    let nearer =
-        |a: &Projection, b: &Projection| off_m(&a.trajectory, &places) <= off_m(&b.trajectory, &places);
-    if hurried.reach.is_reached() && (!possible.reach.is_reached() || nearer(&hurried, &possible)) {
-        return hurried.into();
+    let samples = as_driven(&places);
+    let target = projected_onto(plan);
+    let along = plan.lane_headings[slot.index()].filter(|_| plan.projected);
+    let along = along.map(|heading_rad| Target { heading_rad: Some(heading_rad), ..target });
+    let mut nearest: Option<(f64, Projection)> = None;
+    for model in [plan.model.hurried(), plan.model] {
+        let knots = fit(&model, &samples, Smoothing::DRIVEN);
+        for target in along.iter().chain([&target]) {
+            let motion = projected(plan, &model, &knots, target);
+            if !motion.reach.is_reached() {
+                continue;
+            }
+            let motion = on_after(plan, &model, motion, &samples, Smoothing::DRIVEN);
+            let off_m = off_m(&motion.trajectory, &places);
+            if nearest.as_ref().is_none_or(|(least_m, _)| off_m < *least_m) {
+                nearest = Some((off_m, motion));
+            }
+        }
     }
-    as_possible(plan, possible)
+    match nearest {
+        Some((_, motion)) => motion.into(),
+        None => through(plan, slot, places),
+    }
 }
 
-/// The same for an agent that stops before its goal, or at it, because another is in the way.
-pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_there: bool) -> Rollout {
-    let knots = fit(&plan.model, &samples(plan, &facing_on(plan, centres)));
+/// The same for an agent that stops before its goal, or at it, because another is in the way. The places are as wished
+/// for, or as they were driven.
+pub(super) fn short_along(
+    plan: &AgentPlan,
+    centres: &[Vec2; INSTANTS],
+    smoothing: Smoothing,
+    gets_there: bool,
+) -> Rollout {
+    let places = facing_on(plan, centres);
+    let samples = if smoothing == Smoothing::DRIVEN { as_driven(&places) } else { samples(plan, &places) };
+    let knots = fit(&plan.model, &samples, smoothing);
     let free = Target { step: plan.target.step, ..Target::default() };
     let target = if gets_there { projected_onto(plan) } else { free };
     let motion = project(&plan.model, &knots, &target, None);
@@ -284,6 +307,16 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     samples
 }
 
+/// Places of a motion that was driven, as samples of it.
+fn as_driven(places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
+    let sample = |(i, &(position, heading_rad)): (usize, &(Vec2, f64))| Sampled {
+        step: (i + 1) * PER_INSTANT,
+        position,
+        heading_rad,
+    };
+    places.iter().enumerate().map(sample).collect()
+}
+
 /// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
 /// this slot: within the hurried manner where that meets the goal, else within what is possible.
 fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rollout {
@@ -319,27 +352,33 @@ fn through_within(
     places: &[(Vec2, f64); INSTANTS],
     samples: &[Sampled],
 ) -> Projection {
-    let knots = fit(model, samples);
+    let knots = fit(model, samples, Smoothing::WISHED);
     let target = projected_onto(plan);
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };
         let motion = projected(plan, model, &knots, &along);
         let due = (target.step / PER_INSTANT).min(INSTANTS);
         if motion.reach.is_reached() && off_m(&motion.trajectory, &places[..due]) < ALONG_LANE_M {
-            return on_after(plan, model, motion, samples);
+            return on_after(plan, model, motion, samples, Smoothing::WISHED);
         }
     }
     let motion = projected(plan, model, &knots, &target);
-    if motion.reach.is_reached() { on_after(plan, model, motion, samples) } else { motion }
+    if motion.reach.is_reached() { on_after(plan, model, motion, samples, Smoothing::WISHED) } else { motion }
 }
 
 /// The same motion to the goal, and from there on past the places after it.
-fn on_after(plan: &AgentPlan, model: &MotionModel, motion: Projection, samples: &[Sampled]) -> Projection {
+fn on_after(
+    plan: &AgentPlan,
+    model: &MotionModel,
+    motion: Projection,
+    samples: &[Sampled],
+    smoothing: Smoothing,
+) -> Projection {
     let step = plan.target.step;
     if projected_onto(plan).is_free() {
         return motion;
     }
-    let knots = refit_after(model, &motion.knots, step, samples);
+    let knots = refit_after(model, &motion.knots, step, samples, smoothing);
     if knots == motion.knots {
         return motion;
     }

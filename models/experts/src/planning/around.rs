@@ -11,10 +11,12 @@ use scene::{STANDING_MPS, Vec2};
 
 /// Distance between the points of a way, metres.
 const SPACING_M: f64 = 0.5;
+/// Parts in which the room around a box is taken away where an end of the way is within it.
+const ROOM_PARTS: u8 = 5;
 /// Ways round boxes are named from here on.
 const IDENTITY: u64 = 1_000_000;
 
-/// The shortest way to a goal round those who stand; `None` where `straight` is free, and where no way round is short
+/// The shortest way to a goal round those who stand; `None` where the straight one is free, and where no way round is short
 /// enough.
 pub(super) fn around(
     world: &World<'_>,
@@ -22,15 +24,13 @@ pub(super) fn around(
     model: &MotionModel,
     target: &Target,
     goal: Vec2,
-    straight: &Polyline,
 ) -> Option<UntimedPath> {
     let start = who.start.position();
     let room_m = 0.5 * who.size.width_m.max(who.size.length_m) + ROOM_M;
     let standing = world.obstacles(who.index).into_iter().filter(|o| o.speed_mps < STANDING_MPS);
-    let holds = |b: &OrientedBox, place: Vec2| b.meets_segment(place, place);
-    let boxes: Vec<OrientedBox> =
-        standing.map(|o| o.outline.grown(room_m)).filter(|b| !holds(b, start) && !holds(b, goal)).collect();
-    let mut known: Vec<usize> = met(&boxes, straight.points());
+    let boxes: Vec<Standing> =
+        standing.filter_map(|o| Standing::new(&o.outline, room_m, [start, goal])).collect();
+    let mut known: Vec<usize> = met(&boxes, &[start, goal]);
     if known.is_empty() {
         return None;
     }
@@ -53,9 +53,37 @@ pub(super) fn around(
     None
 }
 
-/// Indices of the boxes that a line meets.
-fn met(boxes: &[OrientedBox], line: &[Vec2]) -> Vec<usize> {
-    let meets = |b: &OrientedBox| line.windows(2).any(|ends| b.meets_segment(ends[0], ends[1]));
+/// What stands, with the room that a walker keeps to it.
+struct Standing {
+    grown: OrientedBox,
+    /// With as much room as leaves the start outside, and the goal: for the way from the one, and to the other.
+    at_ends: [OrientedBox; 2],
+}
+
+impl Standing {
+    /// `None` where the start or the goal is inside even without room.
+    fn new(outline: &OrientedBox, room_m: f64, ends: [Vec2; 2]) -> Option<Self> {
+        let grown = |part: u8| outline.grown(room_m * f64::from(part) / f64::from(ROOM_PARTS));
+        let outside = |end: Vec2| (0..=ROOM_PARTS).rev().map(grown).find(|b| !b.meets_segment(end, end));
+        let [at_start, at_goal] = ends.map(outside);
+        Some(Self { grown: grown(ROOM_PARTS), at_ends: [at_start?, at_goal?] })
+    }
+
+    /// It is in the way on a leg; `first` and `last` say which leg of the way that is.
+    fn meets(&self, from: Vec2, to: Vec2, first: bool, last: bool) -> bool {
+        let [at_start, at_goal] = &self.at_ends;
+        (!first || at_start.meets_segment(from, to))
+            && (!last || at_goal.meets_segment(from, to))
+            && (first || last || self.grown.meets_segment(from, to))
+    }
+}
+
+/// Indices of the boxes that a way meets.
+fn met(boxes: &[Standing], way: &[Vec2]) -> Vec<usize> {
+    let last = way.len().saturating_sub(2);
+    let meets = |b: &Standing| {
+        way.windows(2).enumerate().any(|(leg, ends)| b.meets(ends[0], ends[1], leg == 0, leg == last))
+    };
     (0..boxes.len()).filter(|i| meets(&boxes[*i])).collect()
 }
 
@@ -67,15 +95,17 @@ struct CornerWay {
 
 /// The shortest line of at most `longest_m` past the corners of the known boxes that meets none of them.
 fn shortest(
-    boxes: &[OrientedBox],
+    boxes: &[Standing],
     known: &[usize],
     start: Vec2,
     goal: Vec2,
     longest_m: f64,
 ) -> Option<CornerWay> {
-    let corners = known.iter().flat_map(|i| boxes[*i].grown(SPARE_M).corners());
+    let corners = known.iter().flat_map(|i| boxes[*i].grown.grown(SPARE_M).corners());
     let places: Vec<Vec2> = [start, goal].into_iter().chain(corners).collect();
-    let is_free = |a: Vec2, b: Vec2| !known.iter().any(|i| boxes[*i].meets_segment(a, b));
+    let is_free = |from: usize, to: usize| {
+        !known.iter().any(|i| boxes[*i].meets(places[from], places[to], from == 0, to == 1))
+    };
     let mut from = vec![0; places.len()];
     let mut length_m = vec![f64::INFINITY; places.len()];
     let mut open = vec![true; places.len()];
@@ -89,7 +119,7 @@ fn shortest(
         open[at] = false;
         for to in (1..places.len()).filter(|to| open[*to]) {
             let through_m = length_m[at] + (places[to] - places[at]).norm();
-            if through_m < length_m[to] && is_free(places[at], places[to]) {
+            if through_m < length_m[to] && is_free(at, to) {
                 (length_m[to], from[to]) = (through_m, at);
             }
         }
@@ -114,9 +144,10 @@ mod tests {
 
     #[test]
     fn a_row_of_parked_cars_is_passed_at_its_end_or_through_a_gap() {
-        let car = |y_m: f64| OrientedBox::new(Vec2::new(5.0, y_m), 2.4, 1.0, 0.0).grown(0.5);
         let (start, goal) = (Vec2::zeros(), Vec2::new(10.0, 0.0));
-        let way = |boxes: &[OrientedBox]| {
+        let parked = |x_m: f64, y_m: f64| OrientedBox::new(Vec2::new(x_m, y_m), 2.4, 1.0, 0.0);
+        let car = |y_m: f64| Standing::new(&parked(5.0, y_m), 0.5, [start, goal]).unwrap();
+        let way = |boxes: &[Standing]| {
             let known: Vec<usize> = (0..boxes.len()).collect();
             shortest(boxes, &known, start, goal, 40.0).map(|way| way.places)
         };
@@ -128,7 +159,19 @@ mod tests {
         let through = way(&with_gap).unwrap();
         assert!(met(&with_gap, &through).is_empty());
         assert!(through.iter().all(|p| p.y.abs() < 2.0), "{through:?}");
-        let wall: Vec<OrientedBox> = (-20..=20).map(|i| car(2.5 * f64::from(i))).collect();
+        let wall: Vec<Standing> = (-20..=20).map(|i| car(2.5 * f64::from(i))).collect();
         assert!(way(&wall).is_none());
+    }
+
+    #[test]
+    fn a_goal_close_behind_a_parked_car_is_walked_to_round_it() {
+        let (start, goal) = (Vec2::zeros(), Vec2::new(7.7, 0.0));
+        let parked = OrientedBox::new(Vec2::new(5.0, 0.0), 2.4, 1.0, 0.0);
+        let boxes = [Standing::new(&parked, 0.8, [start, goal]).unwrap()];
+        assert_eq!(met(&boxes, &[start, goal]), [0]);
+        let way = shortest(&boxes, &[0], start, goal, 40.0).unwrap().places;
+        assert!(met(&boxes, &way).is_empty());
+        assert!(way.iter().any(|p| p.y.abs() > 1.8), "{way:?}");
+        assert!(Standing::new(&parked, 0.8, [start, Vec2::new(5.0, 0.5)]).is_none());
     }
 }

@@ -98,7 +98,7 @@ pub(super) fn paths_to_goal(
     if model.kind == MotionKind::Walk {
         let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
         let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
-        let around = around(world, who, model, target, goal, &straight.path);
+        let around = around(world, who, model, target, goal);
         return by_crosswalk.into_iter().chain(around).chain([straight]).collect();
     }
     let hurried = project(&model.hurried(), &model.coasting(), target, None);

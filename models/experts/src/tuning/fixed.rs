@@ -24,6 +24,20 @@ numbers! {
         /// Modes that are nearer to an option on average count as so far from it, metres.
         LEAST_SPREAD_M: f64 = 0.3;
     }
+    /// Of the future that a person has seen last. Greater faults are a reason to show another; a 5 cm move of a goal
+    /// changes lesser ones.
+    shown_last {
+        /// Past the road's edge, metres.
+        PAST_EDGE_M: f64 = 0.4;
+        /// Against the traffic, metres.
+        WRONG_WAY_M: f64 = 5.5;
+        /// Braking and turning, m/s2.
+        HARSH_MPS2: f64 = 4.5;
+        /// Braking of another, m/s2.
+        FORCED_MPS2: f64 = 3.5;
+        /// Off the lane's direction, radians.
+        ASKEW_RAD: f64 = 0.35;
+    }
     /// Of swerving and stopping for what is in the way.
     replan {
         /// Metres aside that a vehicle gets on a metre of way.
@@ -222,6 +236,8 @@ numbers! {
         OTHER_GAPS_M: [f64; 3] = [0.8, 0.4, 0.1];
         /// Speeds of an agent that goes first: shares of its own.
         FASTER: [f64; 2] = [1.15, 1.3];
+        /// Speeds of an agent that enters later and braked before: shares of its first one.
+        ENTRIES: [f64; 3] = [0.7, 0.4, 0.1];
         /// Rate at which it speeds up to them, m/s2.
         HURRIES_MPS2: f64 = 1.8;
         /// Share of the sideways limit that it may use.

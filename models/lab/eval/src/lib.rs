@@ -22,6 +22,7 @@ mod control;
 pub mod cost;
 mod feedback;
 pub mod filled;
+mod goal_ways;
 pub mod measure;
 mod parked;
 pub mod picture;

@@ -2,7 +2,7 @@
 
 use super::{Case, Subset};
 use scene::geometry::direction;
-use scene::motion::{MotionModel, MotionState, Sampled, Trajectory, fit, limit_excess};
+use scene::motion::{MotionModel, MotionState, Sampled, Smoothing, Trajectory, fit, limit_excess};
 use scene::{Agent, Future, Goal, HORIZON_STEPS, STANDING_MPS, State, Vec2, wrap_angle};
 
 /// Errors of one road user's futures. Distances in metres, over the steps at which the log is known.
@@ -166,7 +166,7 @@ pub fn following(log: &Agent, start: State) -> Trajectory {
         Some(Sampled { step, position: state.position(), heading_rad: state.heading_rad })
     };
     let samples: Vec<Sampled> = (1..=HORIZON_STEPS / 5).filter_map(|i| sampled(5 * i)).collect();
-    model.rollout(&fit(&model, &samples))
+    model.rollout(&fit(&model, &samples, Smoothing::WISHED))
 }
 
 /// Mean distance from a log, metres, of a motion given by its position at each step.

@@ -2,6 +2,7 @@
 //! road leads to the goal; reactions and their causes; near-copies; jumps of what is shown; red lights.
 
 use super::control;
+use super::goal_ways::{self, InTime};
 use super::measure::{goal_error, is_met};
 use super::picture::{futures_svg, who};
 use super::sheet::{Cell, Form, Sheet};
@@ -13,11 +14,9 @@ use experts::request::ShownLast;
 use experts::{Answer, Generator, React, Request};
 use rayon::prelude::*;
 use scene::geometry::direction;
-use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::geometry::obb::OrientedBox;
 use scene::judge::{FaultKind, RelationKind};
-use scene::limits::Limits;
 use scene::random::Key;
-use scene::routes::{GoalQuery, Pose, RouteKind, routes_to_goal};
 use scene::{AgentFutures, AgentId, AgentType, Future, Goal, STEP_S, Vec2};
 use std::collections::BTreeSet;
 
@@ -31,8 +30,6 @@ const NUDGE_M: f64 = 0.05;
 const COPY_M: f64 = 0.5;
 /// A driver this far before a red stop line gets a goal that requires waiting, metres.
 const BEFORE_LINE_M: f64 = 50.0;
-/// Share of what limits allow that a way may need to count as driven in time: there are bends.
-const PRESSED_SHARE: f64 = 0.8;
 /// Half seconds of a window.
 const SHOWN: usize = 18;
 
@@ -75,8 +72,8 @@ struct Drag {
     extent: f64,
     vehicle: bool,
     met: bool,
-    /// A route with the traffic leads to the goal.
-    by_road: bool,
+    /// How a route with the traffic leads to the goal.
+    by_road: InTime,
     /// No logged road user occupies the goal when it is due.
     free: bool,
     /// Of the shown future.
@@ -106,8 +103,14 @@ fn trust(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64, pic
             picked.par_iter().map(|&(s, c)| drags(&own.generator, &sites[s], c, seed)).collect();
         let drags: Vec<Drag> = drags?.into_iter().flatten().collect();
         let met: Vec<&Drag> = drags.iter().filter(|d| d.met && d.vehicle).collect();
-        for (name, by_road) in [("a road leads there", true), ("none does", false)] {
-            let mine: Vec<&Drag> = met.iter().copied().filter(|d| d.by_road == by_road).collect();
+        type Holds = fn(InTime) -> bool;
+        let rows: [(&str, Holds); 3] = [
+            ("a road leads there", |way| way >= InTime::Pressed),
+            ("the same by the limits", |way| way == InTime::Lawful),
+            ("none does", |way| way == InTime::No),
+        ];
+        for (name, holds) in rows {
+            let mine: Vec<&Drag> = met.iter().copied().filter(|d| holds(d.by_road)).collect();
             sheets[0].push([own.name.as_str(), name, "shown"], fault_cells(boot, &mine, true));
             sheets[0].push([own.name.as_str(), name, "all six"], fault_cells(boot, &mine, false));
         }
@@ -138,14 +141,14 @@ fn worst(
     let kinds: [(&str, Measure<'_>); 13] = [
         ("collision", &|d| (d.free && has(d, &[FaultKind::Collision])).then_some(d.extent)),
         ("foot", &|d| (!d.vehicle && d.met && has(d, &[FaultKind::Collision])).then_some(d.extent)),
-        ("road", &|d| (d.met && d.vehicle && d.by_road && has(d, &road)).then_some(d.extent)),
-        ("near", &|d| (d.met && d.by_road && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
-        ("steering", &|d| (d.met && d.by_road && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
-        ("map", &|d| (d.met && d.by_road && has(d, &[FaultKind::OffMap])).then_some(d.extent)),
+        ("road", &|d| (d.met && d.vehicle && d.by_road >= InTime::Pressed && has(d, &road)).then_some(d.extent)),
+        ("near", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
+        ("steering", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
+        ("map", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::OffMap])).then_some(d.extent)),
         ("carriageway", &|d| (d.met && has(d, &[FaultKind::OnCarriageway])).then_some(d.extent)),
-        ("speeding", &|d| (d.met && d.by_road && has(d, &[FaultKind::Speeding])).then_some(d.extent)),
+        ("speeding", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Speeding])).then_some(d.extent)),
         ("running", &|d| (d.met && has(d, &[FaultKind::Running])).then_some(d.extent)),
-        ("askew", &|d| (d.met && d.by_road && has(d, &[FaultKind::Askew])).then_some(d.extent)),
+        ("askew", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Askew])).then_some(d.extent)),
         ("forces", &|d| (d.met && has(d, &forced)).then_some(d.extent)),
         ("jump", &|d| (d.jump_m > 1.0).then_some(d.jump_m)),
         ("copies", &|d| (d.copies > 1).then_some(d.copies as f64)),
@@ -233,8 +236,8 @@ fn drag(
         extent: shown.and_then(|f| f.about.faults.first()?.extent).unwrap_or(0.0),
         vehicle,
         met: is_met(goal_error(&goal, &end)),
-        by_road: has_route(site, case, &goal),
-        free: is_free(site, case, &goal),
+        by_road: goal_ways::in_time(site, case, &goal),
+        free: goal_ways::is_free(site, case, &goal),
         shown: shown.map(kinds).unwrap_or_default(),
         all: futures.map(|f| f.modes.iter().map(kinds).collect()).unwrap_or_default(),
         unsaid: vehicle && shown.is_some_and(|f| leaves_unsaid(site, case, f)),
@@ -255,61 +258,6 @@ fn futures<'a>(answer: &'a Answer, id: &str) -> Option<&'a AgentFutures> {
 fn last_shown(future: &Future) -> ShownLast {
     let places = future.states.iter().skip(4).step_by(5).take(SHOWN).map(scene::State::position);
     ShownLast { anchor: future.anchor, places: places.collect() }
-}
-
-/// A route with the traffic leads to the goal in the time, and there is room for the vehicle on the road there.
-fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
-    let Some(position) = goal.position else { return false };
-    let size = site.log(case).size;
-    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
-    let place = lane
-        .map(|lane| OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, lane.heading_rad));
-    if place.and_then(|place| site.drivable.box_outside_m(&place)).is_none_or(|outside| outside > 0.15) {
-        return false;
-    }
-    let query = GoalQuery {
-        pose: Pose::new(case.start.position(), case.start.heading_rad),
-        speed_mps: case.start.speed_mps(),
-        agent_type: case.agent_type,
-        goal: position,
-        goal_heading_rad: goal.heading_rad,
-        least_effort_m: None,
-    };
-    routes_to_goal(&site.graph, &query).iter().any(|r| {
-        let (kind, beside_m) = (r.kind, r.goal_lateral_m.abs());
-        kind == RouteKind::Forward && beside_m < 1.5 && is_in_time(site, case, r.route.path.length_m())
-    })
-}
-
-/// A way of this length can be driven by when the goal is due, neither too far nor too near to slow down for.
-fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
-    let log = site.log(case);
-    let limits = Limits::of(case.agent_type, log.subtype, log.size.length_m);
-    let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
-    let (accel, brake) = (limits.accel_mps2, limits.brake_mps2);
-    let speeding_s = seconds.min((limits.speed_mps - v0).max(0.0) / accel);
-    let most_m = v0 * seconds + accel * speeding_s * (seconds - 0.5 * speeding_s);
-    let braking_s = seconds.min(v0 / brake);
-    let least_m = v0 * braking_s - 0.5 * brake * braking_s * braking_s;
-    (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
-}
-
-/// Whether no logged road user occupies the goal when it is due. With a free heading the arrival is along the
-/// lane, else straight from the start.
-fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
-    let Some(position) = goal.position else { return false };
-    let size = site.log(case).size;
-    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
-    let chord = position - case.start.position();
-    let heading_rad = lane.map_or(chord.y.atan2(chord.x), |lane| lane.heading_rad);
-    let heading_rad = goal.heading_rad.unwrap_or(heading_rad);
-    let place = OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading_rad);
-    let there = |agent: &scene::Agent| {
-        let state = agent.state_at(case.goal_step)?;
-        Some(overlaps(&place, &OrientedBox::of_state(&state, &agent.size), 0.0))
-    };
-    let mut others = site.scene.agents.iter().enumerate().filter(|(i, _)| *i != case.agent);
-    !others.any(|(_, agent)| there(agent) == Some(true))
 }
 
 /// Past the road's edges by half a metre or more, from inside them, without a fault that says so.
@@ -405,7 +353,8 @@ fn faults_sheet() -> Sheet {
             "Goals moved by 2 to 30 m along and across the lane, ten for each of at most 150 road users drawn by the \
              seed, everybody reacting. Share of reached goals whose future has each fault (`all six`: share of all \
              futures), by whether a route with the traffic leads to the goal \
-             in the time. Any fault: one of these kinds at least.",
+             in the time; by the limits: also at the speed limit and without harsh braking. Any fault: one of these \
+             kinds at least.",
         ],
         &["ours", "goals of vehicles", "futures"],
         &columns,

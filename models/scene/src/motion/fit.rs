@@ -21,6 +21,17 @@ pub struct Sampled {
     pub heading_rad: f64,
 }
 
+/// How much smoother than its samples a fitted motion may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smoothing(f64);
+
+impl Smoothing {
+    /// For samples that are wished for, such as a path with a speed profile, or that a sensor has seen.
+    pub const WISHED: Self = Self(1.0);
+    /// For samples of a motion that was rolled out from knots: there is nothing to smooth.
+    pub const DRIVEN: Self = Self(0.01);
+}
+
 /// Weight of the knots' second differences: keeps them smooth where few samples speak.
 const ROUGHNESS: [f64; 2] = [0.02, 2.0];
 /// Weight of the knots themselves.
@@ -31,26 +42,32 @@ type Square<const N: usize> = SMatrix<f64, N, N>;
 
 /// Knots whose rollout is as close to the samples as the limits allow. One sample each 0.5 s is enough. An
 /// empty list gives the coasting knots.
-pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
+pub fn fit(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Knots {
     if samples.is_empty() {
         return model.coasting();
     }
     match model.kind {
-        MotionKind::Drive => fit_drive(model, samples),
-        MotionKind::Walk => fit_walk(model, samples),
+        MotionKind::Drive => fit_drive(model, samples, smoothing),
+        MotionKind::Walk => fit_walk(model, samples, smoothing),
     }
 }
 
 /// The same motion up to a step, and from there on past the samples after it: on wheels, what was changed to meet a goal
 /// at that step leaves it with another place, speed and heading than the knots after it were made for.
-pub fn refit_after(model: &MotionModel, knots: &Knots, step: usize, samples: &[Sampled]) -> Knots {
+pub fn refit_after(
+    model: &MotionModel,
+    knots: &Knots,
+    step: usize,
+    samples: &[Sampled],
+    smoothing: Smoothing,
+) -> Knots {
     // Up to the one before, the motion before that step depends on them.
     let free = step.div_ceil(KNOT_STEPS) + 1;
     let after = samples.partition_point(|s| s.step <= step);
     if model.kind != MotionKind::Drive || free >= KNOTS || after == samples.len() {
         return *knots;
     }
-    refine_positions(model, &samples[after..], *knots, free)
+    refine_positions(model, &samples[after..], *knots, free, smoothing)
 }
 
 /// `weight` times the integral of the squared second derivative over time, by second differences, plus `size` times
@@ -83,16 +100,16 @@ fn ridge(rows: &[[f64; KNOTS]], wanted: &[f64], penalty: &Square<KNOTS>) -> [f64
     normal.cholesky().map_or([0.0; KNOTS], |c| c.solve(&right).into())
 }
 
-fn fit_drive(model: &MotionModel, samples: &[Sampled]) -> Knots {
-    let first = fit_progress(model, samples);
+fn fit_drive(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Knots {
+    let first = fit_progress(model, samples, smoothing);
     let mut knots = model.legal(&Knots { first, second: [0.0; KNOTS] });
-    knots.second = fit_headings(model, samples, &knots);
+    knots.second = fit_headings(model, samples, &knots, smoothing);
     knots = model.legal(&knots);
-    refine_positions(model, samples, knots, 0)
+    refine_positions(model, samples, knots, 0, smoothing)
 }
 
 /// Acceleration knots from the distance travelled.
-fn fit_progress(model: &MotionModel, samples: &[Sampled]) -> [f64; KNOTS] {
+fn fit_progress(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> [f64; KNOTS] {
     let v0 = model.start_speed_mps();
     let (mut rows, mut wanted) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
     let (mut last, mut travelled) = (model.start.position(), 0.0);
@@ -115,11 +132,16 @@ fn fit_progress(model: &MotionModel, samples: &[Sampled]) -> [f64; KNOTS] {
         rows.push(distance_row);
         wanted.push(travelled - v0 * step as f64 * STEP_S);
     }
-    ridge(&rows, &wanted, &smoothness(ROUGHNESS[0], SIZE[0]))
+    ridge(&rows, &wanted, &(smoothness(ROUGHNESS[0], SIZE[0]) * smoothing.0))
 }
 
 /// Curvature knots from the headings, along the distances that the acceleration knots give.
-fn fit_headings(model: &MotionModel, samples: &[Sampled], knots: &Knots) -> [f64; KNOTS] {
+fn fit_headings(
+    model: &MotionModel,
+    samples: &[Sampled],
+    knots: &Knots,
+    smoothing: Smoothing,
+) -> [f64; KNOTS] {
     let straight = rollout(model, knots);
     let sign = if model.gear == Gear::Reverse { -1.0 } else { 1.0 };
     let (mut rows, mut wanted) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
@@ -138,16 +160,22 @@ fn fit_headings(model: &MotionModel, samples: &[Sampled], knots: &Knots) -> [f64
         rows.push(row);
         wanted.push(heading);
     }
-    ridge(&rows, &wanted, &smoothness(ROUGHNESS[1], SIZE[1]))
+    ridge(&rows, &wanted, &(smoothness(ROUGHNESS[1], SIZE[1]) * smoothing.0))
 }
 
 /// Steps towards knots that pass the samples; those before `free` stay as they are.
-fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots, free: usize) -> Knots {
+fn refine_positions(
+    model: &MotionModel,
+    samples: &[Sampled],
+    mut knots: Knots,
+    free: usize,
+    smoothing: Smoothing,
+) -> Knots {
     let steps: Vec<usize> = samples.iter().map(|s| s.step).collect();
     let goals: Vec<Vec2> = samples.iter().map(|s| model.to_local(s.position)).collect();
     let mut penalty = Square::<CONTROLS>::zeros();
     for channel in 0..2 {
-        let block = smoothness(ROUGHNESS[channel], SIZE[channel]);
+        let block = smoothness(ROUGHNESS[channel], SIZE[channel]) * smoothing.0;
         penalty.fixed_view_mut::<KNOTS, KNOTS>(channel * KNOTS, channel * KNOTS).copy_from(&block);
     }
     let mut best = (f64::INFINITY, knots);
@@ -194,7 +222,7 @@ fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots, 
     best.1
 }
 
-fn fit_walk(model: &MotionModel, samples: &[Sampled]) -> Knots {
+fn fit_walk(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Knots {
     let start = model.coasting();
     let mut rows = Vec::with_capacity(samples.len());
     let (mut ahead, mut left) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
@@ -207,7 +235,7 @@ fn fit_walk(model: &MotionModel, samples: &[Sampled]) -> Knots {
         row[0] = 0.0;
         rows.push(row);
     }
-    let penalty = smoothness(0.01, 1e-4);
+    let penalty = smoothness(0.01, 1e-4) * smoothing.0;
     let mut knots = Knots { first: ridge(&rows, &ahead, &penalty), second: ridge(&rows, &left, &penalty) };
     (knots.first[0], knots.second[0]) = (start.first[0], start.second[0]);
     model.legal(&knots)

@@ -11,7 +11,7 @@ pub mod tension;
 pub mod walk;
 mod whiten;
 
-pub use fit::{Sampled, fit, refit_after};
+pub use fit::{Sampled, Smoothing, fit, refit_after};
 pub use project::{Limiting, Pass, Projection, Reach, Target, TargetError, project, project_through};
 pub use tension::Tension;
 pub use whiten::knot_covariance_factor;

@@ -4,7 +4,7 @@
 //! active set at the bounds. A hard start is tried from several first guesses.
 
 use super::drive::{curvature_cut, sensitivities};
-use super::fit::{Sampled, fit};
+use super::fit::{Sampled, Smoothing, fit};
 use super::walk::{position_row, velocity_row};
 use super::whiten::Whitening;
 use super::{CONTROLS, Knots, MotionKind, MotionModel, MotionState, Trajectory};
@@ -615,7 +615,7 @@ fn curve_guess(model: &MotionModel, target: &Target, bulge: f64) -> Knots {
             samples.push(Sampled { step, position: p, heading_rad: chord.y.atan2(chord.x) });
         }
     }
-    fit(model, &samples)
+    fit(model, &samples, Smoothing::WISHED)
 }
 
 /// Which limit keeps `target` out of reach, and what it would take.

@@ -182,7 +182,7 @@ fn fit_then_rollout_finds_the_track_again() {
                     heading_rad: truth[5 * i].heading_rad,
                 })
                 .collect();
-            let back = model.rollout(&fit(&model, &samples));
+            let back = model.rollout(&fit(&model, &samples, Smoothing::WISHED));
             let error: f64 = truth.iter().zip(&back).map(|(a, b)| (a.position - b.position).norm()).sum();
             assert!(error / 91.0 < 0.12, "{kind:?}: {}", error / 91.0);
         }

@@ -187,6 +187,20 @@ pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Itera
     })
 }
 
+/// Two motions come nearer than this at some moment, metres.
+pub fn comes_within(a: &SweptBoxes, b: &SweptBoxes, margin_m: f64) -> bool {
+    if !a.whole.near(&b.whole, margin_m) {
+        return false;
+    }
+    a.chunks.iter().zip(&b.chunks).enumerate().any(|(chunk, (in_a, in_b))| {
+        let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
+        let near = |(p, q): (&Option<OrientedBox>, &Option<OrientedBox>)| {
+            p.as_ref().zip(q.as_ref()).is_some_and(|(p, q)| overlaps(p, q, margin_m))
+        };
+        in_a.near(in_b, margin_m) && a.boxes[moments.clone()].iter().zip(&b.boxes[moments]).any(near)
+    })
+}
+
 /// Overlap of two motions at their common moments. Motions with separate bounding rectangles cost four
 /// comparisons; crossing ones about a microsecond.
 ///

@@ -19,8 +19,9 @@ use crate::generator::verdict::{ChangedAgent, faults, window_judge};
 use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use crate::tuning::fixed::following::BRAKES;
-use scene::judge::{FaultKind, Judge};
-use scene::motion::MotionKind;
+use crate::tuning::fixed::shown_last;
+use scene::judge::{Fault, FaultKind, Judge};
+use scene::motion::{MotionKind, Smoothing};
 use scene::score::{SweptBoxes, dangerous_moments, overlap};
 use scene::{AgentId, Future, STEP_S, State};
 use std::borrow::Cow;
@@ -136,6 +137,7 @@ impl OptionTable<'_> {
         let (settled, worst) = self.as_shown_last(i, settled);
         let Some(worst) = worst else { return settled };
         let chosen = settled.chosen[i];
+        let goes_on = self.candidates[i][chosen].origin.is_shown();
         let misses = |o: usize| !self.candidates[i][o].motion.reach.is_reached();
         let costs = &self.choice.agents[i];
         let another = |o: usize| !self.candidates[i][o].origin.is_shown();
@@ -151,7 +153,8 @@ impl OptionTable<'_> {
                 }
                 let next = self.with_option(i, o, &best.1);
                 let Some(worst) = self.worst_fault(i, &next) else { return next };
-                if worst > best.0 {
+                // Only a collision is worth another motion that has a fault too.
+                if worst > best.0 && (!goes_on || best.0 == FaultKind::Collision) {
                     best = (worst, next);
                 }
             }
@@ -160,14 +163,24 @@ impl OptionTable<'_> {
     }
 
     /// The choice with what a person has seen last, where that reaches the goal and has no worse fault; and the worst
-    /// fault of what is chosen.
+    /// fault of what is chosen. Slight faults of what was seen last are none.
     fn as_shown_last(&self, i: usize, settled: Settled) -> (Settled, Option<FaultKind>) {
-        let worst = self.worst_fault(i, &settled);
-        let stays = |c: &MotionCandidate| c.origin.is_shown() && c.motion.reach.is_reached();
-        let shown = self.candidates[i].iter().position(stays).filter(|shown| *shown != settled.chosen[i]);
-        let Some(shown) = shown else { return (settled, worst) };
+        let stays = |o: usize| {
+            let candidate = &self.candidates[i][o];
+            candidate.origin.is_shown() && candidate.motion.reach.is_reached()
+        };
+        let Some(shown) = (0..self.candidates[i].len()).find(|o| stays(*o)) else {
+            let worst = self.worst_fault(i, &settled);
+            return (settled, worst);
+        };
+        let grave = |of: &Settled| worst(self.faults(i, of).iter().filter(|fault| !is_slight(fault)));
+        if settled.chosen[i] == shown {
+            let fault = grave(&settled);
+            return (settled, fault);
+        }
         let kept = self.with_option(i, shown, &settled);
-        let fault = self.worst_fault(i, &kept);
+        let fault = grave(&kept);
+        let worst = self.worst_fault(i, &settled);
         // The worst kind of fault is the least.
         let no_worse = fault.is_none_or(|fault| worst.is_some_and(|worst| fault >= worst));
         if no_worse { (kept, fault) } else { (settled, worst) }
@@ -180,8 +193,13 @@ impl OptionTable<'_> {
         self.settled(chosen)
     }
 
-    /// The worst fault of the chosen motion of an actor; a missed goal or via point is none here.
+    /// The worst fault of the chosen motion of an actor.
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
+        worst(self.faults(i, settled).iter())
+    }
+
+    /// All faults of the chosen motion of an actor.
+    fn faults(&self, i: usize, settled: &Settled) -> Vec<Fault> {
         let setting = self.of.setting;
         let first_step = setting.world.step + 1;
         let id = &self.of.actors[i].id;
@@ -201,8 +219,7 @@ impl OptionTable<'_> {
         });
         let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
         let motion = &self.candidates[i][settled.chosen[i]].motion.states;
-        let faults = faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed);
-        faults.iter().map(|fault| fault.kind).filter(|kind| *kind <= FaultKind::NearMiss).min()
+        faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed)
     }
 
     fn change(&self, i: usize, taken: &MotionCandidate, sweep: Arc<Sweep>) -> ChangedMotion {
@@ -488,11 +505,31 @@ impl OptionTable<'_> {
     }
 }
 
+/// The worst of these faults; a missed goal or via point is none here.
+fn worst<'f>(faults: impl Iterator<Item = &'f Fault>) -> Option<FaultKind> {
+    faults.map(|fault| fault.kind).filter(|kind| *kind <= FaultKind::NearMiss).min()
+}
+
+/// Too slight to show another future than before.
+fn is_slight(fault: &Fault) -> bool {
+    let extent = fault.extent.unwrap_or(f64::INFINITY);
+    let most = match fault.kind {
+        FaultKind::OffRoad | FaultKind::OverMedian => shown_last::PAST_EDGE_M,
+        // One without a length is at the end.
+        FaultKind::WrongWay if extent > 0.0 => shown_last::WRONG_WAY_M,
+        FaultKind::HarshBraking | FaultKind::HarshSteering => shown_last::HARSH_MPS2,
+        FaultKind::ForcesBraking => shown_last::FORCED_MPS2,
+        FaultKind::Askew => shown_last::ASKEW_RAD,
+        _ => return false,
+    };
+    extent <= most
+}
+
 /// States of a motion, one a step, as the agent can drive them.
 fn driven(plan: &AgentPlan, states: &[State]) -> Rollout {
     let last = states.len().saturating_sub(1);
     let centre = |i: usize| states[((i + 1) * PER_INSTANT).min(last)].position();
-    short_along(plan, &std::array::from_fn(centre), true)
+    short_along(plan, &std::array::from_fn(centre), Smoothing::WISHED, true)
 }
 
 #[cfg(test)]

@@ -68,19 +68,23 @@ impl Others<'_> {
         let each = reactors.into_iter().zip(ways).zip(causes);
         let reacted = each.filter_map(|((ReactingAgent { own, .. }, way), cause)| {
             let path = &own.path;
-            let of = |states: &[State], own_steps: usize, reaction: Option<Reaction>| Reacted {
-                index: own.index,
-                enters: path.enters,
-                states: states.iter().skip(1).copied().collect(),
-                own: own_steps,
-                reaction,
+            // The first state is known, unless the agent enters in another way.
+            let of = |states: &[State], own_states: usize, reaction: Option<Reaction>| {
+                let known = own_states.min(1);
+                Reacted {
+                    index: own.index,
+                    enters: path.enters + known - 1,
+                    states: states.iter().skip(known).copied().collect(),
+                    own: own_states - known,
+                    reaction,
+                }
             };
             match way.zip(cause) {
                 Some((way, cause)) => {
                     let reaction = reaction(own, &way, cause, self.start_step);
-                    Some(of(&way.states, way.paced.own - 1, Some(reaction)))
+                    Some(of(&way.states, way.paced.own, Some(reaction)))
                 }
-                None => own.resumed.then(|| of(&path.states, path.states.len() - 1, None)),
+                None => own.resumed.then(|| of(&path.states, path.states.len(), None)),
             }
         });
         reacted.collect()
@@ -91,9 +95,10 @@ impl Others<'_> {
         let changed = |other: &OtherAgent| {
             let Response::Reacts(own) = &other.response else { return None };
             let new = reacted.iter().find(|r| r.index == own.index && r.reaction.is_some())?;
-            // A reaction begins at the step after the agent is first present.
-            let states = own.path.states.first().into_iter().chain(&new.states);
-            Some(Sweep::entering(new.enters, states, &own.size))
+            // A reaction begins at the step after the agent is first present, unless it enters in another way.
+            let known = own.path.states.first().filter(|_| new.enters >= own.path.enters);
+            let states = known.into_iter().chain(&new.states);
+            Some(Sweep::entering(own.path.enters, states, &own.size))
         };
         let motion = |other| changed(other).map_or(Cow::Borrowed(&other.sweep), Cow::Owned);
         self.each.iter().map(|other| (&other.id, motion(other))).collect()

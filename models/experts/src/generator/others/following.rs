@@ -33,6 +33,7 @@ impl Following {
             gap_m: GAP_M,
             headway_s: HEADWAY_S,
             pace: 1.0,
+            entry: 1.0,
         };
         let paced = behind(&self.path, &self.blocks.iter().collect::<Vec<_>>(), manner);
         (!paced.is_own(&self.path)).then(|| paced.states(&self.path))

@@ -7,7 +7,7 @@ use super::yielding::{Paced, YieldManner};
 use crate::generator::choice::price;
 use crate::generator::motion::Sweep;
 use crate::tuning::fixed::giving_way::{
-    CYCLIST_SPEEDS_UP_MPS2, FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M,
+    CYCLIST_SPEEDS_UP_MPS2, ENTRIES, FASTER, HURRIED_LATERAL, HURRIES_MPS2, MITIGATED, OTHER_BRAKES, OTHER_GAPS_M,
     PASSED_ON, VEHICLE_BRAKES, VEHICLE_GAPS_M, VEHICLE_HEADWAYS_S, VEHICLE_SPEEDS_UP_MPS2,
     WALKER_SPEEDS_UP_MPS2,
 };
@@ -53,7 +53,10 @@ impl Others<'_> {
         let mut all = kept.clone();
         all.extend(ahead.iter().flatten());
         let mut best: Option<YieldOption> = None;
-        for manner in manners(own) {
+        // An agent that was out of sight may have seen the others all the same.
+        let entries = if own.path.enters > 0 { &ENTRIES[..] } else { &[] };
+        let slower = entries.iter().map(|entry| YieldManner { entry: *entry, ..manners(own)[0] });
+        for manner in manners(own).into_iter().chain(slower) {
             let way = self.weighed(who, behind(&road.path, &all, manner), manner, changed);
             let Some(way) = way else { continue };
             let free = way.1 == 0.0;
@@ -199,6 +202,7 @@ fn manners(own: &Reactor) -> Vec<YieldManner> {
         gap_m: *gap_m,
         headway_s: *headway_s,
         pace: 1.0,
+        entry: 1.0,
     };
     let of = |shares: &[f64], gaps_m: &[f64], headways_s: &[f64], accelerate_mps2: f64| {
         let each = shares.iter().zip(gaps_m).zip(headways_s);

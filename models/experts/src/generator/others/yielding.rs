@@ -34,6 +34,8 @@ pub(super) struct YieldManner {
     pub(super) headway_s: f64,
     /// Share of the speed that the path has at a place.
     pub(super) pace: f64,
+    /// Share of its first speed with which an agent enters that has braked before anybody could see it.
+    pub(super) entry: f64,
 }
 
 /// A path at another pace: one entry a state of it, to the window's end or until it leaves.
@@ -138,9 +140,11 @@ impl Paced {
         }
         let waiting = ProgressBounds::new(waiting, after_end);
         let brake = manner.brake_mps2;
-        let start_mps = path.states.first().map_or(0.0, State::speed_mps);
-        let mut out = Self { along_m: vec![0.0], speed_mps: vec![start_mps], own: 1 };
-        let (mut along, mut speed, mut own) = (0.0, start_mps, manner.pace == 1.0);
+        let start_mps = manner.entry * path.states.first().map_or(0.0, State::speed_mps);
+        let enters_as_it_is = manner.entry == 1.0;
+        let mut out =
+            Self { along_m: vec![0.0], speed_mps: vec![start_mps], own: usize::from(enters_as_it_is) };
+        let (mut along, mut speed, mut own) = (0.0, start_mps, manner.pace == 1.0 && enters_as_it_is);
         for step in path.enters..HORIZON_STEPS {
             let next = step + 1;
             if own {
@@ -190,7 +194,7 @@ impl Paced {
         }
         let jerk = if manner.brake_mps2 > HARD_MPS2 { HARD_JERK_MPS3 } else { JERK_MPS3 } * STEP_S;
         let from = self.own.saturating_sub(EARLIER).max(1);
-        self.own = from;
+        self.own = self.own.min(from);
         let before = |i: usize| (sharp.speed_mps[i] - sharp.speed_mps[i.saturating_sub(1)]) / STEP_S;
         let mut rate = before(from - 1);
         for i in from..steps {
@@ -265,7 +269,7 @@ mod tests {
     use super::*;
 
     const EASY: YieldManner =
-        YieldManner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, headway_s: 0.0, pace: 1.0 };
+        YieldManner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, headway_s: 0.0, pace: 1.0, entry: 1.0 };
 
     fn path(speed_mps: f64) -> PathProgress {
         let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
@@ -320,6 +324,17 @@ mod tests {
         let paced = Paced::behind(&path, &[&stands], EASY);
         let (along, speed) = (paced.along_m[90], paced.speed_mps[90]);
         assert!(along + speed * speed / 4.0 < 181.5, "{along} m at {speed} m/s");
+    }
+
+    #[test]
+    fn an_agent_that_braked_before_it_was_seen_enters_slowly() {
+        let path = path(8.0);
+        let block = PathBlock { from: 10, taken: vec![(5.0, 9.0); 20] };
+        let paced = Paced::behind(&path, &[&block], YieldManner { entry: 0.25, ..EASY });
+        let states = paced.states(&path);
+        assert!((states[0].speed_mps() - 2.0).abs() < 1e-9 && states.len() == path.states.len());
+        assert!(paced.along_m[29] < 4.1, "{}", paced.along_m[29]);
+        assert!(paced.along_m[90] > 20.0, "{}", paced.along_m[90]);
     }
 
     #[test]

@@ -1,0 +1,112 @@
+//! Whether the road leads a road user to a goal in the time, and whether the goal is free.
+
+use super::{Case, Site};
+use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::limits::Limits;
+use scene::routes::{GoalQuery, Pose, Route, RouteKind, routes_to_goal};
+use scene::score::Thresholds;
+use scene::{Goal, STEP_S};
+
+/// Share of what limits allow that a way may need to count as driven in time: there are bends.
+const PRESSED_SHARE: f64 = 0.8;
+
+/// How a route with the traffic leads to a goal; the best way counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum InTime {
+    /// None does in the time, or there is no room on the road there.
+    No,
+    /// Within the motion limits.
+    Pressed,
+    /// Also below the speed at which speeding is a fault, and without braking that is one.
+    Lawful,
+}
+
+/// How a route with the traffic leads to the goal in the time, if there is room for the vehicle on the road there.
+pub(super) fn in_time(site: &Site<'_>, case: &Case, goal: &Goal) -> InTime {
+    let Some(position) = goal.position else { return InTime::No };
+    let size = site.log(case).size;
+    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
+    let place = lane
+        .map(|lane| OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, lane.heading_rad));
+    if place.and_then(|place| site.drivable.box_outside_m(&place)).is_none_or(|outside| outside > 0.15) {
+        return InTime::No;
+    }
+    let query = GoalQuery {
+        pose: Pose::new(case.start.position(), case.start.heading_rad),
+        speed_mps: case.start.speed_mps(),
+        agent_type: case.agent_type,
+        goal: position,
+        goal_heading_rad: goal.heading_rad,
+        least_effort_m: None,
+    };
+    let routes = routes_to_goal(&site.graph, &query);
+    let ways = routes.iter().filter(|r| r.kind == RouteKind::Forward && r.goal_lateral_m.abs() < 1.5);
+    let how = |route: &Route| {
+        if !is_in_time(site, case, route.path.length_m()) {
+            InTime::No
+        } else if is_lawful(site, case, route) {
+            InTime::Lawful
+        } else {
+            InTime::Pressed
+        }
+    };
+    ways.map(|r| how(&r.route)).max().unwrap_or(InTime::No)
+}
+
+/// A way of this length can be driven by when the goal is due, neither too far nor too near to slow down for.
+fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
+    let limits = limits(site, case);
+    let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
+    let accel = limits.accel_mps2;
+    let speeding_s = seconds.min((limits.speed_mps - v0).max(0.0) / accel);
+    let most_m = v0 * seconds + accel * speeding_s * (seconds - 0.5 * speeding_s);
+    let least_m = braked_m(v0, seconds, limits.brake_mps2);
+    (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
+}
+
+/// The same below the speeds and the braking that are faults.
+fn is_lawful(site: &Site<'_>, case: &Case, route: &Route) -> bool {
+    let thresholds = Thresholds::default();
+    let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
+    let length_m = route.path.length_m();
+    let accel = PRESSED_SHARE * limits(site, case).accel_mps2;
+    let points = route.limits_mps.len().max(1);
+    let (mut along_m, mut speed) = (0.0, v0);
+    for _ in 0..case.goal_step {
+        let point = ((along_m / length_m.max(1e-6)) * points as f64) as usize;
+        let limit = route.limits_mps.get(point.min(points - 1)).copied().unwrap_or(f64::INFINITY);
+        let most = limit * (1.0 + thresholds.speeding_share) + thresholds.speeding_mps;
+        speed = (speed + accel * STEP_S).min(most.max(speed - thresholds.harsh_brake_mps2 * STEP_S));
+        along_m += speed * STEP_S;
+    }
+    (braked_m(v0, seconds, thresholds.harsh_brake_mps2)..=along_m).contains(&length_m)
+}
+
+/// How far a vehicle gets that brakes at this rate, metres.
+fn braked_m(v0: f64, seconds: f64, brake_mps2: f64) -> f64 {
+    let braking_s = seconds.min(v0 / brake_mps2);
+    v0 * braking_s - 0.5 * brake_mps2 * braking_s * braking_s
+}
+
+fn limits(site: &Site<'_>, case: &Case) -> Limits {
+    let log = site.log(case);
+    Limits::of(case.agent_type, log.subtype, log.size.length_m)
+}
+
+/// Whether no logged road user occupies the goal when it is due. With a free heading the arrival is along the
+/// lane, else straight from the start.
+pub(super) fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
+    let Some(position) = goal.position else { return false };
+    let size = site.log(case).size;
+    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
+    let chord = position - case.start.position();
+    let heading_rad = lane.map_or(chord.y.atan2(chord.x), |lane| lane.heading_rad);
+    let heading_rad = goal.heading_rad.unwrap_or(heading_rad);
+    let place = OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading_rad);
+    let there = |agent: &scene::Agent| {
+        let state = agent.state_at(case.goal_step)?;
+        Some(overlaps(&place, &OrientedBox::of_state(&state, &agent.size), 0.0))
+    };
+    let mut others = site.scene.agents.iter().enumerate().filter(|(i, _)| *i != case.agent);
+    !others.any(|(_, agent)| there(agent) == Some(true))
+}
