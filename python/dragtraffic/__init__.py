@@ -16,7 +16,8 @@ calls leave other threads running and end with Ctrl-C. Units are in the names: m
 import os
 from typing import TYPE_CHECKING, Any
 
-# The engine's tensors are small: threads of the tensor library cost more than they gain.
+# The engine's tensors are small: threads of the tensor library cost more than they gain. Its products look up
+# RAYON_NUM_THREADS, which other libraries of the process read too: that one is left to the user.
 os.environ.setdefault("CANDLE_NUM_THREADS", "1")
 
 from ._conditions import Condition, Goal, Relation, Start, Velocity, Via  # noqa: E402

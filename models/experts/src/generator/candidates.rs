@@ -155,7 +155,8 @@ impl Material<'_> {
         let free = self.under_way && !self.actor.only_rests() && plan.model.gear == Gear::Forward;
         let shown = self.shown.filter(|_| free && self.actor.kept.is_none())?;
         let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
-        let motion = self.without_creep(short_along(plan, &places, Smoothing::DRIVEN, true));
+        // Smoothed, since a plan that is taken up each second must not keep every swing.
+        let motion = self.without_creep(short_along(plan, &places, Smoothing::WISHED, true));
         let apart = |c: &&MotionCandidate| distance(&c.motion.states, &motion.states);
         let modes = alternatives.iter().filter(|c| matches!(c.origin, CandidateOrigin::Mode(_)));
         let slot = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?.origin.slot()?;

@@ -77,6 +77,28 @@ fn bends_on_the_way_to_a_goal_are_slowed_for() {
 }
 
 #[test]
+fn a_late_arrival_that_cannot_brake_in_time_enters_slower() {
+    let mut slow = car("1", 0.0, 0.0, 10.0);
+    slow.conditions.goal = Goal { position: Some(Vec2::new(40.0, 0.0)), ..Goal::default() };
+    // 3 s later, a few metres behind it, with 20 m/s.
+    let mut late = car("2", 10.0, 0.0, 20.0);
+    late.track.first_step = 30;
+    late.track.states.truncate(61);
+    let (of_slow, of_late) = (slow.clone(), late.clone());
+    let answer = run(&SHIPPED, ask(vec![lane("one", 0.0)], vec![slow, late], &["1"]));
+    let (first, second) = (shown(&answer.samples[0], "1"), shown(&answer.samples[0], "2"));
+    assert_eq!(second.first_step, 30, "its first state is another");
+    assert!(second.states[0].speed_mps() < 15.0, "{:?}", second.states[0]);
+    assert_eq!(second.states[0].position(), Vec2::new(10.0, 0.0));
+    for (i, state) in second.states.iter().enumerate() {
+        let before = first.states[second.first_step + i - first.first_step];
+        let (a, b) =
+            (OrientedBox::of_state(&before, &of_slow.size), OrientedBox::of_state(state, &of_late.size));
+        assert!(!overlaps(&a, &b, 0.0), "{} s", (second.first_step + i) as f64 * STEP_S);
+    }
+}
+
+#[test]
 fn an_agent_that_is_cut_in_upon_brakes_in_its_lane() {
     for (gap_m, slower_mps) in [(5.0, 2.5), (10.0, 2.5), (10.0, 5.0), (20.0, 5.0), (20.0, 7.5), (30.0, 7.5)] {
         let (behind, speed_mps) = (car("1", 0.0, 0.0, 13.9), 13.9 - slower_mps);

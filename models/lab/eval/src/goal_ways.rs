@@ -10,6 +10,11 @@ use scene::{Goal, STEP_S};
 /// Share of what limits allow that a way may need to count as driven in time: there are bends.
 const PRESSED_SHARE: f64 = 0.8;
 
+/// Distance between the places of a way at which its greatest speed is looked up, metres.
+const SPACING_M: f64 = 1.0;
+/// Bends are looked at over so much way, metres.
+const BEND_M: f64 = 4.0;
+
 /// How a route with the traffic leads to a goal; the best way counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum InTime {
@@ -17,7 +22,7 @@ pub(super) enum InTime {
     No,
     /// Within the motion limits.
     Pressed,
-    /// Also below the speed at which speeding is a fault, and without braking that is one.
+    /// Also without a fault of speed: speeding, harsh braking, harsh steering in the bends.
     Lawful,
 }
 
@@ -64,22 +69,37 @@ fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
     (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
 }
 
-/// The same below the speeds and the braking that are faults.
+/// The same without a fault of speed: below the speeds at which speeding is one, in bends too, and with easy enough
+/// braking.
 fn is_lawful(site: &Site<'_>, case: &Case, route: &Route) -> bool {
     let thresholds = Thresholds::default();
     let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
-    let length_m = route.path.length_m();
-    let accel = PRESSED_SHARE * limits(site, case).accel_mps2;
-    let points = route.limits_mps.len().max(1);
-    let (mut along_m, mut speed) = (0.0, v0);
-    for _ in 0..case.goal_step {
-        let point = ((along_m / length_m.max(1e-6)) * points as f64) as usize;
-        let limit = route.limits_mps.get(point.min(points - 1)).copied().unwrap_or(f64::INFINITY);
-        let most = limit * (1.0 + thresholds.speeding_share) + thresholds.speeding_mps;
-        speed = (speed + accel * STEP_S).min(most.max(speed - thresholds.harsh_brake_mps2 * STEP_S));
-        along_m += speed * STEP_S;
+    let (path, length_m) = (&route.path, route.path.length_m());
+    let brake = thresholds.harsh_brake_mps2;
+    let count = (length_m / SPACING_M).ceil().max(1.0) as usize;
+    let at_m = |i: usize| length_m * i as f64 / count as f64;
+    let most_mps = |i: usize| {
+        let bend = path.curvature_at(at_m(i), BEND_M).abs();
+        let point = (route.limits_mps.len().saturating_sub(1) as f64 * at_m(i) / length_m.max(1e-6)) as usize;
+        let limit = route.limits_mps.get(point).copied().unwrap_or(f64::INFINITY);
+        let limit = limit * (1.0 + thresholds.speeding_share) + thresholds.speeding_mps;
+        limit.min((thresholds.harsh_lateral_mps2 / bend.max(1e-6)).sqrt())
+    };
+    let mut most: Vec<f64> = (0..=count).map(most_mps).collect();
+    let step_m = length_m / count as f64;
+    for i in (0..count).rev() {
+        most[i] = most[i].min((most[i + 1].powi(2) + 2.0 * brake * step_m).sqrt());
     }
-    (braked_m(v0, seconds, thresholds.harsh_brake_mps2)..=along_m).contains(&length_m)
+    let accel = PRESSED_SHARE * limits(site, case).accel_mps2;
+    let (mut speed, mut least_s) = (v0, 0.0);
+    for most in &most[1..] {
+        // One that is too fast at the start slows down.
+        let slowed = (speed * speed - 2.0 * brake * step_m).max(0.0).sqrt();
+        let next = (speed * speed + 2.0 * accel * step_m).sqrt().min(most.max(slowed));
+        least_s += step_m / (0.5 * (speed + next)).max(0.1);
+        speed = next;
+    }
+    least_s <= seconds && braked_m(v0, seconds, brake) <= length_m
 }
 
 /// How far a vehicle gets that brakes at this rate, metres.

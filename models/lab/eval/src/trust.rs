@@ -17,7 +17,7 @@ use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::judge::{FaultKind, RelationKind};
 use scene::random::Key;
-use scene::{AgentFutures, AgentId, AgentType, Future, Goal, STEP_S, Vec2};
+use scene::{AgentFutures, AgentId, AgentType, Future, Goal, Vec2};
 use std::collections::BTreeSet;
 
 /// Most road users with dragged goals; ten drags each.
@@ -141,14 +141,26 @@ fn worst(
     let kinds: [(&str, Measure<'_>); 13] = [
         ("collision", &|d| (d.free && has(d, &[FaultKind::Collision])).then_some(d.extent)),
         ("foot", &|d| (!d.vehicle && d.met && has(d, &[FaultKind::Collision])).then_some(d.extent)),
-        ("road", &|d| (d.met && d.vehicle && d.by_road >= InTime::Pressed && has(d, &road)).then_some(d.extent)),
-        ("near", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
-        ("steering", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
-        ("map", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::OffMap])).then_some(d.extent)),
+        ("road", &|d| {
+            (d.met && d.vehicle && d.by_road >= InTime::Pressed && has(d, &road)).then_some(d.extent)
+        }),
+        ("near", &|d| {
+            (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)
+        }),
+        ("steering", &|d| {
+            (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)
+        }),
+        ("map", &|d| {
+            (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::OffMap])).then_some(d.extent)
+        }),
         ("carriageway", &|d| (d.met && has(d, &[FaultKind::OnCarriageway])).then_some(d.extent)),
-        ("speeding", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Speeding])).then_some(d.extent)),
+        ("speeding", &|d| {
+            (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Speeding])).then_some(d.extent)
+        }),
         ("running", &|d| (d.met && has(d, &[FaultKind::Running])).then_some(d.extent)),
-        ("askew", &|d| (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Askew])).then_some(d.extent)),
+        ("askew", &|d| {
+            (d.met && d.by_road >= InTime::Pressed && has(d, &[FaultKind::Askew])).then_some(d.extent)
+        }),
         ("forces", &|d| (d.met && has(d, &forced)).then_some(d.extent)),
         ("jump", &|d| (d.jump_m > 1.0).then_some(d.jump_m)),
         ("copies", &|d| (d.copies > 1).then_some(d.copies as f64)),
@@ -353,8 +365,8 @@ fn faults_sheet() -> Sheet {
             "Goals moved by 2 to 30 m along and across the lane, ten for each of at most 150 road users drawn by the \
              seed, everybody reacting. Share of reached goals whose future has each fault (`all six`: share of all \
              futures), by whether a route with the traffic leads to the goal \
-             in the time; by the limits: also at the speed limit and without harsh braking. Any fault: one of these \
-             kinds at least.",
+             in the time; by the limits: also at the speed limit, without harsh braking, and without harsh steering \
+             in its bends. Any fault: one of these kinds at least.",
         ],
         &["ours", "goals of vehicles", "futures"],
         &columns,

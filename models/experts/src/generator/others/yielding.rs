@@ -268,8 +268,14 @@ fn greatest(least: f64, most: f64, holds: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    const EASY: YieldManner =
-        YieldManner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, headway_s: 0.0, pace: 1.0, entry: 1.0 };
+    const EASY: YieldManner = YieldManner {
+        brake_mps2: 2.0,
+        accelerate_mps2: 1.5,
+        gap_m: 1.0,
+        headway_s: 0.0,
+        pace: 1.0,
+        entry: 1.0,
+    };
 
     fn path(speed_mps: f64) -> PathProgress {
         let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
