@@ -25,8 +25,10 @@ pub enum React {
     Only(BTreeSet<AgentId>),
 }
 
-/// Samples of a round's draw.
-const ROUND_SAMPLES: usize = 32;
+/// Samples of a round's draw, fewest and most.
+const ROUND_SAMPLES: (usize, usize) = (12, 32);
+/// Road users of all samples of a round together, from which on it draws fewer: a round takes some seconds at most.
+const ROUND_AGENTS: usize = 2_000;
 
 /// One call of the generator. The scene's agents carry the conditions that hold for this call.
 #[derive(Clone, Debug)]
@@ -207,12 +209,14 @@ impl Request {
     }
 
     /// The next round of cards out of a wide draw, given verdicts on earlier cards. Each verdict changes the
-    /// seed of the draw, so that new futures come up.
+    /// seed of the draw, so that new futures come up. The more road users are regenerated, the fewer samples are drawn.
     #[must_use]
     pub fn round(self, feedback: Feedback) -> Self {
+        let asked = self.agents.as_ref().map_or(self.scene.agents.len(), BTreeSet::len);
+        let samples = (ROUND_AGENTS / asked.max(1)).clamp(ROUND_SAMPLES.0, ROUND_SAMPLES.1);
         let diversity = self.diversity.max(ROUND_DIVERSITY);
         let seed = self.seed.wrapping_add(feedback.answers.len() as u64);
-        Self { samples: ROUND_SAMPLES, diversity, seed, feedback: Some(feedback), ..self }
+        Self { samples, diversity, seed, feedback: Some(feedback), ..self }
     }
 }
 
@@ -577,4 +581,20 @@ pub enum GenerateError {
     /// Anything the tensor library reports; a defect of the program or its weights.
     #[error("expert failed: {0}")]
     Expert(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::LaneMap;
+
+    #[test]
+    fn a_round_of_many_road_users_draws_fewer_samples() {
+        let drawn = |asked: usize| {
+            let agents = Some((0..asked).map(|i| i.to_string()).collect());
+            let scene = Arc::new(Scene::bare("crowd", LaneMap::default(), Vec::new()));
+            Request { agents, ..Request::new(scene) }.round(Feedback::default()).samples
+        };
+        assert_eq!([1, 62, 80, 128].map(drawn), [32, 32, 25, 15]);
+    }
 }

@@ -28,8 +28,8 @@ pub(super) fn around(
     let start = who.start.position();
     let room_m = 0.5 * who.size.width_m.max(who.size.length_m) + ROOM_M;
     let standing = world.obstacles(who.index).into_iter().filter(|o| o.speed_mps < STANDING_MPS);
-    let boxes: Vec<Standing> =
-        standing.filter_map(|o| Standing::new(&o.outline, room_m, [start, goal])).collect();
+    let boxes: Vec<KeptClear> =
+        standing.filter_map(|o| KeptClear::new(&o.outline, room_m, [start, goal])).collect();
     let mut known: Vec<usize> = met(&boxes, &[start, goal]);
     if known.is_empty() {
         return None;
@@ -54,13 +54,13 @@ pub(super) fn around(
 }
 
 /// What stands, with the room that a walker keeps to it.
-struct Standing {
+struct KeptClear {
     grown: OrientedBox,
     /// With as much room as leaves the start outside, and the goal: for the way from the one, and to the other.
     at_ends: [OrientedBox; 2],
 }
 
-impl Standing {
+impl KeptClear {
     /// `None` where the start or the goal is inside even without room.
     fn new(outline: &OrientedBox, room_m: f64, ends: [Vec2; 2]) -> Option<Self> {
         let grown = |part: u8| outline.grown(room_m * f64::from(part) / f64::from(ROOM_PARTS));
@@ -79,9 +79,9 @@ impl Standing {
 }
 
 /// Indices of the boxes that a way meets.
-fn met(boxes: &[Standing], way: &[Vec2]) -> Vec<usize> {
+fn met(boxes: &[KeptClear], way: &[Vec2]) -> Vec<usize> {
     let last = way.len().saturating_sub(2);
-    let meets = |b: &Standing| {
+    let meets = |b: &KeptClear| {
         way.windows(2).enumerate().any(|(leg, ends)| b.meets(ends[0], ends[1], leg == 0, leg == last))
     };
     (0..boxes.len()).filter(|i| meets(&boxes[*i])).collect()
@@ -95,7 +95,7 @@ struct CornerWay {
 
 /// The shortest line of at most `longest_m` past the corners of the known boxes that meets none of them.
 fn shortest(
-    boxes: &[Standing],
+    boxes: &[KeptClear],
     known: &[usize],
     start: Vec2,
     goal: Vec2,
@@ -146,8 +146,8 @@ mod tests {
     fn a_row_of_parked_cars_is_passed_at_its_end_or_through_a_gap() {
         let (start, goal) = (Vec2::zeros(), Vec2::new(10.0, 0.0));
         let parked = |x_m: f64, y_m: f64| OrientedBox::new(Vec2::new(x_m, y_m), 2.4, 1.0, 0.0);
-        let car = |y_m: f64| Standing::new(&parked(5.0, y_m), 0.5, [start, goal]).unwrap();
-        let way = |boxes: &[Standing]| {
+        let car = |y_m: f64| KeptClear::new(&parked(5.0, y_m), 0.5, [start, goal]).unwrap();
+        let way = |boxes: &[KeptClear]| {
             let known: Vec<usize> = (0..boxes.len()).collect();
             shortest(boxes, &known, start, goal, 40.0).map(|way| way.places)
         };
@@ -159,7 +159,7 @@ mod tests {
         let through = way(&with_gap).unwrap();
         assert!(met(&with_gap, &through).is_empty());
         assert!(through.iter().all(|p| p.y.abs() < 2.0), "{through:?}");
-        let wall: Vec<Standing> = (-20..=20).map(|i| car(2.5 * f64::from(i))).collect();
+        let wall: Vec<KeptClear> = (-20..=20).map(|i| car(2.5 * f64::from(i))).collect();
         assert!(way(&wall).is_none());
     }
 
@@ -167,11 +167,11 @@ mod tests {
     fn a_goal_close_behind_a_parked_car_is_walked_to_round_it() {
         let (start, goal) = (Vec2::zeros(), Vec2::new(7.7, 0.0));
         let parked = OrientedBox::new(Vec2::new(5.0, 0.0), 2.4, 1.0, 0.0);
-        let boxes = [Standing::new(&parked, 0.8, [start, goal]).unwrap()];
+        let boxes = [KeptClear::new(&parked, 0.8, [start, goal]).unwrap()];
         assert_eq!(met(&boxes, &[start, goal]), [0]);
         let way = shortest(&boxes, &[0], start, goal, 40.0).unwrap().places;
         assert!(met(&boxes, &way).is_empty());
         assert!(way.iter().any(|p| p.y.abs() > 1.8), "{way:?}");
-        assert!(Standing::new(&parked, 0.8, [start, Vec2::new(5.0, 0.5)]).is_none());
+        assert!(KeptClear::new(&parked, 0.8, [start, Vec2::new(5.0, 0.5)]).is_none());
     }
 }
