@@ -11,12 +11,15 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
 
-/// Of 2 x (3 + 6 x 3) units some are left out, and each comparison of the condition leaves some out.
+/// Two scenes with a cut-in and six road users each, three seeds.
 const PLAN: &str = r#"
 scenes = ["scenes/*.json"]
 seeds = 3
-where = "collisions == 0 && actor.min_distance_m < 6"
+where = "collisions == 0 && actor.min_distance_m < 1.4"
 chunk_units = 20
+[sampling]
+method = "random"
+draws = 1
 [generate]
 horizon_s = 2
 steps = 1
@@ -59,7 +62,7 @@ fn ends(folder: &Path, arguments: &[&str], code: i32) -> (Vec<u8>, String) {
     (output.stdout, told)
 }
 
-/// The texts of some columns, row by row.
+/// The texts and whole numbers of some columns, row by row.
 fn texts(path: &Path, columns: &[&str]) -> Vec<Vec<Option<String>>> {
     let bytes = std::fs::read(path).unwrap();
     let mut table = ParquetTable::open(&bytes).unwrap();
@@ -68,8 +71,11 @@ fn texts(path: &Path, columns: &[&str]) -> Vec<Vec<Option<String>>> {
     table.choose(chosen).unwrap();
     let mut rows = Vec::new();
     while table.advance().unwrap() {
-        let text =
-            |i| if let ColumnValue::Text(text) = table.value(i) { Some(text.to_owned()) } else { None };
+        let text = |i| match table.value(i) {
+            ColumnValue::Text(text) => Some(text.to_owned()),
+            ColumnValue::Whole(whole) => Some(whole.to_string()),
+            _ => None,
+        };
         rows.push((0..columns.len()).map(text).collect());
     }
     rows
@@ -107,22 +113,24 @@ fn a_result_is_made_again_byte_for_byte() {
     ends(base, &["replay", "out", &code, "-o", "left.json"], 8);
 
     // `generate` with the same template, scene, seed and options makes the same file.
-    let cut_ins = rows.iter().filter(|row| row[0].as_deref() == Some("cut-in") && row[2].is_some());
-    let code = cut_ins.clone().next().unwrap()[2].clone().unwrap();
-    ends(base, &["replay", "out", &code, "-o", "replayed.json"], 0);
-    let mut made = Vec::new();
-    for (scene, seed) in ["a", "b"].into_iter().flat_map(|scene| [0, 1, 2].map(|seed| (scene, seed))) {
-        let (input, seeds) = (format!("scenes/{scene}.json"), format!("{seed}..{}", seed + 1));
-        let name = format!("made-{scene}-{seed}.json");
+    let columns = ["situation", "code", "name", "seed"];
+    let cut_ins: Vec<_> = all_rows(&base.join("out"), &columns)
+        .into_iter()
+        .filter(|row| row[0].as_deref() == Some("cut-in"))
+        .filter_map(|row| Some((row[1].clone()?, row[2].clone()?, row[3].clone()?)))
+        .collect();
+    assert!(!cut_ins.is_empty());
+    for (code, name, seed) in cut_ins {
+        let (input, replayed, made) =
+            (format!("scenes/{name}.json"), format!("{code}-r.json"), format!("{code}-m.json"));
+        ends(base, &["replay", "out", &code, "-o", &replayed], 0);
         let options =
             ["--template", "cut-in", "--horizon", "2", "--steps", "1", "--where", "collisions >= 0"];
-        let arguments =
-            [&["generate", input.as_str(), "--seeds", &seeds, "-o", &name], options.as_slice()].concat();
+        let arguments = [&["generate", &input, "--seed", &seed, "-o", &made], options.as_slice()].concat();
         ends(base, &arguments, 0);
-        made.extend(std::fs::read(base.join(name)).ok());
+        let read = |name: &str| std::fs::read(base.join(name)).unwrap();
+        assert!(read(&replayed) == read(&made), "{code} of {name} is another file");
     }
-    let replayed = std::fs::read(base.join("replayed.json")).unwrap();
-    assert!(made.contains(&replayed), "{} files, none is the replayed one", made.len());
 
     ends(base, &["replay", "out", "--kept", "-o", "kept"], 0);
     let kept: BTreeSet<_> =
@@ -178,7 +186,7 @@ fn the_report_counts_every_result_once_and_is_the_same_again() {
     assert_eq!((read("coverage.json"), read("index.html")), (json.clone(), page.clone()));
 
     let coverage: Value = serde_json::from_slice(&json).unwrap();
-    assert_eq!(coverage["conditions"], serde_json::json!(["collisions == 0", "actor.min_distance_m < 6"]));
+    assert_eq!(coverage["conditions"], serde_json::json!(["collisions == 0", "actor.min_distance_m < 1.4"]));
     let rows = all_rows(&base.join("out"), &["outcome", "case.layout", "situation", "code"]);
     let with = |outcome: &str| rows.iter().filter(|row| row[0].as_deref() == Some(outcome)).count() as u64;
     let (kept, left_out) = (with("kept"), with("left-out"));
@@ -227,10 +235,8 @@ fn the_report_counts_every_result_once_and_is_the_same_again() {
 
     ends(base, &["batch", "report", "out", "--cases", "1", "-q"], 0);
     let page = String::from_utf8(read("index.html")).unwrap();
-    let shown = rows
-        .iter()
-        .filter(|row| page.contains(&format!("\"{}\"", row[3].as_deref().unwrap_or("none"))))
-        .count();
+    let codes = rows.iter().filter_map(|row| row[3].as_deref());
+    let shown = codes.filter(|code| page.contains(&format!("\"{code}\""))).count();
     assert_eq!(shown, 1, "the hardest case alone");
     ends(base, &["batch", "report", "scenes"], 3);
 }

@@ -150,18 +150,21 @@ pub fn table(rows: &[BatchRow], figures: &'static [String]) -> io::Result<Vec<u8
     columnar::write([columns(rows, figures)], Vec::new())
 }
 
-/// Kept cases as Parquet: the columns of [`table`], and the code of the case that each is a near copy of.
+/// Kept cases as Parquet, a group of rows after the other: the columns of [`table`], and the code of the case that each is
+/// a near copy of, which is the second list of a group.
 ///
 /// # Errors
 /// None is expected.
 pub fn case_table(
-    rows: &[BatchRow],
-    copies: Vec<Option<String>>,
+    groups: impl IntoIterator<Item = (Vec<BatchRow>, Vec<Option<String>>)>,
     figures: &'static [String],
 ) -> io::Result<Vec<u8>> {
-    let mut columns = columns(rows, figures);
-    columns.push(column("copy_of", false, ColumnValues::Text(copies)));
-    columnar::write([columns], Vec::new())
+    let groups = groups.into_iter().map(|(rows, copies)| {
+        let mut columns = columns(&rows, figures);
+        columns.push(column("copy_of", false, ColumnValues::Text(copies)));
+        columns
+    });
+    columnar::write(groups, Vec::new())
 }
 
 fn columns(rows: &[BatchRow], figures: &'static [String]) -> Vec<Column> {
