@@ -14,6 +14,10 @@ let selected = null;
 let onSelect = () => {};
 /** @type {Map<number, HTMLElement>} */
 const rowsShown = new Map();
+/** Rows that have left the view. @type {HTMLElement[]} */
+const spare = [];
+/** @type {WeakMap<HTMLElement, Case>} */
+const caseOfRow = new WeakMap();
 /** Canvases whose picture is due. @type {Map<HTMLCanvasElement, Case>} */
 const picturesDue = new Map();
 
@@ -56,7 +60,7 @@ function listCases() {
   el('rows').style.height = `${listed.length * ROW_PX}px`;
   table.setAttribute('aria-rowcount', String(listed.length + 1));
   table.scrollTop = 0;
-  rowsShown.forEach((row) => row.remove());
+  spare.push(...rowsShown.values());
   rowsShown.clear();
   const all = CASES.length;
   const ofAll = listed.length === all ? '' : ` of ${all.toLocaleString('en')}`;
@@ -65,7 +69,7 @@ function listCases() {
   showRows();
 }
 
-/** Makes the rows in view, and removes the others. */
+/** Fills the rows in view. Rows that have left the view are filled again: new pictures would make scrolling stutter. */
 function showRows() {
   const table = el('table');
   const top = Math.max(0, table.scrollTop);
@@ -73,41 +77,49 @@ function showRows() {
   const end = Math.min(listed.length, Math.ceil((top + table.clientHeight) / ROW_PX) + BEYOND);
   for (const [at, row] of rowsShown)
     if (at < first || at >= end) {
-      row.remove();
+      spare.push(row);
       rowsShown.delete(at);
     }
-  const added = document.createDocumentFragment();
   for (let at = first; at < end; at++)
     if (!rowsShown.has(at)) {
-      const row = makeRow(listed[at], at);
+      const row = spare.pop() ?? makeRow();
+      fillRow(row, listed[at], at);
       rowsShown.set(at, row);
-      added.append(row);
     }
-  el('rows').append(added);
+  spare.splice(0).forEach((row) => row.remove());
   drawSoon();
 }
 
+/** A row with a picture and a cell for each column. */
+function makeRow() {
+  const row = make('div', { role: 'row', class: 'row' });
+  const thumb = make('span', { role: 'gridcell', class: 'thumb' });
+  thumb.append(make('canvas', { 'aria-hidden': 'true' }));
+  row.append(thumb);
+  for (const { width, isNumber } of COLUMNS)
+    row.append(make('span', { role: 'gridcell', style: `width:${width}px`, class: isNumber ? 'number' : '' }));
+  row.addEventListener('click', () => select(caseOfRow.get(row) ?? null));
+  el('rows').append(row);
+  return row;
+}
+
 /**
+ * @param {HTMLElement} row
  * @param {Case} of
  * @param {number} at
  */
-function makeRow(of, at) {
-  const row = make('div', { role: 'row', class: 'row', id: `case-${of.index}`, 'aria-rowindex': String(at + 2) });
+function fillRow(row, of, at) {
+  caseOfRow.set(row, of);
+  row.id = `case-${of.index}`;
   row.style.transform = `translateY(${at * ROW_PX}px)`;
+  row.setAttribute('aria-rowindex', String(at + 2));
   row.setAttribute('aria-selected', String(of === selected));
-  const thumb = make('span', { role: 'gridcell', class: 'thumb' });
-  const canvas = make('canvas', { 'aria-hidden': 'true' });
-  thumb.append(canvas);
-  row.append(thumb);
-  for (const column of COLUMNS) {
-    const shown = column.shown(of);
-    const cell = make('span', { role: 'gridcell', style: `width:${column.width}px`, title: shown }, shown);
-    if (column.isNumber) cell.classList.add('number');
-    row.append(cell);
-  }
-  row.addEventListener('click', () => select(of));
-  picturesDue.set(canvas, of);
-  return row;
+  COLUMNS.forEach((column, i) => {
+    const cell = /** @type {HTMLElement} */ (row.children[i + 1]);
+    cell.title = cell.textContent = column.shown(of);
+  });
+  const canvas = row.querySelector('canvas');
+  if (canvas) picturesDue.set(canvas, of);
 }
 
 let isDrawing = false;
