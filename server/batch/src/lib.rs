@@ -1,5 +1,6 @@
 //! Plans of many generations, as values: what is varied, the units of work that follow, their names, and the chunks
-//! and shards that they are worked on in. Nothing here opens a file or starts the engine.
+//! and shards that they are worked on in; what happens in results, and what they cover. Nothing here opens a file or
+//! starts the engine.
 //!
 //! ```
 //! use batch::plan::BatchPlan;
@@ -11,8 +12,10 @@
 //! assert!(wrong[0].to_string().contains("did you mean seeds?"), "{}", wrong[0]);
 //! ```
 
+pub mod case;
 pub mod catalogue;
 pub mod chunk;
+pub mod coverage;
 pub mod distribution;
 pub mod draws;
 pub mod fault;

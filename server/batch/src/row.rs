@@ -1,5 +1,6 @@
 //! What a batch writes about each unit: a row of a table, and a line for each result that is kept.
 
+use crate::case::facts::{self, CaseFacts};
 use crate::catalogue::UnitProblem;
 use formats::ReadError;
 use formats::columnar::{self, Column, ColumnValue, ColumnValues, ParquetTable};
@@ -74,6 +75,8 @@ pub struct BatchRow {
     pub miss: Option<f64>,
     /// Figures of the score by name.
     pub figures: BTreeMap<String, f64>,
+    /// What happens in the result; empty without one.
+    pub facts: CaseFacts,
 }
 
 /// A result that is kept, by reference: what makes it again, and its figures.
@@ -139,11 +142,32 @@ impl KeptCase {
     }
 }
 
-/// Rows as Parquet: the columns of [`BatchRow`], and one for each figure. Equal rows give equal bytes.
+/// Rows as Parquet: the columns of [`BatchRow`], one for each fact, and one for each figure. Equal rows give equal bytes.
 ///
 /// # Errors
 /// None is expected.
 pub fn table(rows: &[BatchRow], figures: &'static [String]) -> io::Result<Vec<u8>> {
+    columnar::write([columns(rows, figures)], Vec::new())
+}
+
+/// Kept cases as Parquet, a group of rows after the other: the columns of [`table`], and the code of the case that each is
+/// a near copy of, which is the second list of a group.
+///
+/// # Errors
+/// None is expected.
+pub fn case_table(
+    groups: impl IntoIterator<Item = (Vec<BatchRow>, Vec<Option<String>>)>,
+    figures: &'static [String],
+) -> io::Result<Vec<u8>> {
+    let groups = groups.into_iter().map(|(rows, copies)| {
+        let mut columns = columns(&rows, figures);
+        columns.push(column("copy_of", false, ColumnValues::Text(copies)));
+        columns
+    });
+    columnar::write(groups, Vec::new())
+}
+
+fn columns(rows: &[BatchRow], figures: &'static [String]) -> Vec<Column> {
     let text = |value: fn(&BatchRow) -> Option<String>| ColumnValues::Text(rows.iter().map(value).collect());
     let whole = |value: fn(&BatchRow) -> Option<u64>| {
         ColumnValues::Whole(rows.iter().map(|row| value(row).and_then(|n| i64::try_from(n).ok())).collect())
@@ -168,11 +192,18 @@ pub fn table(rows: &[BatchRow], figures: &'static [String]) -> io::Result<Vec<u8
         column("what", false, text(|row| row.what.clone())),
         column("miss", false, ColumnValues::Number(rows.iter().map(|row| row.miss).collect())),
     ];
+    for (name, fact) in facts::columns() {
+        let words = || rows.iter().map(|row| row.facts.words.get(fact).cloned()).collect();
+        let numbers = || rows.iter().map(|row| row.facts.numbers.get(fact).copied()).collect();
+        let is_word = facts::WORDS.contains(fact);
+        let values = if is_word { ColumnValues::Text(words()) } else { ColumnValues::Number(numbers()) };
+        columns.push(column(name, false, values));
+    }
     columns.extend(figures.iter().map(|name| {
         let values = rows.iter().map(|row| row.figures.get(name).copied()).collect();
         column(name, false, ColumnValues::Number(values))
     }));
-    columnar::write([columns], Vec::new())
+    columns
 }
 
 fn column(name: &'static str, required: bool, values: ColumnValues) -> Column {
@@ -190,8 +221,10 @@ pub fn read(bytes: &Vec<u8>) -> Result<Vec<BatchRow>, ReadError> {
     let mut rows = Vec::new();
     while table.advance()? {
         let (mut texts, mut wholes, mut figures) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let mut facts = CaseFacts::default();
         for (i, name) in names.iter().enumerate() {
             match table.value(i) {
+                value if facts.read(name, &value) => {}
                 ColumnValue::Text(text) => drop(texts.insert(name.as_str(), text.to_owned())),
                 ColumnValue::Whole(whole) => drop(wholes.insert(name.as_str(), whole.max(0) as u64)),
                 ColumnValue::Number(number) => drop(figures.insert(name.clone(), number)),
@@ -220,14 +253,52 @@ pub fn read(bytes: &Vec<u8>) -> Result<Vec<BatchRow>, ReadError> {
             what: text("what"),
             miss: figures.remove("miss"),
             figures,
+            facts,
         });
     }
     Ok(rows)
 }
 
+/// What names a row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowName {
+    /// Id of the unit.
+    pub unit: String,
+    /// Code of its result, where it has one.
+    pub code: Option<String>,
+    /// The result is kept.
+    pub is_kept: bool,
+}
+
+/// The names of the rows of a table, without the rest of it.
+///
+/// # Errors
+/// `malformed-file` and the like.
+pub fn names(bytes: &Vec<u8>) -> Result<Vec<RowName>, ReadError> {
+    let mut table = ParquetTable::open(bytes)?;
+    let columns: Vec<Option<usize>> = ["unit", "code", "outcome"]
+        .map(|wanted| table.names().iter().position(|name| name == wanted))
+        .into_iter()
+        .collect();
+    table.choose(columns.iter().flatten().copied().collect())?;
+    let mut names = Vec::new();
+    while table.advance()? {
+        let mut at = 0;
+        let mut texts = columns.iter().map(|column| {
+            let value = column.map(|_| table.value(at))?;
+            at += 1;
+            if let ColumnValue::Text(text) = value { Some(text.to_owned()) } else { None }
+        });
+        let (unit, code) = (texts.next().flatten().unwrap_or_default(), texts.next().flatten());
+        let is_kept = texts.next().flatten().as_deref() == Some(UnitOutcome::Kept.name());
+        names.push(RowName { unit, code, is_kept });
+    }
+    Ok(names)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{BatchRow, KeptCase, UnitOutcome, read, table};
+    use super::{BatchRow, CaseFacts, KeptCase, RowName, UnitOutcome, names, read, table};
     use crate::catalogue::UnitProblem;
     use std::collections::BTreeMap;
 
@@ -250,6 +321,10 @@ mod tests {
             what: None,
             miss: Some(0.0),
             figures: BTreeMap::from([("actor.min_ttc_s".into(), 1.0 / 3.0), ("collisions".into(), 0.0)]),
+            facts: CaseFacts {
+                words: BTreeMap::from([("layout", "junction".to_owned())]),
+                numbers: BTreeMap::from([("gap_m", 0.1), ("x_m", -3.0)]),
+            },
         }
     }
 
@@ -267,12 +342,19 @@ mod tests {
             reacting: None,
             miss: None,
             figures: BTreeMap::new(),
+            facts: CaseFacts::default(),
             ..row("b")
         };
         let rows = [row("a"), failed];
         let bytes = table(&rows, figures).unwrap();
         assert_eq!(read(&bytes).unwrap(), rows);
         assert_eq!(table(&rows, figures).unwrap(), bytes, "equal rows, equal bytes");
+        let name = |unit: &str, code: Option<&str>, is_kept| RowName {
+            unit: unit.into(),
+            code: code.map(str::to_owned),
+            is_kept,
+        };
+        assert_eq!(names(&bytes).unwrap(), [name("a", Some("ABC123"), true), name("b", None, false)]);
         assert!(read(&bytes[..bytes.len() / 2].to_vec()).is_err());
     }
 

@@ -167,6 +167,7 @@ struct UnitOf<'a> {
 #[cfg(test)]
 mod tests {
     use super::{BatchUnit, UnitList};
+    use crate::case::facts::CaseFacts;
     use crate::catalogue::{CatalogueScene, UnitProblem};
     use crate::plan::BatchPlan;
     use crate::row::{BatchRow, UnitOutcome};
@@ -295,6 +296,7 @@ mod tests {
             what: None,
             miss: Some(miss),
             figures: BTreeMap::new(),
+            facts: CaseFacts::default(),
         }
     }
 }

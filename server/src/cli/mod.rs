@@ -83,6 +83,9 @@ enum Command {
     /// Generate many scenes by a plan, in chunks that several processes share and that an interrupted run keeps.
     #[command(after_help = examples!("dragtraffic batch plan.toml -o out/", "dragtraffic batch plan.toml -o out/ --shard 0/8"))]
     Batch(batch::BatchArgs),
+    /// Make results of a batch again from their references: scenes with futures, byte for byte.
+    #[command(after_help = examples!("dragtraffic replay out/ S63D1R -o scene.json", "dragtraffic replay out/ --kept -o cases/"))]
+    Replay(batch::ReplayArgs),
     /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
     #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
     Map(map::MapArgs),
@@ -270,6 +273,7 @@ impl Command {
             Self::Doctor(args) => doctor::run(*args, common),
             Self::Generate(args) => generate::run(*args, common),
             Self::Batch(args) => batch::run(args, common),
+            Self::Replay(args) => batch::replay(&args, common),
             Self::Map(args) => map::run(args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),

@@ -244,9 +244,11 @@ fn scenes_of(path: &Path, bytes: &[u8]) -> Result<Vec<Scene>, String> {
     Ok(read.scenes.into_iter().map(|s| s.scene).collect())
 }
 
-/// `womd-<scenario id>` where the source has an id, else a name made from the file's.
+/// `womd-<scenario id>` where the source has an id, else a name made from the file's. A scene with futures is one of many
+/// results of its source, so its file names it.
 fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
-    match (&scene.meta.source_id, scene.meta.source.as_str()) {
+    let own = scene.meta.source_id.as_ref().filter(|_| scene.generated.is_none());
+    match (own, scene.meta.source.as_str()) {
         (Some(own), "") => id::cleaned(&format!("file-{own}")),
         (Some(own), source) => id::cleaned(&format!("{source}-{own}")),
         (None, _) => name_id(path, index),
@@ -270,5 +272,16 @@ mod tests {
         let library = Library::start(None, pool, Memory::new(1 << 20)).unwrap();
         assert_eq!(library.items().len(), DemoScenes::iter().filter(|n| n.ends_with(".json")).count());
         assert!(library.has("demo-crossing"));
+    }
+
+    #[test]
+    fn a_recording_is_named_by_its_source_and_a_result_by_its_file() {
+        let mut scene = Scene::bare("s", LaneMap::default(), Vec::new());
+        scene.meta.source_id = Some("own".into());
+        scene.meta.source = "womd".into();
+        let id = |scene: &Scene| file_id(Path::new("cases/ABC123.json"), scene, 0);
+        assert_eq!(id(&scene), "womd-own");
+        scene.generated = Some(scene::Generated::default());
+        assert_eq!(id(&scene), "file-ABC123-0");
     }
 }

@@ -13,6 +13,7 @@ pub mod goal;
 pub mod input;
 pub mod kinematic;
 pub(crate) mod lane_rules;
+pub mod meeting;
 pub mod overlap;
 pub mod pairs;
 pub mod pet;

@@ -15,6 +15,17 @@ const COARSE: usize = 3;
 /// Pieces of a coarse path between two bounds.
 const PIECES: usize = 8;
 
+/// How two paths cross, at the crossing with the least time between the two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Encroachment {
+    /// Post-encroachment time, seconds.
+    pub pet_s: f64,
+    /// Where the paths of the centres cross.
+    pub point: Vec2,
+    /// The second one is there first; `None` where both come at once.
+    pub b_first: Option<bool>,
+}
+
 /// Seconds between the one leaving a piece of ground and the other arriving there, where the paths of
 /// their centres cross; the least over all crossings, zero when both are there at once, to one step;
 /// `None` when the paths do not cross, for two walkers, and for road users that stay within 2 m.
@@ -22,19 +33,27 @@ const PIECES: usize = 8;
 /// It is the least time shift that makes the boxes overlap near the crossing. For crossings at right
 /// angles this equals the classic "second enters the shared area after the first has left it".
 pub(super) fn post_encroachment_s(a: &Mover, b: &Mover) -> Option<f64> {
+    encroachment(a, b).map(|crossing| crossing.pet_s)
+}
+
+/// As [`post_encroachment_s`], with where it is and who is there first.
+pub(super) fn encroachment(a: &Mover, b: &Mover) -> Option<Encroachment> {
     let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
     if walkers || a.travel_m < LEAST_TRAVEL_M || b.travel_m < LEAST_TRAVEL_M || !places_meet(a, b) {
         return None;
     }
-    let mut least: Option<usize> = None;
+    let mut least: Option<(usize, PathCrossing)> = None;
     for crossing in crossings(&coarse(a), &coarse(b)) {
-        let shift = least_shift(a, b, &crossing, least.unwrap_or(usize::MAX));
-        least = match (least, shift) {
-            (Some(p), Some(q)) => Some(p.min(q)),
-            (p, q) => p.or(q),
-        };
+        let known = least.map_or(usize::MAX, |(steps, _)| steps);
+        if let Some(steps) = least_shift(a, b, &crossing, known).filter(|steps| *steps < known) {
+            least = Some((steps, crossing));
+        }
     }
-    least.map(|steps| steps as f64 * STEP_S)
+    least.map(|(steps, PathCrossing { point, step_a, step_b })| Encroachment {
+        pet_s: steps as f64 * STEP_S,
+        point,
+        b_first: (step_a != step_b).then_some(step_b < step_a),
+    })
 }
 
 fn places_meet(a: &Mover, b: &Mover) -> bool {

@@ -15,6 +15,11 @@ const SAME_LANE_M: f64 = 0.3;
 /// Length of path after (or before) the line that decides which lane is taken, metres.
 const TELLING_M: f64 = 20.0;
 
+/// Crossings of lines within so many steps belong to one junction.
+const SAME_JUNCTION_STEPS: usize = 10;
+/// One that ends nearer before a line waits there, metres.
+const WAITING_M: f64 = 15.0;
+
 /// Stop line of a signal.
 pub(crate) struct SignalStopLine<'a> {
     signal: &'a Signal,
@@ -107,7 +112,7 @@ pub(crate) fn crossed_at_red(
     // Crossings within a second belong to one junction: the nearest lane counts, and only if no equally near
     // lane lets it pass. An agent on none of these lanes, nor on one without a signal, is bound by all of
     // them.
-    for group in crossings.chunk_by(|a, b| b.step - a.step < 10) {
+    for group in crossings.chunk_by(|a, b| b.step - a.step < SAME_JUNCTION_STEPS) {
         let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
         if allowed || !group.iter().any(LineCrossing::must_stop) {
             continue;
@@ -134,6 +139,33 @@ pub(crate) fn crossed_at_red(
         }
     }
     found
+}
+
+/// State of the signal whose stop line a road user passes first, then; of one that stands before a line at its end,
+/// the state at that time. Where lanes part at a line, the lane that it takes decides. `None` without a line.
+pub(crate) fn signal_passed(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    lines: &[SignalStopLine<'_>],
+) -> Option<SignalState> {
+    let end = input.steps.end;
+    let passed = |line| input.steps.clone().find(|step| crosses(actor, line, *step).is_some());
+    let passed: Vec<_> = lines.iter().filter_map(|line| Some((passed(line)?, line))).collect();
+    if let Some(first) = passed.iter().map(|(step, _)| *step).min() {
+        let junction = passed.into_iter().filter(|(step, _)| step - first < SAME_JUNCTION_STEPS);
+        let off = |of: &(usize, &SignalStopLine<'_>)| off_lane_m(actor, of.1, of.0, end);
+        let (step, line) = junction.min_by(|p, q| off(p).total_cmp(&off(q)))?;
+        return Some(line.signal.at(step));
+    }
+    let last = input.steps.clone().rev().find(|step| actor.state(*step).is_some())?;
+    let state = actor.state(last)?;
+    let waits = |line: &&SignalStopLine<'_>| {
+        let before = line.at.position - state.position();
+        let ahead_m = before.dot(&line.ahead) - 0.5 * actor.size.length_m;
+        let along = crate::geometry::direction(state.heading_rad).dot(&line.ahead) > 0.5;
+        along && (0.0..=WAITING_M).contains(&ahead_m) && cross(line.ahead, before).abs() <= line.half_width_m
+    };
+    lines.iter().find(waits).map(|line| line.signal.at(last))
 }
 
 /// Behind a line it takes a lane that no signal controls.
@@ -241,6 +273,31 @@ mod tests {
         assert!(run(&[signal("through", &[(0, Caution), (60, Stop)])]).is_empty());
         assert!(run(&[signal("through", &[(0, FlashingStop)])]).is_empty());
         assert!(run(&[]).is_empty() && run(&[signal("unknown", &[(0, Stop)])]).is_empty());
+    }
+
+    #[test]
+    fn the_state_passed_is_that_of_the_lane_taken() {
+        use SignalState::{ArrowStop, Go, Stop};
+        let passed = |signals: &[Signal], speed_mps: f64| {
+            let map = LaneMap {
+                lanes: vec![
+                    lane("through", &[(40.0, 0.0), (100.0, 0.0)]),
+                    lane("left", &[(40.0, 0.0), (40.0, 50.0)]),
+                ],
+                ..LaneMap::default()
+            };
+            let drivable = Drivable::default();
+            let mut input =
+                input_of(vec![straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, speed_mps)], &drivable);
+            (input.map, input.signals) = (&map, signals);
+            signal_passed(&input, &input.actors[0], &stop_lines(&input))
+        };
+        let signals = [signal("left", &[(0, ArrowStop)]), signal("through", &[(0, Stop), (20, Go)])];
+        assert_eq!(passed(&signals, 10.0), Some(Go));
+        // It ends 5 m before the line, or 20 m.
+        assert_eq!(passed(&signals[1..], 33.0 / 9.0), Some(Go));
+        assert_eq!(passed(&signals, 2.0), None);
+        assert_eq!(passed(&[], 10.0), None);
     }
 
     #[test]

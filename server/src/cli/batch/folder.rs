@@ -3,7 +3,7 @@
 use crate::cli::{Exit, Failure, output};
 use batch::catalogue::CatalogueScene;
 use batch::chunk::BatchChunk;
-use batch::row::{self, BatchRow};
+use batch::row::{self, BatchRow, RowName};
 use batch::unit::UnitList;
 use formats::folder::{self, Creation};
 use formats::native;
@@ -56,6 +56,11 @@ impl BatchFolder {
         self.0.join(format!("chunks/{chunk}.jsonl"))
     }
 
+    /// The motions of the kept results of a chunk.
+    pub fn motions(&self, chunk: &str) -> PathBuf {
+        self.0.join(format!("chunks/{chunk}.motions.jsonl"))
+    }
+
     /// Is a chunk there?
     pub fn has(&self, chunk: &str) -> bool {
         self.table(chunk).exists()
@@ -69,6 +74,16 @@ impl BatchFolder {
         let path = self.table(chunk);
         let bytes = output::read(&path)?;
         row::read(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+    }
+
+    /// The names of the rows of a chunk that is there.
+    ///
+    /// # Errors
+    /// Exit 3 for a table that cannot be read.
+    pub fn names(&self, chunk: &str) -> Result<Vec<RowName>, Failure> {
+        let path = self.table(chunk);
+        let bytes = output::read(&path)?;
+        row::names(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
     }
 
     /// Each of these chunks with its name, and whether it is there.
@@ -94,12 +109,13 @@ impl BatchFolder {
         folder::create(path, bytes).map_err(failed)
     }
 
-    /// Puts a chunk into the folder: its kept results, then its table.
+    /// Puts a chunk into the folder: its kept results with their motions, then its table.
     ///
     /// # Errors
     /// Exit 1 when a file of it is there with other bytes, or cannot be written.
-    pub fn put(&self, chunk: &str, table: &[u8], cases: &[u8]) -> Result<(), Failure> {
-        for (path, bytes) in [(self.cases(chunk), cases), (self.table(chunk), table)] {
+    pub fn put(&self, chunk: &str, table: &[u8], cases: &[u8], motions: &[u8]) -> Result<(), Failure> {
+        let files = [(self.cases(chunk), cases), (self.motions(chunk), motions), (self.table(chunk), table)];
+        for (path, bytes) in files {
             if self.create(&path, bytes)? == Creation::Different {
                 let path = path.display();
                 return Err(not_reproducible(&format!("{path} is there with other bytes")));

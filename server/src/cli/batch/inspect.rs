@@ -4,12 +4,11 @@ use super::folder::{BatchFolder, not_reproducible};
 use super::record::BatchRecord;
 use super::searching;
 use super::tally::OutcomeTally;
-use super::worker::UnitWorker;
-use crate::cli::score::figures;
+use super::worker::{CaseLines, UnitWorker};
 use crate::cli::values::whole;
 use crate::cli::{Common, Failure, output, parallel};
 use batch::chunk::BatchChunk;
-use batch::row::{self, UnitOutcome};
+use batch::row::UnitOutcome;
 use batch::unit::UnitList;
 use clap::Args;
 use formats::native::MAX_SAFE_INTEGER;
@@ -43,22 +42,17 @@ pub struct VerifyArgs {
     seed: u64,
 }
 
-/// Flags of `batch merge`.
-#[derive(Args, Clone, Debug)]
-pub struct MergeArgs {
-    /// Folder of the results.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
-}
-
 /// The chunks of a folder, those that are there and how many there should be.
-struct DoneChunks {
-    done: Vec<(BatchChunk, String)>,
-    all: u64,
+pub struct DoneChunks {
+    /// Those that are there, with their names.
+    pub done: Vec<(BatchChunk, String)>,
+    /// Number of all.
+    pub all: u64,
 }
 
 impl DoneChunks {
-    fn of(folder: &BatchFolder, list: &UnitList<'_>) -> Self {
+    /// Of a folder.
+    pub fn of(folder: &BatchFolder, list: &UnitList<'_>) -> Self {
         let (mut done, mut all) = (Vec::new(), 0);
         for (chunk, name, is_there) in folder.look_up(list.chunks(), list) {
             all += 1;
@@ -121,9 +115,9 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let check = |(at, units): &(usize, BTreeSet<u64>)| -> Result<usize, Failure> {
         let Some((chunk, name)) = chunks.done.get(*at) else { return Ok(0) };
         let rows = folder.rows(name)?;
-        let cases = output::read(&folder.cases(name))?;
-        let cases: BTreeSet<&str> =
-            std::str::from_utf8(&cases).unwrap_or_default().split_inclusive('\n').collect();
+        let files = [output::read(&folder.cases(name))?, output::read(&folder.motions(name))?];
+        let texts = files.iter().map(|file| std::str::from_utf8(file).unwrap_or_default());
+        let lines: BTreeSet<&str> = texts.flat_map(|text| text.split_inclusive('\n')).collect();
         let searches = searching::before(&folder, &list, chunk)?;
         let missing = |number: &u64| Failure::input(format!("{}: no unit {number}", folder.shown()));
         for number in units {
@@ -133,7 +127,9 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
             };
             let end = worker.end(&unit.ok_or_else(|| missing(number))?)?;
             let stored = rows.get((number - chunk.units.start) as usize);
-            let listed = end.line.as_ref().is_none_or(|line| cases.contains(line.as_str()));
+            let listed = end.lines.as_ref().is_none_or(|CaseLines { case, motion }| {
+                lines.contains(case.as_str()) && (motion.is_empty() || lines.contains(motion.as_str()))
+            });
             if stored != Some(&end.row) || !listed {
                 return Err(not_reproducible(&format!("unit {number} of chunk {name} has another result")));
             }
@@ -165,39 +161,4 @@ fn sample(chunks: &DoneChunks, count: u64, seed: u64) -> BTreeSet<(usize, u64)> 
         chosen.extend(units.get(stream.below(units.len())).copied());
     }
     chosen
-}
-
-/// Writes the tables of the whole batch.
-///
-/// # Errors
-/// Exit 1 when one cannot be written, 3.
-pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
-    let folder = BatchFolder::new(&args.folder)?;
-    let record = BatchRecord::of(&folder)?;
-    let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
-    let (mut tally, mut kept, mut lines) = (OutcomeTally::default(), Vec::new(), Vec::new());
-    for (_, name) in &chunks.done {
-        let rows = folder.rows(name)?;
-        rows.iter().for_each(|row| tally.add(row));
-        kept.extend(rows.into_iter().filter(|row| row.outcome == UnitOutcome::Kept));
-        lines.extend(output::read(&folder.cases(name))?);
-    }
-    let names: Vec<&String> = chunks.done.iter().map(|(_, name)| name).collect();
-    let manifest = json!({
-        "format": "dragtraffic.batch-manifest", "version": 1,
-        "complete": chunks.done.len() as u64 == chunks.all,
-        "units": list.len(), "units_done": tally.units(), "cases": kept.len(),
-        "tally": tally, "chunks": names,
-    });
-    output::write(Some(&folder.at("cases.jsonl")), &lines, true)?;
-    output::write(Some(&folder.at("cases.parquet")), &row::table(&kept, figures::names())?, true)?;
-    output::write(Some(&folder.at("manifest.json")), format!("{manifest:#}\n").as_bytes(), true)?;
-    common.say(&format!(
-        "{} cases of {} units: {}",
-        kept.len(),
-        tally.units(),
-        folder.at("cases.parquet").display()
-    ));
-    Ok(())
 }

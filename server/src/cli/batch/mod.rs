@@ -3,13 +3,19 @@
 
 mod folder;
 mod inspect;
+mod merge;
+mod page;
 mod record;
+mod replay;
+mod report;
 mod run;
 mod scenes;
 mod searching;
 mod tally;
 mod work;
 mod worker;
+
+pub use replay::{ReplayArgs, replay};
 
 use super::{Common, Failure};
 use batch::shard::BatchShard;
@@ -55,8 +61,11 @@ enum BatchCommand {
     #[command(after_help = examples!("dragtraffic batch verify out/", "dragtraffic batch verify out/ --units 200 --seed 7"))]
     Verify(inspect::VerifyArgs),
     /// Write manifest.json, cases.jsonl and cases.parquet from the chunks that are there.
-    #[command(after_help = examples!("dragtraffic batch merge out/", "dragtraffic batch merge out/ --quiet"))]
-    Merge(inspect::MergeArgs),
+    #[command(after_help = examples!("dragtraffic batch merge out/", "dragtraffic batch merge out/ --per-bucket 5"))]
+    Merge(merge::MergeArgs),
+    /// Count what the results cover, and write coverage.json and index.html, a page of the cases without network.
+    #[command(after_help = examples!("dragtraffic batch report out/", "dragtraffic batch report out/ --full 20 --cases 2000"))]
+    Report(report::ReportArgs),
 }
 
 /// Runs a plan, or looks at its results.
@@ -68,6 +77,7 @@ pub fn run(args: BatchArgs, common: &Common) -> Result<(), Failure> {
         None => run::run(&args.run, common),
         Some(BatchCommand::Status(args)) => inspect::status(&args),
         Some(BatchCommand::Verify(args)) => inspect::verify(&args, common),
-        Some(BatchCommand::Merge(args)) => inspect::merge(&args, common),
+        Some(BatchCommand::Merge(args)) => merge::merge(&args, common),
+        Some(BatchCommand::Report(args)) => report::report(&args, common),
     }
 }

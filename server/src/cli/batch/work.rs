@@ -2,7 +2,7 @@
 
 use super::folder::BatchFolder;
 use super::tally::OutcomeTally;
-use super::worker::{UnitEnd, UnitWorker};
+use super::worker::{CaseLines, UnitEnd, UnitWorker};
 use crate::cli::progress::Progress;
 use crate::cli::score::figures;
 use crate::cli::{Failure, parallel};
@@ -78,7 +78,8 @@ impl<'a> ChunkWork<'a> {
             }
             Some(unit(*number).ok_or_else(|| missing(number)).and_then(|unit| worker.end(&unit)))
         };
-        let (mut rows, mut lines, mut failure) = (Vec::new(), String::new(), None);
+        let (mut rows, mut cases, mut motions, mut failure) =
+            (Vec::new(), String::new(), String::new(), None);
         parallel::in_order(&units, *workers, end, |(open, number), end| {
             progress.step();
             if failure.is_some() {
@@ -87,16 +88,19 @@ impl<'a> ChunkWork<'a> {
             let put = match end {
                 None => Ok(()),
                 Some(Err(error)) => Err(error),
-                Some(Ok(UnitEnd { row, line })) => {
+                Some(Ok(UnitEnd { row, lines })) => {
                     tally.add(&row);
                     rows.push(row);
-                    lines.extend(line);
+                    if let Some(CaseLines { case, motion }) = lines {
+                        cases.push_str(&case);
+                        motions.push_str(&motion);
+                    }
                     if number + 1 == open.chunk.units.end {
                         let table = row::table(&std::mem::take(&mut rows), figures::names());
-                        let lines = std::mem::take(&mut lines);
-                        table
-                            .map_err(Failure::from)
-                            .and_then(|table| folder.put(&open.name, &table, lines.as_bytes()))
+                        let (cases, motions) = (std::mem::take(&mut cases), std::mem::take(&mut motions));
+                        table.map_err(Failure::from).and_then(|table| {
+                            folder.put(&open.name, &table, cases.as_bytes(), motions.as_bytes())
+                        })
                     } else {
                         Ok(())
                     }

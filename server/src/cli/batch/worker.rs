@@ -4,11 +4,13 @@ use super::folder::BatchFolder;
 use super::record::BatchRecord;
 use crate::base::clock;
 use crate::cli::Failure;
-use crate::cli::generate::tell;
+use crate::cli::generate::{created_at, tell};
 use crate::cli::score::figures::{FigureFilter, Figures};
 use api::generate::GenerationAnswer;
 use api::generate::request::{AgentChoice, ReactChoice};
 use api::{GenerateRequest, Operations, Problem, Subject};
+use batch::case::facts::CaseFacts;
+use batch::case::motion::CaseMotion;
 use batch::catalogue::UnitProblem;
 use batch::row::{BatchRow, KeptCase, UnitOutcome};
 use batch::unit::BatchUnit;
@@ -16,6 +18,8 @@ use experts::Cancel;
 use formats::native::{ConditionsDoc, Members};
 use lru::LruCache;
 use scene::scenarios::Casting;
+use scene::score::ScoreInput;
+use scene::score::meeting::MeetingSearch;
 use scene::{Conditions, Scene};
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -33,8 +37,24 @@ type Slot = Arc<OnceLock<Result<Arc<Scene>, Failure>>>;
 pub struct UnitEnd {
     /// Its row.
     pub row: BatchRow,
-    /// The line of its result, where it is kept.
-    pub line: Option<String>,
+    /// The lines of its result, where it is kept.
+    pub lines: Option<CaseLines>,
+}
+
+/// The lines of a result that is kept.
+pub struct CaseLines {
+    /// Its reference.
+    pub case: String,
+    /// Its motion, for pictures; empty where nobody is seen.
+    pub motion: String,
+}
+
+/// A result that was made again.
+pub struct RemadeResult {
+    /// The scene with its futures.
+    pub scene: Scene,
+    /// Names the result, in six characters.
+    pub code: String,
 }
 
 /// What units need.
@@ -103,20 +123,21 @@ impl<'a> UnitWorker<'a> {
             what: None,
             miss: None,
             figures: BTreeMap::new(),
+            facts: CaseFacts::default(),
         };
         if row.problem.is_some() {
             row.outcome = UnitOutcome::Failed;
-            return Ok(UnitEnd { row, line: None });
+            return Ok(UnitEnd { row, lines: None });
         }
         if !situation.agents.is_empty() && unit.actor.is_none() {
-            return Ok(UnitEnd { row, line: None });
+            return Ok(UnitEnd { row, lines: None });
         }
         let scene = self.scene(unit.scene)?;
         let began = clock::monotonic();
         let answered = self.roles(unit, &scene).map(|roles| self.answered(unit, &scene, roles));
         let spent = clock::monotonic().saturating_sub(began).as_micros();
         self.engine_us.fetch_add(spent as u64, Ordering::Relaxed);
-        let line = match answered {
+        let lines = match answered {
             None => None,
             Some(Err(Problem { code, detail, .. })) => {
                 row.outcome = UnitOutcome::Failed;
@@ -125,7 +146,26 @@ impl<'a> UnitWorker<'a> {
             }
             Some(Ok((roles, answered))) => self.settled(&mut row, roles, &answered),
         };
-        Ok(UnitEnd { row, line })
+        Ok(UnitEnd { row, lines })
+    }
+
+    /// Makes the result of a unit again; `None` where it has none.
+    ///
+    /// # Errors
+    /// Exit 3 when the folder lacks the scene.
+    pub fn result(&self, unit: &BatchUnit) -> Result<Option<RemadeResult>, Failure> {
+        let has_problem = self.record.scenes.get(unit.scene).is_none_or(|entry| entry.problem.is_some());
+        let names_agents =
+            self.record.plan.situations.get(unit.situation).is_some_and(|of| !of.agents.is_empty());
+        if has_problem || (names_agents && unit.actor.is_none()) {
+            return Ok(None);
+        }
+        let scene = self.scene(unit.scene)?;
+        let answered = self.roles(unit, &scene).and_then(|roles| self.answered(unit, &scene, roles).ok());
+        Ok(answered.map(|(_, GenerationAnswer { scene, samples, head, code, .. })| {
+            let generated = Some(head.generated(created_at(), samples));
+            RemadeResult { scene: Scene { generated, ..(*scene).clone() }, code }
+        }))
     }
 
     /// A scene of the catalogue, read once for all units that need it now.
@@ -181,8 +221,8 @@ impl<'a> UnitWorker<'a> {
         Ok((roles, answered))
     }
 
-    /// Writes an answer into its row; gives the line of a result that is kept.
-    fn settled(&self, row: &mut BatchRow, roles: Roles, answered: &GenerationAnswer) -> Option<String> {
+    /// Writes an answer into its row; gives the lines of a result that is kept.
+    fn settled(&self, row: &mut BatchRow, roles: Roles, answered: &GenerationAnswer) -> Option<CaseLines> {
         let actor = roles.actor.as_deref();
         let score = answered.scores.as_ref().and_then(|scores| scores.first());
         let figures = score.map(|score| Figures::new(score, actor));
@@ -195,6 +235,7 @@ impl<'a> UnitWorker<'a> {
         if let Some(casting) = roles.casting {
             (row.other, row.what) = (casting.other, Some(casting.words));
         }
+        let motion = self.happened(row, answered);
         row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
         row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
         if self.filter.is_some() && row.miss != Some(0.0) {
@@ -202,6 +243,20 @@ impl<'a> UnitWorker<'a> {
             return None;
         }
         row.outcome = UnitOutcome::Kept;
-        Some(KeptCase::of(row, roles.conditions).line())
+        let case = KeptCase::of(row, roles.conditions).line();
+        Some(CaseLines { case, motion: motion.map_or_else(String::new, |motion| motion.line()) })
+    }
+
+    /// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives
+    /// the motion.
+    fn happened(&self, row: &mut BatchRow, answered: &GenerationAnswer) -> Option<CaseMotion> {
+        let hardest = || answered.scores.as_ref()?.first()?.scene.min_ttc_pair.as_ref().map(|pair| &pair[0]);
+        let id = row.actor.as_ref().or_else(hardest)?;
+        let drivable = self.operations.generator.maps().drivable(&answered.scene.map);
+        let input = ScoreInput::of_sample(&answered.scene, answered.samples.first(), &drivable);
+        let of = input.actors.iter().position(|actor| actor.id == id)?;
+        let (facts, pair) = CaseFacts::of(&input, &MeetingSearch::new(&input), of)?;
+        row.facts = facts;
+        CaseMotion::of(&row.unit, &input, of, pair.as_ref())
     }
 }

@@ -129,7 +129,7 @@ impl MadeScene {
 }
 
 /// Nothing, so that equal calls give equal files; the time that SOURCE_DATE_EPOCH names where it is set.
-fn created_at() -> String {
+pub fn created_at() -> String {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let time = given.and_then(|seconds| UNIX_EPOCH.checked_add(Duration::from_secs(seconds)));
     time.map_or_else(String::new, clock::text)

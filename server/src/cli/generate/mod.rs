@@ -9,6 +9,8 @@ mod many;
 pub mod tell;
 pub mod who;
 
+pub use made::created_at;
+
 use super::inputs::{Inputs, Reading, no_ids, notes};
 use super::output::{self, Folder};
 use super::score::figures::FigureFilter;

@@ -40,6 +40,28 @@ impl FigureFilter {
         &self.text
     }
 
+    /// The conditions that it joins by `&&`, in their order; itself where it is joined by `||`.
+    pub fn parts(&self) -> Vec<Self> {
+        let (mut depth, mut from, mut cuts) = (0usize, 0, Vec::new());
+        let bytes = self.text.as_bytes();
+        for (at, pair) in bytes.windows(2).enumerate() {
+            match pair {
+                [b'(', _] => depth += 1,
+                [b')', _] => depth = depth.saturating_sub(1),
+                b"||" if depth == 0 => return vec![self.clone()],
+                b"&&" if depth == 0 => {
+                    cuts.push(from..at);
+                    from = at + 2;
+                }
+                _ => {}
+            }
+        }
+        cuts.push(from..bytes.len());
+        let part =
+            |cut: std::ops::Range<usize>| self.text.get(cut).and_then(|text| Self::parse(text.trim()).ok());
+        cuts.into_iter().map(part).collect::<Option<_>>().unwrap_or_else(|| vec![self.clone()])
+    }
+
     /// Whether a score has what it asks.
     pub fn holds(&self, figures: &Figures) -> bool {
         self.expression.holds(&|name| figures.get(name))
@@ -125,6 +147,11 @@ impl Figures {
         Self(all)
     }
 
+    /// Of a table's row.
+    pub fn of_row(figures: BTreeMap<String, f64>) -> Self {
+        Self(figures)
+    }
+
     /// All of them, by name.
     pub fn all(&self) -> &BTreeMap<String, f64> {
         &self.0
@@ -190,6 +217,21 @@ mod tests {
         assert!(figures.0.keys().all(|name| known.contains(name)), "{:?}", figures.0.keys());
         assert!(FigureFilter::parse("min_ttc_s < 1.5 && collisions == 0").is_ok());
         assert!(FigureFilter::parse("collisions == 0").unwrap().holds(&figures));
+    }
+
+    #[test]
+    fn a_condition_is_cut_where_all_of_it_must_hold() {
+        let parts = |text: &str| {
+            let parts = FigureFilter::parse(text).unwrap().parts();
+            parts.iter().map(|part| part.text().to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(parts("collisions == 0"), ["collisions == 0"]);
+        assert_eq!(
+            parts("min_ttc_s < 1 && (collisions == 0 && pet_s > 1 || overlaps > 0) &&!(pet_s < 2)"),
+            ["min_ttc_s < 1", "(collisions == 0 && pet_s > 1 || overlaps > 0)", "!(pet_s < 2)"]
+        );
+        let either = "collisions == 0 && pet_s > 1 || overlaps > 0";
+        assert_eq!(parts(either), [either]);
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub struct Measures {
 
 impl Measures {
     /// Of two motions up to a step, counted from the first scored one.
-    pub(super) fn of(a: &Mover, b: &Mover, last: usize) -> Self {
+    pub(in crate::score) fn of(a: &Mover, b: &Mover, last: usize) -> Self {
         let mut found = Self { pet_s: post_encroachment_s(a, b), ..Self::default() };
         for (step, moments) in a.moments.iter().zip(&b.moments).enumerate().take(last + 1) {
             let (Some(p), Some(q)) = moments else { continue };

@@ -192,7 +192,7 @@ fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
 }
 
 /// The log itself shows this pair overlapping, or a truck and its trailer.
-fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
+pub(super) fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
     let mut logged = input.steps.clone().filter_map(|step| {
         let boxes = (log_a.at(step)?, log_b.at(step)?);
@@ -270,7 +270,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> P
     pair
 }
 
-fn ttc(p: &MoverState, q: &MoverState, horizon_s: f64) -> Option<f64> {
+pub(super) fn ttc(p: &MoverState, q: &MoverState, horizon_s: f64) -> Option<f64> {
     time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, horizon_s)
 }
 
@@ -307,7 +307,7 @@ fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), st
 }
 
 /// That these two touch says nothing: people in company, or recorded cars that both stay parked.
-fn belong_together(a: &Mover, b: &Mover, step: usize) -> bool {
+pub(super) fn belong_together(a: &Mover, b: &Mover, step: usize) -> bool {
     let parked = |m: &Mover| !m.generated && m.travel_m < PARKED_M;
     parked(a) && parked(b) || company::walk_together(a, b, step)
 }
@@ -320,7 +320,7 @@ fn impact_mps(a: &Mover, b: &Mover, step: usize) -> f64 {
     }
 }
 
-fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+pub(super) fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.min(b)),
         (a, b) => a.or(b),
