@@ -7,6 +7,7 @@ mod base;
 mod cli;
 mod generation;
 mod http;
+mod picture;
 mod routes;
 mod runs;
 mod scenes;
