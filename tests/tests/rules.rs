@@ -56,6 +56,8 @@ const HOMES: &[(&str, &[&str])] = &[
     ("rusqlite", &["dragtraffic", "tests"]),
     ("shuttle", &["dragtraffic"]),
     ("hyper", &["dragtraffic"]),
+    ("rmcp", &["dragtraffic"]),
+    ("tiny-skia", &["dragtraffic"]),
     ("pyo3", &["python"]),
     ("numpy", &["python"]),
     ("prost", &["formats"]),
@@ -209,7 +211,7 @@ const HOUSES: &[House] = &[
         sources: "server/src",
         module: &[],
         floors: &[
-            &["base"],
+            &["base", "picture"],
             &["work"],
             &["http"],
             &["scenes"],
