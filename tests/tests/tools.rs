@@ -113,12 +113,12 @@ fn lines_that_are_no_messages_leave_the_server_at_work() {
     client.say(r#"{"jsonrpc":"2.0","id":901,"method":"no/such","params":{}}"#);
     client.say(r#"{"jsonrpc":"2.0","id":902,"method":"tools/call","params":{"name":"rm"}}"#);
     let mut told = Vec::new();
-    while !told.contains(&json!(902)) {
+    // Calls are answered in any order.
+    while ![900, 901, 902].iter().all(|id| told.contains(&json!(id))) {
         let message = client.hear();
         assert!(message["error"]["code"].is_i64(), "{message}");
         told.push(message["id"].clone());
     }
-    assert!(told.contains(&json!(901)), "{told:?}");
     // A line of 40 MB is passed over, and nothing of it is kept.
     client.say(&format!("{{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"{}\"}}", "x".repeat(40 << 20)));
     assert_ne!(client.opened("demo-crossing")["isError"], true);
@@ -134,7 +134,7 @@ fn lines_that_are_no_messages_leave_the_server_at_work() {
 fn a_client_reaches_its_folders_and_nothing_else() {
     let (outside, inside) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let example = root().join("assets/scenes/demo-crossing.json");
-    let copy = |to: &Path| drop(std::fs::copy(&example, to).unwrap());
+    let copy = |to: &Path| assert!(std::fs::copy(&example, to).unwrap() > 0);
     copy(&outside.path().join("secret.json"));
     copy(&inside.path().join("mine.json"));
     #[cfg(unix)]
@@ -194,7 +194,7 @@ fn scenes_memory_and_time_are_bounded() {
     assert_eq!(client.refused("close_scene", &json!({"scene": "demo-crossing-2"})), "not-found");
     // Futures that do not fit are not kept, and the scene stays as it was.
     let before = client.call("describe_scene", &json!({"scene": "demo-crossing"}));
-    let large = json!({"scene": "demo-crossing", "samples": 32, "horizon_s": 9, "picture": false});
+    let large = json!({"scene": "demo-crossing", "samples": 8, "horizon_s": 9, "picture": false});
     let code = client.refused("generate_futures", &large);
     assert!(["store-full", "generate-timeout"].contains(&code.as_str()), "{code}");
     assert_eq!(client.call("describe_scene", &json!({"scene": "demo-crossing"})), before);

@@ -10,6 +10,9 @@ use tiny_skia::{
 /// Side of a picture, pixels.
 pub const SIDE_PX: u32 = 800;
 
+/// Longer lines have no dashes, which would be drawn far outside the picture too, pixels.
+const MOST_DASHED_PX: f32 = 20_000.0;
+
 /// Red, green, blue, and how much covers what is below.
 pub type Ink = (u8, u8, u8, u8);
 
@@ -76,7 +79,9 @@ impl Paper {
             return;
         }
         let Some(path) = self.path(points, closed) else { return };
-        let dash = style.dash_px.and_then(|length| StrokeDash::new(vec![length, length], 0.0));
+        let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let dash_px = style.dash_px.filter(|_| self.px(length_m) < MOST_DASHED_PX);
+        let dash = dash_px.and_then(|length| StrokeDash::new(vec![length, length], 0.0));
         let stroke = Stroke {
             width: style.width_px,
             line_cap: if dash.is_some() { LineCap::Butt } else { LineCap::Round },

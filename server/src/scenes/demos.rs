@@ -22,8 +22,16 @@ pub fn ids() -> Vec<String> {
     ids
 }
 
-/// A scene by its id, and the bytes of its file; `None` where there is none.
-pub fn file(id: &str) -> Option<(Result<Scene, Problem>, Cow<'static, [u8]>)> {
+/// An example.
+pub struct DemoFile {
+    /// What it holds.
+    pub scene: Result<Scene, Problem>,
+    /// The file.
+    pub bytes: Cow<'static, [u8]>,
+}
+
+/// An example by its id; `None` where there is none.
+pub fn file(id: &str) -> Option<DemoFile> {
     let file = DemoScenes::get(&format!("{id}.json"))?;
-    Some((native::read(&file.data).map_err(Problem::from), file.data))
+    Some(DemoFile { scene: native::read(&file.data).map_err(Problem::from), bytes: file.data })
 }

@@ -153,15 +153,13 @@ impl Library {
 
     fn add_demos(&self) {
         for id in demos::ids() {
-            match demos::file(&id) {
-                Some((Ok(scene), bytes)) => {
+            let Some(demo) = demos::file(&id) else { continue };
+            match demo.scene {
+                Ok(scene) => {
                     let place = ScenePlace::Demo(id.clone());
-                    self.add(id, &scene, place, &bytes, SystemTime::UNIX_EPOCH);
+                    self.add(id, &scene, place, &demo.bytes, SystemTime::UNIX_EPOCH);
                 }
-                Some((Err(problem), _)) => {
-                    tracing::error!(%id, detail = %problem.detail, "demo scene is broken")
-                }
-                None => {}
+                Err(problem) => tracing::error!(%id, detail = %problem.detail, "demo scene is broken"),
             }
         }
     }
@@ -204,7 +202,7 @@ fn etag_of(bytes: &[u8]) -> String {
 /// The scene of an entry; of a file of the data folder from what its name leads to now.
 fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Problem> {
     match &entry.place {
-        ScenePlace::Demo(id) => demos::file(id).ok_or_else(|| Problem::internal("demo scene is gone"))?.0,
+        ScenePlace::Demo(id) => demos::file(id).ok_or_else(|| Problem::internal("demo scene is gone"))?.scene,
         ScenePlace::File(path, index) => {
             let changed = |error: String| {
                 tracing::info!(file = %path.display(), %error, "gone or changed");

@@ -3,9 +3,12 @@
 use crate::scenes::DataFolder;
 use api::{Code, Problem};
 use formats::files;
+use std::ffi::OsStr;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+/// Longest name that a file can have, bytes.
+const LONGEST_NAME: usize = 255;
 /// Files that are listed at most.
 const MOST_LISTED: usize = 300;
 /// Folders below an allowed one that are listed.
@@ -102,7 +105,9 @@ impl Allowed {
             false => path.strip_prefix(&self.given).unwrap_or(path),
         };
         let plain: PathBuf = name.components().filter(|part| *part != Component::CurDir).collect();
-        let is_plain = plain.components().all(|part| matches!(part, Component::Normal(_)));
+        let is_name = |name: &OsStr| name.len() <= LONGEST_NAME && !name.as_encoded_bytes().contains(&0);
+        let is_plain =
+            plain.components().all(|part| matches!(part, Component::Normal(name) if is_name(name)));
         (is_plain && plain.file_name().is_some()).then_some(plain)
     }
 

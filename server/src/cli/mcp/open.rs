@@ -85,8 +85,8 @@ pub fn open(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswe
     let (call, NoRequest {}) = schema::read::<OpenCall, _>(arguments, &[])?;
     let (scene, like, warnings) = match (&call.example, &call.file) {
         (Some(id), None) => {
-            let (scene, _) = demos::file(id).ok_or_else(|| unknown_example(id))?;
-            (scene?, id.clone(), Vec::new())
+            let example = demos::file(id).ok_or_else(|| unknown_example(id))?;
+            (example.scene?, id.clone(), Vec::new())
         }
         (None, Some(path)) => of_file(tools, path, &call)?,
         _ => {
