@@ -6,6 +6,7 @@ mod app;
 mod base;
 mod cli;
 mod generation;
+mod grpc;
 mod http;
 mod picture;
 mod routes;
