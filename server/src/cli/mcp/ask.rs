@@ -20,7 +20,7 @@ const OF_PLACE: [&str; 10] =
 /// Members of a generation that set conditions.
 const OF_CONDITIONS: [&str; 4] = ["conditions", "add_agents", "remove_agents", "start_s"];
 /// Members of a generation that are passed on.
-pub const OF_GENERATE: [&str; 12] = [
+pub const OF_GENERATE: [&str; 11] = [
     "conditions",
     "agents",
     "react",
@@ -32,7 +32,6 @@ pub const OF_GENERATE: [&str; 12] = [
     "modes",
     "diversity",
     "kept_futures",
-    "thresholds",
 ];
 /// Road users of an answer that have a line.
 const MOST_LINES: usize = 24;

@@ -183,7 +183,7 @@ mod tests {
     use serde_json::Value;
 
     /// Greatest schema of a tool, bytes: a model reads it before anything else.
-    const MOST_BYTES: usize = 20_000;
+    const MOST_BYTES: usize = 15_000;
 
     #[test]
     fn tools_have_short_schemas_whose_references_resolve() {
