@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 os.environ.setdefault("CANDLE_NUM_THREADS", "1")
 
 from ._conditions import Condition, Goal, Relation, Start, Velocity, Via  # noqa: E402
+from ._drive import Drive, drive  # noqa: E402
 from ._errors import DragTrafficError  # noqa: E402
 from ._native import version  # noqa: E402
 from ._run import Peek, Run, State, Step  # noqa: E402
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Condition",
     "DragTrafficError",
+    "Drive",
     "Goal",
     "Peek",
     "Relation",
@@ -42,6 +44,7 @@ __all__ = [
     "Step",
     "Velocity",
     "Via",
+    "drive",
     "open",
     "open_all",
     "version",

@@ -31,6 +31,7 @@ mod interrupt;
 mod lab;
 mod listen;
 mod map;
+mod mcp;
 mod output;
 mod parallel;
 mod place;
@@ -98,6 +99,9 @@ enum Command {
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
     #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --sample all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
     Score(score::ScoreArgs),
+    /// Let a language model work on scenes: the operations as tools of the Model Context Protocol, over standard input and output.
+    #[command(after_help = examples!("dragtraffic mcp", "dragtraffic mcp --folder recordings/ --folder out/"))]
+    Mcp(mcp::McpArgs),
     /// Copy the saved scenes of a server, even while it runs.
     #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
     Backup(backup::BackupArgs),
@@ -144,7 +148,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
-            if let Some(message) = of_the_lab(&error).or_else(|| renamed(&error)) {
+            if let Some(message) = elsewhere(&error).or_else(|| renamed(&error)) {
                 output::complain(&message);
                 return code;
             }
@@ -226,9 +230,12 @@ fn renamed(error: &clap::Error) -> Option<String> {
     (error.kind() == ErrorKind::UnknownArgument).then(|| format!("{old} is {new} now"))
 }
 
-/// The hint for a command of the lab that stands outside of `lab`, or that this program lacks.
-fn of_the_lab(error: &clap::Error) -> Option<String> {
+/// The hint for a command of the lab that stands outside of `lab`, or for one that this program lacks.
+fn elsewhere(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    if name == "drive" {
+        return Some("drive runs planners in Python and comes with the Python package: pip install .".into());
+    }
     match (name == "lab" || LAB_COMMANDS.contains(&name.as_str()), cfg!(feature = "lab")) {
         (true, true) => Some(format!("{name} is a command of the lab: dragtraffic lab {name}")),
         (true, false) => {
@@ -278,6 +285,7 @@ impl Command {
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),
             Self::Score(args) => score::score(args, common),
+            Self::Mcp(args) => mcp::run(args, common),
             Self::Openapi(args) => document::openapi(args),
             Self::Schema(args) => document::schema(args),
             Self::Domain(args) => document::domain(args),

@@ -78,6 +78,7 @@ impl ServePlan {
         ];
         lines.extend(args.data.as_ref().map(|data| ("data", data.display().to_string())));
         lines.extend(self.ops.map(|ops| ("probes on", format!("http://{ops}/"))));
+        lines.extend(args.grpc.map(|port| ("gRPC on", format!("127.0.0.1:{port}"))));
         if !args.trust_proxy.is_empty() {
             lines.push(("trusts", args.trust_proxy.join(", ")));
         }

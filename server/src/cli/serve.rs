@@ -6,6 +6,7 @@ use super::{Common, Exit, Failure, config, output};
 use crate::app::{App, AppParts};
 use crate::base::memory::Memory;
 use crate::base::{base_path, descriptors, metrics};
+use crate::grpc::GrpcListener;
 use crate::http::audit::AuditLog;
 use crate::http::body::Room;
 use crate::http::guard::Guard;
@@ -78,6 +79,10 @@ pub struct ServeArgs {
     /// Address such as 127.0.0.1:9090 that answers /healthz, /readyz and /metrics without token.
     #[arg(long, env = "DRAGTRAFFIC_OPS_ADDRESS", value_name = "IP:PORT")]
     pub(super) ops_address: Option<String>,
+    /// Port of 127.0.0.1 for AlpaSim's TrafficService over gRPC; 0 takes a free port. It has no tokens: every process of
+    /// this machine may call it.
+    #[arg(long, env = "DRAGTRAFFIC_GRPC", value_name = "PORT")]
+    pub(super) grpc: Option<u16>,
     /// File for the audit log, a JSON object a line: changes of scenes, refusals of tokens and rights. - is standard
     /// output.
     #[arg(long, env = "DRAGTRAFFIC_AUDIT", value_name = "FILE")]
@@ -191,6 +196,9 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     };
     output::print(format!("DragTraffic is at {url}\n").as_bytes())?;
     tracing::info!(%url, db = %db.display(), "serving");
+    if let Some(port) = args.grpc {
+        answer_simulators(port, &app)?;
+    }
     if args.open {
         open_browser(&url);
     }
@@ -283,6 +291,16 @@ async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
     tracing::info!(address = %listener.local_addr()?, "answers probes");
     let router = crate::routes::probes(app);
     tokio::spawn(async move { axum::serve(listener, router).await });
+    Ok(())
+}
+
+/// Answers calls of AlpaSim's `TrafficService` at a port of this machine.
+fn answer_simulators(port: u16, app: &App) -> Result<(), Failure> {
+    let refused = |error| Failure::new(Exit::AddressInUse, format!("--grpc {port}: {error}"));
+    let listener = GrpcListener::open(SocketAddr::from(([127, 0, 0, 1], port))).map_err(refused)?;
+    output::print(format!("TrafficService is at {}\n", listener.address()?).as_bytes())?;
+    let app = app.clone();
+    tokio::spawn(async move { listener.serve(&app).await });
     Ok(())
 }
 

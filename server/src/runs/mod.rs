@@ -87,6 +87,11 @@ impl RunStore {
         Ok(Arc::clone(&entry.run))
     }
 
+    /// Memory of runs for a run that is kept elsewhere, where there is so much.
+    pub fn room(&self, bytes: usize) -> Option<MemoryShare> {
+        self.memory.take(bytes)
+    }
+
     /// Forgets a run.
     ///
     /// # Errors

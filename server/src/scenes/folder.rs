@@ -165,6 +165,9 @@ impl DataFolder {
         // Older systems cannot follow links safely.
         let opened = match opened {
             Err(rustix::io::Errno::NOSYS) => {
+                if name.components().count() != 1 || name.file_name().is_none() {
+                    return Err(io::Error::other("no file of the folder itself"));
+                }
                 openat(&self.handle, name, flags | OFlags::NOFOLLOW, Mode::empty())
             }
             opened => opened,

@@ -3,6 +3,7 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
+use super::demos;
 use super::folder::{DataFolder, FolderReader};
 use super::item::{Facts, SceneItem};
 use super::weight;
@@ -15,8 +16,6 @@ use crate::base::party::Party;
 use crate::work::Pool;
 use api::import::SceneFile;
 use api::{Code, Opened, Problem};
-use formats::native;
-use rust_embed::RustEmbed;
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
 use std::io;
@@ -24,18 +23,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
 use std::time::SystemTime;
 
-/// Demo scenes in native JSON.
-#[derive(RustEmbed)]
-#[folder = "../assets/scenes"]
-#[allow_missing = true]
-struct DemoScenes;
-
 /// Most files taken from the data folder.
 const MOST_FILES: usize = 5_000;
 
 #[derive(Clone, Debug)]
 enum ScenePlace {
-    /// Name of an embedded file.
+    /// Id of a demo.
     Demo(String),
     /// Name of a file of the data folder, and the position of the scene in it.
     File(PathBuf, usize),
@@ -159,15 +152,14 @@ impl Library {
     }
 
     fn add_demos(&self) {
-        for name in DemoScenes::iter() {
-            let Some(file) = DemoScenes::get(&name) else { continue };
-            let Some(id) = name.strip_suffix(".json").filter(|id| id::is_id(id)) else { continue };
-            match native::read(&file.data) {
+        for id in demos::ids() {
+            let Some(demo) = demos::file(&id) else { continue };
+            match demo.scene {
                 Ok(scene) => {
-                    let place = ScenePlace::Demo(name.to_string());
-                    self.add(id.to_owned(), &scene, place, &file.data, SystemTime::UNIX_EPOCH);
+                    let place = ScenePlace::Demo(id.clone());
+                    self.add(id, &scene, place, &demo.bytes, SystemTime::UNIX_EPOCH);
                 }
-                Err(error) => tracing::error!(%name, %error, "demo scene is broken"),
+                Err(problem) => tracing::error!(%id, detail = %problem.detail, "demo scene is broken"),
             }
         }
     }
@@ -210,10 +202,7 @@ fn etag_of(bytes: &[u8]) -> String {
 /// The scene of an entry; of a file of the data folder from what its name leads to now.
 fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Problem> {
     match &entry.place {
-        ScenePlace::Demo(name) => {
-            let file = DemoScenes::get(name).ok_or_else(|| Problem::internal("demo scene is gone"))?;
-            Ok(native::read(&file.data)?)
-        }
+        ScenePlace::Demo(id) => demos::file(id).ok_or_else(|| Problem::internal("demo scene is gone"))?.scene,
         ScenePlace::File(path, index) => {
             let changed = |error: String| {
                 tracing::info!(file = %path.display(), %error, "gone or changed");
@@ -270,7 +259,7 @@ mod tests {
     fn demos_are_there_before_anybody_can_ask() {
         let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
         let library = Library::start(None, pool, Memory::new(1 << 20)).unwrap();
-        assert_eq!(library.items().len(), DemoScenes::iter().filter(|n| n.ends_with(".json")).count());
+        assert_eq!(library.items().len(), demos::ids().len());
         assert!(library.has("demo-crossing"));
     }
 

@@ -1,15 +1,17 @@
 //! Scenes and maps: saved by the user, shipped as demos, in the data folder, in files.
 
 mod catalog;
+pub mod demos;
 mod folder;
 mod item;
 mod library;
 mod preview;
 pub mod record;
 pub mod store;
-mod weight;
+pub mod weight;
 
 pub use catalog::{Catalog, bytes_of, map_bytes};
+pub use folder::DataFolder;
 pub use item::{Counts, Facts, SceneItem, tags_of};
 pub use library::Library;
 pub use preview::preview;

@@ -8,8 +8,12 @@ use scene::sentences::{expected, wanted};
 use scene::{STEP_S, Scene, relation};
 
 impl GenerateRequest {
-    /// The scene with this call's road users and conditions.
-    pub(super) fn apply(&self, mut scene: Scene) -> Result<Scene, Problem> {
+    /// The scene with this call's road users and conditions, for a carrier that keeps them. The length of the call bounds
+    /// the times of goals.
+    ///
+    /// # Errors
+    /// Every fault of the start, the ids and the conditions, and of a scene with the added road users.
+    pub fn apply(&self, mut scene: Scene) -> Result<Scene, Problem> {
         let last_s = (scene.time.steps - 1) as f64 * STEP_S;
         if !(self.start_s >= 0.0 && self.start_s <= last_s + 1e-6) {
             return refuse(vec![FieldProblem::range("/start_s", 0.0, last_s, self.start_s)]).map(|()| scene);

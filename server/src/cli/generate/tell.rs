@@ -43,8 +43,8 @@ pub fn lines(made: &MadeScene, args: &GenerateArgs, common: &Common) -> Vec<Stri
     lines
 }
 
-/// What came of one road user.
-fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
+/// What came of one road user, in one line.
+pub fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
     let mut parts = Vec::new();
     parts.extend(resolved.and_then(goal));
     parts.extend(futures.reaction.as_ref().map(reaction));
