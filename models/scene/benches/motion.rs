@@ -2,7 +2,7 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use scene::motion::{Knots, MotionModel, Sampled, Target, fit, project};
+use scene::motion::{Knots, MotionModel, Sampled, Smoothing, Target, fit, project};
 use scene::{AgentType, Size, State, Subtype, Vec2};
 use std::hint::black_box;
 
@@ -28,7 +28,7 @@ fn motion(c: &mut Criterion) {
     };
     let near = Knots { first: [0.3; 10], second: [0.019; 10] };
     c.bench_function("rollout", |b| b.iter(|| model.rollout(black_box(&u))));
-    c.bench_function("fit 18 samples", |b| b.iter(|| fit(&model, black_box(&samples))));
+    c.bench_function("fit 18 samples", |b| b.iter(|| fit(&model, black_box(&samples), Smoothing::WISHED)));
     c.bench_function("project, knots near", |b| b.iter(|| project(&model, black_box(&near), &target, None)));
     c.bench_function("project, from coasting", |b| {
         b.iter(|| project(&model, black_box(&model.coasting()), &target, None))
