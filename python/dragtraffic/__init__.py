@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 # RAYON_NUM_THREADS, which other libraries of the process read too: that one is left to the user.
 os.environ.setdefault("CANDLE_NUM_THREADS", "1")
 
+from ._batch import batch  # noqa: E402
 from ._conditions import Condition, Goal, Relation, Start, Velocity, Via  # noqa: E402
 from ._drive import Drive, drive  # noqa: E402
 from ._errors import DragTrafficError  # noqa: E402
@@ -44,6 +45,7 @@ __all__ = [
     "Step",
     "Velocity",
     "Via",
+    "batch",
     "drive",
     "open",
     "open_all",

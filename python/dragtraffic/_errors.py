@@ -19,6 +19,10 @@ class DragTrafficError(Exception):
         self.code = code
         self.errors = list(errors)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # It travels between processes with all that it says.
+        return type(self), (str(self), self.code, self.errors)
+
 
 def refusal(detail: str, code: str, errors: str) -> DragTrafficError:
     """A refusal as the native module says it. A fault whose place is known begins with it."""

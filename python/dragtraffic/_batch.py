@@ -1,0 +1,101 @@
+"""Batches: the chunks of a plan, made here or on a cluster of Dask."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Union
+
+from . import _program
+from ._errors import DragTrafficError
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+#: Most shares that the command divides chunks into.
+_MOST_SHARES = 100_000
+
+
+def batch(
+    plan: Union[str, os.PathLike[str]], output: Union[str, os.PathLike[str]], *, client: Client | None = None
+) -> dict[str, Any]:
+    """Makes the chunks of a plan that are not in the folder yet, and says how far the batch is.
+
+    ``plan`` is the file of a plan, ``output`` the folder of results: docs/batch.md describes both. Without ``client`` all
+    cores of this machine work. With a client of Dask (``pip install dragtraffic[dask]``) its workers do, each chunk is a
+    task with one thread; they have this package, and see the folder under the same path. A call that was interrupted goes
+    on when it is made again, also on another cluster. Other processes may work on the same folder.
+
+    Returns:
+        ``chunks``, ``chunks_done``, ``units``, ``units_done``, ``scenes`` and ``tally`` (outcomes and problem codes).
+
+    Raises:
+        DragTrafficError: the plan or an input cannot be read, the folder has another batch, a chunk cannot be written, or
+            is there with other bytes (``not-reproducible``).
+    """
+    folder = os.path.abspath(output)
+    if client is None:
+        _command("batch", os.fspath(plan), "-o", folder)
+    else:
+        # The last of many shares is empty or short: this reads the inputs and records them, for the workers to find.
+        _command("batch", os.fspath(plan), "-o", folder, "--shard", f"{_MOST_SHARES - 1}/{_MOST_SHARES}")
+        _spread(client, Path(plan).read_text(encoding="utf-8"), folder)
+    return _status(folder)
+
+
+def _spread(client: Client, plan: str, folder: str) -> None:
+    """Has the workers of a cluster make the chunks that are not there; the first one that fails ends the call."""
+    from distributed import as_completed
+
+    count = min(int(_status(folder)["chunks"]), _MOST_SHARES)
+    tasks = client.map(_chunk, _due(folder, count), plan=plan, folder=folder, count=count, pure=False)
+    try:
+        for _ in as_completed(tasks, with_results=True):
+            pass
+    finally:
+        client.cancel(tasks)
+
+
+def _due(folder: str, count: int) -> list[int]:
+    """Shares with a chunk that is not there. Those of a search have several chunks: all of them are looked at."""
+    record = json.loads(Path(folder, "plan.json").read_bytes())
+    if record["plan"].get("sampling", {}).get("method") == "search" or count == _MOST_SHARES:
+        return list(range(count))
+    tables = Path(folder, "chunks").glob("*.parquet")
+    done = {int(table.name.split("-")[0]) for table in tables}
+    return [number for number in range(count) if number not in done]
+
+
+def _chunk(share: int, plan: str, folder: str, count: int) -> None:
+    """One task: the chunks of a share."""
+    with tempfile.TemporaryDirectory() as own:
+        copy = Path(own, "plan.toml")
+        copy.write_text(plan, encoding="utf-8")
+        _command("batch", str(copy), "-o", folder, "--shard", f"{share}/{count}", "--jobs", "1", "--quiet")
+
+
+def _status(folder: str) -> dict[str, Any]:
+    status: dict[str, Any] = json.loads(_command("batch", "status", folder, "--json"))
+    return status
+
+
+def _command(*arguments: str) -> bytes:
+    """Runs the command line and gives what it prints. Its messages are shown, and are those of an error."""
+    command = [sys.executable, _program.__file__, *arguments]
+    said: list[str] = []
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        for line in process.stderr:
+            said.append(line.decode(errors="replace"))
+            sys.stderr.write(said[-1])
+        printed = process.stdout.read()
+    if process.returncode != 0:
+        message = "".join(said[-20:]).strip() or f"the command ended with {process.returncode}"
+        raise DragTrafficError(message, "not-reproducible" if "not-reproducible" in message else "batch-failed")
+    return printed
