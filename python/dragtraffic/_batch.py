@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -35,7 +36,7 @@ def batch(
 
     Raises:
         DragTrafficError: the plan or an input cannot be read, the folder has another batch, a chunk cannot be written, or
-            is there with other bytes (``not-reproducible``).
+            is there with other bytes (``not-reproducible``), or the scheduler was lost.
     """
     folder = os.path.abspath(output)
     if client is None:
@@ -44,7 +45,11 @@ def batch(
         # The last of many shares is empty or short: this reads the inputs and records them, for the workers to find.
         _command("batch", os.fspath(plan), "-o", folder, "--shard", f"{_MOST_SHARES - 1}/{_MOST_SHARES}")
         _spread(client, Path(plan).read_text(encoding="utf-8"), folder)
-    return _status(folder)
+    status = _status(folder)
+    # Tasks of a scheduler that is lost end without an error.
+    if (there := int(status["chunks_done"])) < (all := int(status["chunks"])):
+        raise DragTrafficError(f"{there} of {all} chunks are there: the cluster was lost; call again", "batch-failed")
+    return status
 
 
 def _spread(client: Client, plan: str, folder: str) -> None:
@@ -56,8 +61,12 @@ def _spread(client: Client, plan: str, folder: str) -> None:
     try:
         for _ in as_completed(tasks, with_results=True):
             pass
+    except CancelledError:
+        # The scheduler is lost; the caller counts the chunks.
+        pass
     finally:
-        client.cancel(tasks)
+        if client.status == "running":
+            client.cancel(tasks)
 
 
 def _due(folder: str, count: int) -> list[int]:

@@ -7,6 +7,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -94,6 +95,24 @@ def test_what_a_worker_refuses_is_said_to_the_caller(client: Client, plan: Path,
     with pytest.raises(DragTrafficError, match="other bytes") as refused:
         dragtraffic.batch(plan, out, client=client)
     assert refused.value.code == "not-reproducible"
+
+
+def test_a_lost_scheduler_is_an_error_and_the_same_call_goes_on(plan: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    settings = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with LocalCluster(**settings, silence_logs=50) as cluster, Client(cluster) as client:
+
+        def lose() -> None:
+            while not list(out.glob("chunks/*.parquet")):
+                time.sleep(0.01)
+            cluster.close()
+
+        thief = threading.Thread(target=lose)
+        thief.start()
+        with pytest.raises(DragTrafficError, match="the cluster was lost"):
+            dragtraffic.batch(plan, out, client=client)
+        thief.join()
+    assert dragtraffic.batch(plan, out)["chunks_done"] == 8
 
 
 def test_a_program_ends_with_the_process_that_started_it(plan: Path, tmp_path: Path) -> None:
