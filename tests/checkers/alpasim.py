@@ -14,57 +14,8 @@ import grpc
 from grpc_tools import protoc
 from support.checks import check, end, program, root, work
 
-PROTO = """
-syntax = "proto3";
-package traffic;
-service TrafficService {
-  rpc start_session (TrafficSessionRequest) returns (Empty);
-  rpc close_session (TrafficSessionCloseRequest) returns (Empty);
-  rpc simulate (TrafficRequest) returns (TrafficReturn);
-  rpc get_metadata (Empty) returns (TrafficModuleMetadata);
-  rpc get_available_scenes (Empty) returns (AvailableScenesReturn);
-  rpc no_such_call (Empty) returns (Empty);
-}
-message Empty {}
-message Quat { float w = 1; float x = 2; float y = 3; float z = 4; }
-message Vec3 { float x = 1; float y = 2; float z = 3; }
-message Pose { Vec3 vec = 1; Quat quat = 2; }
-message AABB { float size_x = 1; float size_y = 2; float size_z = 3; }
-message PoseAtTime { Pose pose = 1; fixed64 timestamp_us = 2; }
-message Trajectory { repeated PoseAtTime poses = 1; }
-message VersionId {
-  message APIVersion { uint32 major = 1; uint32 minor = 2; uint32 patch = 3; }
-  string version_id = 1;
-  string git_hash = 2;
-  APIVersion grpc_api_version = 3;
-}
-message AvailableScenesReturn { repeated string scene_ids = 1; }
-message ObjectTrajectory {
-  AABB aabb = 1;
-  Trajectory trajectory = 2;
-  string object_id = 3;
-  bool is_static = 4;
-  string label_class = 5;
-}
-message ObjectTrajectoryUpdate { string object_id = 1; Trajectory trajectory = 2; }
-message TrafficSessionRequest {
-  string session_uuid = 1;
-  string scene_id = 2;
-  fixed64 random_seed = 3;
-  repeated ObjectTrajectory logged_object_trajectories = 4;
-  fixed64 handover_time_us = 5;
-}
-message TrafficSessionCloseRequest { string session_uuid = 1; }
-message TrafficRequest {
-  string session_uuid = 1;
-  fixed64 time_query_us = 2;
-  repeated ObjectTrajectoryUpdate object_trajectory_updates = 3;
-}
-message TrafficReturn { repeated ObjectTrajectoryUpdate object_trajectory_updates = 1; }
-message TrafficModuleMetadata { VersionId version_id = 1; fixed64 minimum_history_length_us = 2; }
-"""
-(work / "traffic.proto").write_text(PROTO)
-paths = [f"-I{work}", f"--python_out={work}", f"--grpc_python_out={work}", str(work / "traffic.proto")]
+proto = root / "python/examples/traffic.proto"
+paths = [f"-I{proto.parent}", f"--python_out={work}", f"--grpc_python_out={work}", str(proto)]
 check("generated", protoc.main(["protoc", *paths]) == 0)
 sys.path.insert(0, str(work))
 import traffic_pb2 as messages  # noqa: E402
@@ -141,7 +92,7 @@ def refused(call, *arguments):
         return error.code().name
 
 
-def use(stub):
+def use(stub, unknown):
     metadata = stub.get_metadata(messages.Empty())
     check("no history is needed", metadata.minimum_history_length_us == 0)
     check("a version", metadata.version_id.version_id.startswith("dragtraffic-"))
@@ -203,7 +154,7 @@ def use(stub):
         ("NOT_FOUND", stub.start_session, messages.TrafficSessionRequest(scene_id="no-such-scene")),
         ("INVALID_ARGUMENT", stub.start_session, many),
         ("INVALID_ARGUMENT", stub.start_session, late),
-        ("UNIMPLEMENTED", stub.no_such_call, messages.Empty()),
+        ("UNIMPLEMENTED", unknown, b""),
     ]
     for code, call, argument in cases:
         found = refused(call, argument)
@@ -218,7 +169,7 @@ try:
     address = server.stdout.readline().split()[-1]
     with grpc.insecure_channel(address) as channel:
         stub = service.TrafficServiceStub(channel)
-        use(stub)
+        use(stub, channel.unary_unary("/traffic.TrafficService/no_such_call"))
         raw = channel.unary_unary("/traffic.TrafficService/simulate")
         check("no message", refused(raw, b"\xff" * 100) in ("INTERNAL", "INVALID_ARGUMENT"))
         check("still there", stub.get_metadata(messages.Empty()).version_id.version_id)

@@ -76,7 +76,8 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Seen, dict[str, Any]]:
-        """Draws a scene and an ego. Equal seeds give equal episodes."""
+        """Draws a scene and an ego. Equal seeds give equal episodes. ``info`` has ``ego``, ``distance_m`` to its goal, and
+        ``seed``, that of the episode's run."""
         super().reset(seed=seed)
         for _ in range(_TRIES):
             scene = self._scenes.draw(self.np_random)
@@ -91,7 +92,8 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
             raise ValueError(f"no {who} in {_TRIES} scenes")
         self._episode = Episode(scene, {self._id: goal}, number, self._step_s, self._horizon_s, self._view)
         driver = self._episode.drivers[self._id]
-        return self._episode.observation(self._id), {"ego": self._id, "distance_m": driver.distance_m()}
+        info = {"ego": self._id, "distance_m": driver.distance_m(), "seed": number}
+        return self._episode.observation(self._id), info
 
     def step(
         self, action: NDArray[Any]
