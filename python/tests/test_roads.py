@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python/examples"))
 
 import roads  # noqa: E402
+from ways import Pose  # noqa: E402
 
 
 def test_a_planner_meets_equal_traffic_in_every_road(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -24,10 +25,10 @@ def test_a_planner_meets_equal_traffic_in_every_road(monkeypatch: pytest.MonkeyP
 
 
 def test_a_pose_is_what_a_message_carries() -> None:
-    before, pose = roads.Pose.of(1.0, 2.0, 3.1), roads.Pose.of(1.5, 2.0, -3.1)
-    assert roads.Pose.of(*pose.state(before, 0.1)[:3]) == pose
+    before, pose = Pose.of(1.0, 2.0, 3.1), Pose.of(1.5, 2.0, -3.1)
+    assert Pose.of(*pose.state(before, 0.1)[:3]) == pose
     state = pose.state(before, 0.1)
     assert state.heading_rad == pytest.approx(-3.1, abs=1e-6)
-    settled = roads.Pose.settled(pose)
-    assert roads.Pose.of(*settled[:2], settled.heading) == settled
+    settled = Pose.settled(pose)
+    assert Pose.of(*settled[:2], settled.heading) == settled
     assert (state.vx_mps, state.vy_mps) == pytest.approx((5.0, 0.0))
