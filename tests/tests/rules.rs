@@ -17,7 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("layouts", &["scene"]),
     ("experts", &["scene"]),
     ("api", &["scene", "formats", "layouts", "experts"]),
-    ("batch", &["scene", "formats", "api"]),
+    ("batch", &["scene", "formats", "experts", "api"]),
     ("lab-synthesize", &["scene", "formats"]),
     ("lab-train", &["scene", "formats", "experts"]),
     ("lab-eval", &["scene", "formats", "layouts", "experts", "lab-train"]),
