@@ -37,7 +37,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "lab-reproduce",
         ],
     ),
-    ("python", &["scene", "formats", "experts", "api", "dragtraffic"]),
+    ("python", &["scene", "formats", "experts", "api", "batch", "dragtraffic"]),
     ("samples", &[]),
     ("tests", &["formats"]),
     ("xtask", &[]),
