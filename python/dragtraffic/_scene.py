@@ -168,10 +168,57 @@ class Scene:
             body["agents"] = _ids(agents)
         numbers = {"replan_interval_s": replan_interval_s, "diversity": diversity, "steps": steps}
         body.update({name: value for name, value in numbers.items() if value is not None})
-        native, said = self.native().generate(_json(body))
+        return self.generate_request(body)
+
+    def generate_request(self, request: Mapping[str, Any]) -> Scene:
+        """Futures by a request in the form of ``POST /v1/generate``, without its scene: a try of ``search`` has one.
+
+        Raises:
+            DragTrafficError: the engine refused the call.
+        """
+        native, said = self.native().generate(_json(dict(request)))
         made, answer = Scene._of(native), json.loads(said)
         made.resolved, made.warnings, made.code = answer["resolved"], answer["warnings"], answer["code"]
         return made
+
+    def search(
+        self,
+        where: str,
+        situation: Mapping[str, Any] | None = None,
+        *,
+        tries: int = 100,
+        found: int | None = None,
+        method: Literal["search", "random", "sobol", "latin-hypercube", "grid"] = "search",
+        seed: int = 0,
+        seeds: int | Iterable[int] = 1,
+        options: Mapping[str, Any] | None = None,
+    ) -> list[dict[str, Any]]:
+        """Tries towards a condition on the figures of the score, such as ``"actor.min_ttc_s < 1.5"``.
+
+        ``situation`` is what is varied, as a batch plan has it: ``{"template": "cut-in"}``, or ``{"agents": ["4"],
+        "goal": {"speed_mps": {"uniform": [5, 15]}}}``. ``tries``: for each road user and seed, at most 1000 in all;
+        ``found`` ends the search early. ``options``: those of every generation, such as ``{"horizon_s": 6}``.
+
+        Returns:
+            The tries in their order. Each has ``number``, ``outcome`` (``"kept"`` where the condition holds), ``drawn``
+            numbers, ``miss`` (0 where it holds), ``figures``, ``code`` and ``request``; ``generate_request`` makes its
+            result again.
+
+        Raises:
+            DragTrafficError: the engine refused the call.
+        """
+        body: dict[str, Any] = {
+            "where": where,
+            "situation": dict(situation or {}),
+            "tries": int(tries),
+            "method": method,
+            "seed": int(seed),
+            "seeds": int(seeds) if isinstance(seeds, int) else [int(one) for one in seeds],
+            "generate": dict(options or {}),
+        }
+        if found is not None:
+            body["found"] = int(found)
+        return list(json.loads(self.native().search(_json(body)))["tries"])
 
     @renamed(at_s="start_s", density_per_km="density_per_lane_km")
     def place(

@@ -122,6 +122,20 @@ def test_numbers_of_numpy_and_ids_that_are_numbers(scene: Scene, turned: Scene) 
     assert set(one.samples[0]["agents"]) == {"12"}
 
 
+def test_a_search_has_tries_that_are_made_again(scene: Scene) -> None:
+    ranges = {"agents": ["4"], "goal": {"ahead_m": {"uniform": [10, 40]}, "speed_mps": 4}}
+    tries = scene.search("actor.min_ttc_s < 2.5", ranges, tries=5, method="sobol", options={"horizon_s": 4})
+    assert [tried["number"] for tried in tries] == list(range(5))
+    for tried in tries:
+        near = tried["figures"].get("actor.min_ttc_s", 9.0) < 2.5
+        assert (tried["outcome"] == "kept") == near == (tried["miss"] == 0.0)
+    assert scene.generate_request(tries[0]["request"]).code == tries[0]["code"]
+    assert len(scene.search("collisions >= 0", ranges, found=2)) == 2
+    with pytest.raises(dragtraffic.DragTrafficError) as refused:
+        scene.search("colisions == 0", ranges)
+    assert refused.value.errors[0]["pointer"] == "/where"
+
+
 def test_placing(scene: Scene) -> None:
     placed = scene.place(count=5, types={"vehicle": 1.0}, keep=[], seed=3)
     assert len(placed.agents) == 5

@@ -87,7 +87,8 @@ impl Promise {
     pub fn check_event(&self, text: &str) {
         let event: Value =
             serde_json::from_str(text).unwrap_or_else(|error| panic!("{}: {error}: {text}", self.name));
-        self.hold(&json!({"$ref": "#/components/schemas/Event"}), &event);
+        let schema = &self.operation["responses"]["200"]["content"]["application/x-ndjson"]["schema"];
+        self.hold(schema, &event);
     }
 
     fn hold(&self, schema: &Value, value: &Value) {

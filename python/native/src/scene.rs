@@ -7,11 +7,14 @@ use api::import::SceneFile;
 use api::place::PlaceBody;
 use api::score::ScoreRequest;
 use api::{Code, GenerateRequest, Problem, Subject};
+use batch::search::call::SearchBody;
+use batch::search::one_scene::SceneSearch;
 use formats::native::{self, MapForm, SceneDoc};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scene::Scene;
 use serde_json::json;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// A scene as the engine has it.
@@ -77,6 +80,20 @@ impl NativeScene {
         let mut scene = (*answered.scene).clone();
         scene.generated = Some(answered.head.generated(String::new(), answered.samples));
         Ok((Self::of(scene), reply(py, &said)?))
+    }
+
+    /// Why a search ended, and its tries.
+    fn search<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<Bound<'py, PyBytes>> {
+        let body: SearchBody = request(py, body)?;
+        let mut tries = Vec::new();
+        let ended = cancellable(py, |operations, cancel| {
+            let search = SceneSearch::new(&body, Arc::clone(&self.scene), operations.generator.hashes())?;
+            search.run(operations, cancel, &mut |of| {
+                tries.push(of);
+                ControlFlow::Continue(())
+            })
+        })?;
+        reply(py, &json!({"ended": ended, "tries": tries}))
     }
 
     /// The scene with more road users, and why some have no place.

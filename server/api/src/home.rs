@@ -130,7 +130,7 @@ impl SceneRef {
 }
 
 /// A scene, or the id of one: exactly one of the two members is given, and not as null.
-pub(crate) fn one_scene(schema: &mut schemars::Schema) {
+pub fn one_scene(schema: &mut schemars::Schema) {
     let given =
         |member: &str| json!({"required": [member], "properties": {member: {"not": {"type": "null"}}}});
     schema.insert("oneOf".into(), json!([given("scene"), given("scene_id")]));

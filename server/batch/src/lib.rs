@@ -1,6 +1,5 @@
 //! Plans of many generations, as values: what is varied, the units of work that follow, their names, and the chunks
-//! and shards that they are worked on in; what happens in results, and what they cover. Nothing here opens a file or
-//! starts the engine.
+//! and shards that they are worked on in; what happens in results, and what they cover. Nothing here opens a file.
 //!
 //! ```
 //! use batch::plan::BatchPlan;
@@ -18,7 +17,9 @@ pub mod chunk;
 pub mod coverage;
 pub mod distribution;
 pub mod draws;
+pub mod engine;
 pub mod fault;
+pub mod figures;
 mod latin_hypercube;
 pub mod map;
 pub mod names;
@@ -31,3 +32,4 @@ pub mod shard;
 pub mod situation;
 mod sobol;
 pub mod unit;
+pub mod who;

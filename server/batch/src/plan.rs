@@ -2,12 +2,15 @@
 
 use crate::draws;
 use crate::fault::PlanFault;
+use crate::figures::FigureFilter;
 use crate::map::BatchMap;
 use crate::sampling::{BatchSampling, SamplingMethod};
 use crate::situation::BatchSituation;
+use crate::who::{self, AgentSelector};
 use api::GenerateRequest;
 use api::generate::request::ReactChoice;
 use formats::native::{self, MAX_SAFE_INTEGER};
+use scene::Scene;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
@@ -215,7 +218,20 @@ impl BatchPlan {
         if faults.is_empty() { Ok(plan) } else { Err(faults) }
     }
 
-    fn faults(&self) -> Vec<PlanFault> {
+    /// For each situation the road users of a scene that get its conditions; `None` for one that names none.
+    pub fn actors(&self, scene: &Scene) -> Vec<Option<Vec<String>>> {
+        let start_step = self.generate.start_step();
+        let of = |situation: &BatchSituation| {
+            // The plan was checked when it was read.
+            let selectors: Vec<AgentSelector> =
+                situation.agents.iter().filter_map(|text| text.parse().ok()).collect();
+            (!selectors.is_empty()).then(|| who::actors(&selectors, scene, start_step))
+        };
+        self.situations.iter().map(of).collect()
+    }
+
+    /// What is wrong with it.
+    pub(crate) fn faults(&self) -> Vec<PlanFault> {
         let mut faults = Vec::new();
         let mut fault = |path: &str, detail: String| faults.push(PlanFault::new(path, detail));
         if self.scenes.is_empty() && self.maps.is_empty() {
@@ -238,6 +254,9 @@ impl BatchPlan {
         }
         if self.sampling.method == SamplingMethod::Search && self.filter.is_none() {
             fault("where", "a search needs a condition that it looks for".into());
+        }
+        if let Some(Err(reason)) = self.filter.as_deref().map(FigureFilter::parse) {
+            fault("where", reason);
         }
         if !(1..=MOST_IN_CHUNK).contains(&self.chunk_units) {
             fault("chunk_units", format!("1 to {MOST_IN_CHUNK} expected"));

@@ -5,12 +5,13 @@ use crate::catalogue::UnitProblem;
 use formats::ReadError;
 use formats::columnar::{self, Column, ColumnValue, ColumnValues, ParquetTable};
 use formats::native::ConditionsDoc;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
 
 /// How a unit ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnitOutcome {
     /// Its result satisfies the condition, or there is none.

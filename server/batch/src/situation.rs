@@ -3,6 +3,7 @@
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
 use crate::names::hint;
+use crate::who::AgentSelector;
 use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc};
 use scene::scenarios::Template;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -240,6 +241,11 @@ impl BatchSituation {
     pub(crate) fn check(&self, path: &str, faults: &mut Vec<PlanFault>) {
         self.check_name(path, faults);
         self.check_template(path, faults);
+        for (i, text) in self.agents.iter().enumerate() {
+            if let Err(reason) = text.parse::<AgentSelector>() {
+                faults.push(PlanFault::new(format!("{path}.agents[{i}]"), reason));
+            }
+        }
         let under = |member: &str| format!("{path}.{member}");
         let mut fault = |member: &str, detail: &str| faults.push(PlanFault::new(under(member), detail));
         let asks = self.conditions().iter().any(|(_, distribution)| distribution.is_some());

@@ -75,9 +75,9 @@ pub struct ErrorBody {
 }
 
 impl ErrorBody {
-    /// Of a problem.
-    pub fn new(problem: &Problem) -> Self {
-        Self { problem: ProblemDoc::of(problem, Some("/v1/generate"), None) }
+    /// Of a problem of the operation at `path`.
+    pub fn new(problem: &Problem, path: &str) -> Self {
+        Self { problem: ProblemDoc::of(problem, Some(path), None) }
     }
 }
 

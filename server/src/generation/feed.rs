@@ -17,12 +17,14 @@ pub struct Feed {
     pub ticket: Arc<Ticket>,
     outbox: Outbox,
     seq: AtomicU64,
+    /// Path of the operation, for problems.
+    path: &'static str,
 }
 
 impl Feed {
-    /// Without an event yet; keeps `most` before steps are dropped.
-    pub fn new(ticket: Arc<Ticket>, most: usize) -> Self {
-        Self { ticket, outbox: Outbox::new(most), seq: AtomicU64::new(0) }
+    /// Of the operation at `path`, without an event yet; keeps `most` before steps are dropped.
+    pub fn new(ticket: Arc<Ticket>, most: usize, path: &'static str) -> Self {
+        Self { ticket, outbox: Outbox::new(most), seq: AtomicU64::new(0), path }
     }
 
     /// Sends one event; with `end`, the last one. False when the job has ended already.
@@ -44,7 +46,7 @@ impl Feed {
     /// Ends the job with a problem. False when it has ended already.
     pub fn fail(&self, problem: Problem) -> bool {
         let problem = logged(problem);
-        self.send(ErrorBody::new(&problem), Some(JobEnd::Stopped(Stop::Problem(problem))))
+        self.send(ErrorBody::new(&problem, self.path), Some(JobEnd::Stopped(Stop::Problem(problem))))
     }
 }
 

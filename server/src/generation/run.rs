@@ -16,10 +16,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
-pub fn generate(feed: &Feed, operations: &Operations, plan: GenerationPlan, others: impl Fn()) {
+pub fn generate(feed: &Feed, operations: &Operations, plan: GenerationPlan, others: &dyn Fn()) {
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
-    if let Err(problem) = events(feed, operations, plan, queued, &others)
+    if let Err(problem) = events(feed, operations, plan, queued, others)
         && feed.fail(problem)
     {
         metrics::ended(JobKind::Generate.name(), "error");

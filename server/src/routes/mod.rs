@@ -19,6 +19,7 @@ mod scene_ref;
 pub mod scenes;
 mod schemas;
 pub mod score;
+pub mod search;
 
 use crate::app::App;
 use crate::base::base_path;
@@ -64,6 +65,7 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(runs::remove))
         .routes(routes!(place::place))
         .routes(routes!(score::score))
+        .routes(routes!(search::search))
         .routes(routes!(info::info))
         .routes(routes!(health::healthz))
         .routes(routes!(health::readyz))

@@ -136,7 +136,7 @@ mod tests {
                 }
             }
         }
-        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest", "RunBody"] {
+        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest", "RunBody", "SearchBody"] {
             let one = &document["components"]["schemas"][name]["oneOf"];
             assert_eq!(one.as_array().map(Vec::len), Some(2), "{name}");
         }

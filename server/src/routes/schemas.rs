@@ -3,9 +3,11 @@
 use super::{health, import, maps, scenes};
 use crate::base::problem::ProblemDoc;
 use crate::generation::events;
+use crate::generation::search::SearchEvent;
 use api::map::{MapBody, MapReply, TemplateList};
 use api::place::{PlaceBody, PlaceReply};
 use api::{GenerateRequest, info::ProgramInfo, score::ScoreRequest};
+use batch::search::call::SearchBody;
 use formats::native::{MapDoc, SceneDoc};
 use scene::score::Score;
 use schemars::SchemaGenerator;
@@ -20,6 +22,7 @@ const FOLDER: &str = "#/components/schemas/";
 fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ProblemDoc>();
     generator.subschema_for::<events::StreamEvent>();
+    generator.subschema_for::<SearchEvent>();
     generator.subschema_for::<Score>();
     generator.subschema_for::<PlaceReply>();
     generator.subschema_for::<import::ImportedBody>();
@@ -41,6 +44,7 @@ fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<ScoreRequest>();
     generator.subschema_for::<PlaceBody>();
     generator.subschema_for::<MapBody>();
+    generator.subschema_for::<SearchBody>();
     api::runs::requests(generator);
     generator.subschema_for::<scenes::write::ScenePatch>();
     generator.subschema_for::<scenes::copy::DuplicateRequest>();

@@ -57,6 +57,8 @@ pub enum JobKind {
     Score,
     /// Steps of a run.
     Run,
+    /// Tries towards a condition.
+    Search,
     /// Scenes out of a file.
     Import,
     /// A file out of a scene.
@@ -74,6 +76,7 @@ impl JobKind {
             Self::Map => "map",
             Self::Score => "score",
             Self::Run => "run",
+            Self::Search => "search",
             Self::Import => "import",
             Self::Export => "export",
             Self::Document => "document",
@@ -88,6 +91,7 @@ impl JobKind {
             Self::Map => "map",
             Self::Score => "score",
             Self::Run => "step of a run",
+            Self::Search => "search",
             Self::Import => "import",
             Self::Export => "export",
             Self::Document => "reading or writing of a document",

@@ -1,7 +1,9 @@
 //! Searches: tries that come nearer to the condition of a plan. The numbers of a population follow from the rows of
 //! the populations before it, so a search that was interrupted goes on from its chunks.
 
+pub mod call;
 mod cma;
+pub mod one_scene;
 pub(crate) mod order;
 pub(crate) mod state;
 

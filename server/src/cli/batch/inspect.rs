@@ -106,7 +106,7 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     record.check(&folder, None, &operations.generator.hashes())?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
     let chunks = DoneChunks::of(&folder, &list);
-    let worker = UnitWorker::new(&folder, &record, &operations)?;
+    let worker = UnitWorker::new(&folder, &record, &operations);
     let mut by_chunk: BTreeMap<usize, BTreeSet<u64>> = BTreeMap::new();
     for (chunk, unit) in sample(&chunks, args.units, args.seed) {
         by_chunk.entry(chunk).or_default().insert(unit);

@@ -74,7 +74,7 @@ pub fn replay(args: &ReplayArgs, common: &Common) -> Result<(), Failure> {
     };
     let operations = common.operations_on(1)?;
     record.check(&folder, None, &operations.generator.hashes())?;
-    let worker = UnitWorker::new(&folder, &record, &operations)?;
+    let worker = UnitWorker::new(&folder, &record, &operations);
     // Units of one chunk share the tries before it.
     let searches: Vec<_> = chunks.done.iter().map(|_| OnceLock::new()).collect();
     let made = |of: &Wanted| -> Result<Vec<u8>, Failure> {

@@ -3,14 +3,13 @@
 use super::BatchRunArgs;
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
-use super::scenes::{self, PlanInputs, Selectors};
+use super::scenes::PlanInputs;
 use super::searching;
 use super::tally::OutcomeTally;
 use super::work::{ChunkWork, OpenChunk};
 use super::worker::UnitWorker;
 use crate::base::clock;
 use crate::cli::progress::Progress;
-use crate::cli::score::figures::FigureFilter;
 use crate::cli::{Common, Failure, output, parallel};
 use batch::fault::PlanFault;
 use batch::plan::BatchPlan;
@@ -30,7 +29,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     };
     let shard = share(args.shard, common)?;
     let workers = args.jobs.map_or_else(parallel::cores, usize::from);
-    let (plan, selectors) = read_plan(path)?;
+    let plan = read_plan(path)?;
     let folder = BatchFolder::new(output)?;
     let operations = common.operations_on(1)?;
     let engine = operations.generator.hashes();
@@ -41,20 +40,14 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
         }
         None => {
             let base = path.parent().unwrap_or(Path::new(""));
-            let inputs = PlanInputs {
-                plan: &plan,
-                selectors: &selectors,
-                base,
-                folder: &folder,
-                operations: &operations,
-            };
+            let inputs = PlanInputs { plan: &plan, base, folder: &folder, operations: &operations };
             let record = BatchRecord::new(&plan, engine, inputs.read(workers, common)?);
             record.write(&folder)?;
             record
         }
     };
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let worker = UnitWorker::new(&folder, &record, &operations)?;
+    let worker = UnitWorker::new(&folder, &record, &operations);
     let (mut chunks, mut all, mut due, mut units) = (Vec::new(), 0, 0, 0);
     let of_share = list.chunks().filter(|chunk| shard.has(chunk.share));
     for (chunk, name, is_there) in folder.look_up(of_share, &list) {
@@ -109,8 +102,8 @@ fn share(flag: Option<BatchShard>, common: &Common) -> Result<BatchShard, Failur
     Ok(found.unwrap_or_default())
 }
 
-/// Reads a plan with the selectors of its situations, and checks what the engine has a say in.
-fn read_plan(path: &Path) -> Result<(BatchPlan, Selectors), Failure> {
+/// Reads a plan.
+fn read_plan(path: &Path) -> Result<BatchPlan, Failure> {
     let refused = |faults: Vec<PlanFault>| {
         let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
         Failure::input(lines.join("\n  "))
@@ -118,12 +111,5 @@ fn read_plan(path: &Path) -> Result<(BatchPlan, Selectors), Failure> {
     let bytes = output::read(path)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))?;
-    let plan = BatchPlan::parse(&text).map_err(refused)?;
-    let selectors = scenes::selectors(&plan);
-    let filter = plan.filter.as_deref().map(FigureFilter::parse);
-    let wrong = filter.and_then(Result::err).map(|reason| PlanFault::new("where", reason));
-    match (selectors, wrong) {
-        (Ok(selectors), None) => Ok((plan, selectors)),
-        (selectors, wrong) => Err(refused(selectors.err().into_iter().flatten().chain(wrong).collect())),
-    }
+    BatchPlan::parse(&text).map_err(refused)
 }

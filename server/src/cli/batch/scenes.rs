@@ -1,47 +1,21 @@
 //! The inputs of a batch: read once, stored by content, listed with the road users that each situation concerns.
 
 use super::folder::BatchFolder;
-use crate::cli::generate::who::{self, AgentSelector};
 use crate::cli::inputs::{Inputs, Source};
 use crate::cli::progress::Progress;
 use crate::cli::{Common, Failure, parallel};
 use api::{Operations, Problem};
 use batch::catalogue::{CatalogueScene, UnitProblem};
-use batch::fault::PlanFault;
 use batch::plan::BatchPlan;
 use experts::Cancel;
-use scene::{AgentType, ContentHash, Scene};
+use scene::{ContentHash, Scene};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Whom each situation of a plan concerns; `None` for one that names nobody.
-pub type Selectors = Vec<Option<Vec<AgentSelector>>>;
-
-/// The selectors of a plan.
-///
-/// # Errors
-/// Those that are none, each with its path.
-pub fn selectors(plan: &BatchPlan) -> Result<Selectors, Vec<PlanFault>> {
-    let (mut all, mut faults) = (Vec::new(), Vec::new());
-    for (i, situation) in plan.situations.iter().enumerate() {
-        let mut of = Vec::new();
-        for (j, text) in situation.agents.iter().enumerate() {
-            match text.parse() {
-                Ok(selector) => of.push(selector),
-                Err(reason) => faults.push(PlanFault::new(format!("situations[{i}].agents[{j}]"), reason)),
-            }
-        }
-        all.push((!of.is_empty()).then_some(of));
-    }
-    if faults.is_empty() { Ok(all) } else { Err(faults) }
-}
 
 /// The inputs of a plan, and what they are read with.
 pub struct PlanInputs<'a> {
     /// The plan.
     pub plan: &'a BatchPlan,
-    /// Its selectors.
-    pub selectors: &'a Selectors,
     /// Folder that its paths are relative to.
     pub base: &'a Path,
     /// Folder that the scenes go into.
@@ -152,13 +126,12 @@ impl PlanInputs<'_> {
 
     /// A scene, or an input that gave none.
     fn entry(&self, name: String, read: Result<Scene, Problem>) -> Result<CatalogueScene, Failure> {
-        let start_step = self.plan.generate.start_step();
         Ok(match read {
             Ok(scene) => CatalogueScene {
                 name,
                 sha256: self.folder.put_scene(&scene)?,
                 problem: None,
-                actors: self.selectors.iter().map(|of| actors(of.as_deref(), &scene, start_step)).collect(),
+                actors: self.plan.actors(&scene),
             },
             Err(Problem { code, detail, .. }) => {
                 let sha256 = ContentHash::of(&(&name, code.name(), &detail)).hex();
@@ -167,24 +140,4 @@ impl PlanInputs<'_> {
             }
         })
     }
-}
-
-/// The road users of a scene that are there at the start and meant; an id of another scene means nobody here.
-fn actors(of: Option<&[AgentSelector]>, scene: &Scene, start_step: usize) -> Option<Vec<String>> {
-    let of = of?;
-    let mut all: Vec<String> = Vec::new();
-    for selector in of {
-        let everybody = || scene.agents.iter().map(|agent| agent.id.clone()).collect();
-        let meant =
-            who::ids(std::slice::from_ref(selector), scene, start_step, "agents").unwrap_or(Some(Vec::new()));
-        for id in meant.unwrap_or_else(everybody) {
-            let there = scene.agent(&id).is_some_and(|agent| {
-                agent.kind() != AgentType::Other && scene.shown(agent).track.at(start_step).is_some()
-            });
-            if there && !all.contains(&id) {
-                all.push(id);
-            }
-        }
-    }
-    Some(all)
 }

@@ -2,11 +2,11 @@
 
 use super::folder::BatchFolder;
 use super::tally::OutcomeTally;
-use super::worker::{CaseLines, UnitEnd, UnitWorker};
+use super::worker::{CaseLines, UnitLines, UnitWorker};
 use crate::cli::progress::Progress;
-use crate::cli::score::figures;
 use crate::cli::{Failure, parallel};
 use batch::chunk::BatchChunk;
+use batch::figures;
 use batch::row;
 use batch::unit::BatchUnit;
 use std::sync::OnceLock;
@@ -88,7 +88,7 @@ impl<'a> ChunkWork<'a> {
             let put = match end {
                 None => Ok(()),
                 Some(Err(error)) => Err(error),
-                Some(Ok(UnitEnd { row, lines })) => {
+                Some(Ok(UnitLines { row, lines })) => {
                     tally.add(&row);
                     rows.push(row);
                     if let Some(CaseLines { case, motion }) = lines {

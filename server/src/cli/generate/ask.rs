@@ -1,11 +1,11 @@
 //! From flags and a scene to the equivalent request.
 
 use super::GenerateArgs;
-use super::who::{self, AgentSelector};
 use crate::cli::values::For;
 use crate::cli::{Failure, output};
 use api::GenerateRequest;
 use api::generate::request::{AgentChoice, AllWord, ReactChoice};
+use batch::who::{self, AgentSelector};
 use formats::native::{ConditionsDoc, GoalDoc, Members};
 use scene::scenarios::Casting;
 use scene::{Agent, Conditions, STEP_S, Scene};
@@ -28,7 +28,7 @@ pub fn request(
         // Whom the flags send somewhere, else all: the request's own rule.
         None if args.agents.is_empty() => None,
         None => {
-            let ids = who::ids(&args.agents, scene, step, "--agents")?;
+            let ids = ids(&args.agents, scene, step, "--agents")?;
             Some(ids.map_or(AgentChoice::All(AllWord::All), AgentChoice::Ids))
         }
     };
@@ -36,7 +36,7 @@ pub fn request(
         ([], None) => ReactChoice::Whether(false),
         ([], Some(_)) => ReactChoice::Whether(true),
         (asked, _) => {
-            who::ids(asked, scene, step, "--react")?.map_or(ReactChoice::Whether(true), ReactChoice::Ids)
+            ids(asked, scene, step, "--react")?.map_or(ReactChoice::Whether(true), ReactChoice::Ids)
         }
     };
     Ok(GenerateRequest {
@@ -118,6 +118,16 @@ fn conditions(
     Ok(docs)
 }
 
+/// The ids that the selectors of a flag match; `None` for all.
+fn ids(
+    who: &[AgentSelector],
+    scene: &Scene,
+    start_step: usize,
+    flag: &str,
+) -> Result<Option<Vec<String>>, Failure> {
+    who::ids(who, scene, start_step).map_err(|reason| Failure::usage(format!("{flag}: {reason}")))
+}
+
 /// Refuses conditions of a road user that the scene does not have.
 fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure> {
     match values.iter().find(|given| scene.agent(&given.id).is_none()) {
@@ -131,7 +141,7 @@ fn logged(args: &GenerateArgs, scene: &Scene) -> Result<Vec<String>, Failure> {
     if args.goal_from_log.is_empty() {
         return Ok(Vec::new());
     }
-    let ids = who::ids(&args.goal_from_log, scene, args.start_step(), "--goal-from-log")?;
+    let ids = ids(&args.goal_from_log, scene, args.start_step(), "--goal-from-log")?;
     let ids = ids.unwrap_or_else(|| scene.agents.iter().map(|agent| agent.id.clone()).collect());
     match ids.iter().find(|id| scene.agent(id).is_none()) {
         Some(unknown) => {

@@ -3,10 +3,10 @@
 use super::{GenerateArgs, ask};
 use crate::base::clock;
 use crate::cli::inputs::Source;
-use crate::cli::score::figures::Figures;
 use crate::cli::{Exit, Failure, pointers};
 use api::generate::{GenerationAnswer, GenerationRun};
 use api::{Operations, Problem, Subject};
+use batch::figures::Figures;
 use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::Scene;

@@ -1,10 +1,10 @@
 //! What is in a folder of results: a line for each sample that was kept.
 
 use super::made::MadeScene;
-use super::tell;
 use crate::cli::Failure;
-use crate::cli::score::figures::Figures;
 use crate::cli::score::table::{Table, figure};
+use batch::engine::goal_word;
+use batch::figures::Figures;
 use scene::scenarios::Template;
 
 /// Its name in the folder.
@@ -41,7 +41,7 @@ pub fn rows(
     let generated = made.scene.generated.as_ref();
     let other = made.casting.as_ref().and_then(|casting| casting.other.clone()).unwrap_or_default();
     let actor = made.actor.clone().unwrap_or_default();
-    let goal = tell::goal_word(made.actor.as_ref().and_then(|id| made.resolved.get(id)));
+    let goal = goal_word(made.actor.as_ref().and_then(|id| made.resolved.get(id)));
     let what = made.casting.as_ref().map_or_else(String::new, |casting| casting.words.clone());
     let row = |(place, (_, figures)): (usize, &(usize, Option<Figures>))| {
         let sample = generated.and_then(|generated| generated.samples.get(place));

@@ -7,26 +7,25 @@ mod made;
 mod manifest;
 mod many;
 pub mod tell;
-pub mod who;
 
 pub use made::created_at;
 
 use super::inputs::{Inputs, Reading, no_ids, notes};
 use super::output::{self, Folder};
-use super::score::figures::FigureFilter;
 use super::values::{For, for_one, index, one_of, seeds, whole, within};
 use super::{Common, Exit, Failure};
 use api::GenerateRequest;
 use api::generate::request::KeptFutures;
 use api::limits;
 use asked::AskedGoal;
+use batch::figures::FigureFilter;
+use batch::who::AgentSelector;
 use clap::Args;
 use formats::native::{MAX_SAFE_INTEGER, StartDoc, ViaDoc};
 use scene::AgentType;
 use scene::scenarios::Template;
 use std::ops::Range;
 use std::path::PathBuf;
-use who::AgentSelector;
 
 /// Heading of what is asked of single road users.
 const ROAD_USERS: &str = "Road users";

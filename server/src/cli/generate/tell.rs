@@ -4,6 +4,7 @@
 use super::GenerateArgs;
 use super::made::MadeScene;
 use crate::cli::Common;
+use batch::engine::has_goal;
 use experts::{Limiting, ReachReport, Resolved, Source as From, WarningCode};
 use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
 use scene::{AgentFutures, Future};
@@ -69,11 +70,10 @@ pub fn goal(resolved: &Resolved) -> Option<String> {
     if let ReachReport::Unreachable { limiting: Limiting::Relation, words, .. } = &resolved.reach {
         return Some(format!("goal not placed: {}", words.trim_end_matches('.')));
     }
-    let asked = |field: experts::Field| matches!(field.from, From::User | From::Relation);
-    let placed = asked(goal.x_m);
-    if !placed && !asked(goal.speed_mps) && !asked(goal.heading_rad) {
+    if !has_goal(resolved) {
         return None;
     }
+    let placed = matches!(goal.x_m.from, From::User | From::Relation);
     let time_s = goal.time_s.value;
     Some(match &resolved.reach {
         ReachReport::Reached { position_m, .. } if placed && *position_m > NEAR_M => {
@@ -86,15 +86,6 @@ pub fn goal(resolved: &Resolved) -> Option<String> {
             format!("goal missed{off} at {time_s:.1} s: {}", words.trim_end_matches('.'))
         }
     })
-}
-
-/// Whether the goal of a road user is met, in one word, for tables.
-pub fn goal_word(resolved: Option<&Resolved>) -> &'static str {
-    match resolved.map(|resolved| (&resolved.reach, goal(resolved).is_some())) {
-        Some((ReachReport::Reached { .. }, true)) => "met",
-        Some((ReachReport::Unreachable { .. }, true)) => "missed",
-        _ => "none",
-    }
 }
 
 fn reaction(reaction: &Reaction) -> String {

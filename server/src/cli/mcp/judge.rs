@@ -2,9 +2,9 @@
 
 use super::schema::{self, Members};
 use super::tools::{ToolAnswer, Toolbox};
-use crate::cli::score::figures::Figures;
 use api::score::ScoreRequest;
 use api::{Problem, Subject};
+use batch::figures::Figures;
 use experts::Cancel;
 use scene::score::Score;
 use schemars::JsonSchema;

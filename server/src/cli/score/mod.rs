@@ -1,10 +1,7 @@
 //! `dragtraffic score`: figures of scenes and of each of their samples, filtered by a condition.
 
-mod expression;
-pub mod figures;
 pub mod table;
 mod thresholds;
-mod tokens;
 mod words;
 
 use super::inputs::{Inputs, Item, Reading, Source};
@@ -12,8 +9,8 @@ use super::output::{self, Folder};
 use super::progress::Progress;
 use super::tally::Tally;
 use super::{Common, Failure, parallel, values};
+use batch::figures::{self, FigureFilter, Figures};
 use clap::Args;
-use figures::{FigureFilter, Figures};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::score::{Drivable, Score, ScoreInput};
 use scene::{Sample, Scene};

@@ -459,6 +459,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/search": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Searches a scene for results that satisfy a condition. Each try draws the numbers of the situation, generates once
+         *     and is scored; the numbers of the next tries follow from how near the tries before came. The reply is a stream of
+         *     events (NDJSON or SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends
+         *     after most of `generate_s` with the tries that it has made; a client that leaves ends it at once. Stores nothing.
+         */
+        post: operations["search"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -900,6 +922,82 @@ export interface components {
              * @description Motor vehicles an hour, all lanes together.
              */
             per_hour: number;
+        };
+        /**
+         * BatchOptions
+         * @description Options of every generation.
+         */
+        BatchOptions: {
+            /**
+             * Format: double
+             * @description Scale of the noise, which makes seeds differ.
+             * @default 0.5
+             */
+            diversity?: number;
+            /**
+             * Format: double
+             * @description Time to generate, seconds.
+             * @default 9
+             */
+            horizon_s?: number;
+            /**
+             * Format: uint64
+             * @description Futures that are planned for each road user.
+             * @default 6
+             */
+            modes?: number;
+            /**
+             * @description Let the other road users react.
+             * @default true
+             */
+            react?: boolean;
+            /**
+             * Format: double
+             * @description Replan interval, seconds: 3, 6 or 9.
+             */
+            replan_interval_s?: number | null;
+            /**
+             * Format: double
+             * @description Scene time of the start, seconds.
+             * @default 0
+             */
+            start_s?: number;
+            /**
+             * Format: uint64
+             * @description Refinement steps.
+             * @default 5
+             */
+            steps?: number;
+        };
+        /**
+         * BatchSituation
+         * @description One situation.
+         */
+        BatchSituation: {
+            /**
+             * @description Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
+             *     Each is generated in units of its own.
+             */
+            agents?: string[];
+            /** @description Goal. */
+            goal?: components["schemas"]["GoalRanges"];
+            /** @description Length of the road user, metres. */
+            length_m?: components["schemas"]["Distribution"] | null;
+            /** @description Name in the results: letters, digits, - and _. Default: the template's, or `free`. */
+            name?: string | null;
+            /** @description Figures of the template by name; those absent are drawn by the seed. */
+            parameters?: {
+                [key: string]: components["schemas"]["Distribution"];
+            };
+            /** @description Start. */
+            start?: components["schemas"]["StartRanges"];
+            /**
+             * @description Test situation that the scene is searched for. The actor is picked from the scene; the seed decides which.
+             * @enum {string|null}
+             */
+            template?: "brake" | "cut-in" | "late" | null;
+            /** @description Width of the road user, metres. */
+            width_m?: components["schemas"]["Distribution"] | null;
         };
         /**
          * Bound
@@ -1387,6 +1485,19 @@ export interface components {
          * @enum {string}
          */
         DepartureWord: "left_the_map" | "arrived";
+        /**
+         * Distribution
+         * @description A number, or where it is drawn from.
+         */
+        Distribution: number | {
+            /** @description Values in a grid, both bounds among them. */
+            points?: number;
+            /** @description Even between the least and the greatest value. */
+            uniform: number[];
+        } | {
+            /** @description One of these; a grid takes all. */
+            choice: number[];
+        };
         /**
          * DraftEvent
          * @description `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where it begins.
@@ -2342,6 +2453,30 @@ export interface components {
             speed_mps: number | null;
         };
         /**
+         * GoalRanges
+         * @description Fields of a goal; those absent are free.
+         */
+        GoalRanges: {
+            /** @description Metres along the heading of the start. */
+            ahead_m?: components["schemas"]["Distribution"] | null;
+            /** @description Heading in the frame of the scene, radians. */
+            heading_rad?: components["schemas"]["Distribution"] | null;
+            /** @description Metres to the left of the heading of the start; 0 with `ahead_m` alone. */
+            left_m?: components["schemas"]["Distribution"] | null;
+            /** @description What the goal is relative to. */
+            relation?: components["schemas"]["GoalRelationRanges"] | null;
+            /** @description Metres per second. */
+            speed_mps?: components["schemas"]["Distribution"] | null;
+            /** @description Scene time, seconds; the end of the horizon when free. */
+            time_s?: components["schemas"]["Distribution"] | null;
+            /** @description Radians from the heading of the start. */
+            turn_rad?: components["schemas"]["Distribution"] | null;
+            /** @description Box centre in the frame of the scene, metres; with `y_m`. */
+            x_m?: components["schemas"]["Distribution"] | null;
+            /** @description Box centre in the frame of the scene, metres; with `x_m`. */
+            y_m?: components["schemas"]["Distribution"] | null;
+        };
+        /**
          * GoalRelation
          * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`. It follows the
          *     motion of the other one: its future of the same call if it is generated too, else the motion that it keeps.
@@ -2389,6 +2524,26 @@ export interface components {
         } | {
             after_s: number;
         });
+        /**
+         * GoalRelationRanges
+         * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`.
+         */
+        GoalRelationRanges: {
+            /** @description The goal's own place is reached so many seconds after the other one was nearest to it. */
+            after_s?: components["schemas"]["Distribution"] | null;
+            /** @description Gap from the front of the other one to the own rear, metres. */
+            ahead_m?: components["schemas"]["Distribution"] | null;
+            /** @description Gap from the own front to the rear of the other one, metres. */
+            behind_m?: components["schemas"]["Distribution"] | null;
+            /** @description The same gap in seconds at the speed of the goal. */
+            behind_s?: components["schemas"]["Distribution"] | null;
+            /** @description Lanes to the left of the other one's, in whole numbers; negative is to the right. */
+            lanes_left?: components["schemas"]["Distribution"] | null;
+            /** @description How much slower than the other one, m/s; negative is faster. */
+            slower_mps?: components["schemas"]["Distribution"] | null;
+            /** @description Id of the other road user. */
+            to: string;
+        };
         /**
          * Health
          * @description Health of the server.
@@ -4338,6 +4493,22 @@ export interface components {
             score?: unknown;
         };
         /**
+         * SamplingMethod
+         * @description How the numbers of a situation are chosen.
+         *
+         *     `grid`: Every combination of the values.
+         *
+         *     `random`: Independent draws.
+         *
+         *     `latin-hypercube`: Each range has as many strata of equal width as there are draws, and one draw in each.
+         *
+         *     `sobol`: Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
+         *
+         *     `search`: Tries that come nearer to `where`: CMA-ES over the ranges, for each seed of its own.
+         * @enum {string}
+         */
+        SamplingMethod: "grid" | "random" | "latin-hypercube" | "sobol" | "search";
+        /**
          * Saved
          * @description Result of a change.
          */
@@ -4704,6 +4875,286 @@ export interface components {
             scene_id: unknown;
         });
         /**
+         * SearchAcceptedEvent
+         * @description First event: what will be tried.
+         */
+        SearchAcceptedEvent: {
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description Type of the event.
+             * @constant
+             */
+            event: "accepted";
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint
+             * @description Jobs before this one when it was queued.
+             */
+            queue_position: number;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /**
+             * Format: uint64
+             * @description Most tries that are made.
+             */
+            tries: number;
+            /** @description Paths of the numbers that are varied. */
+            varied: string[];
+        };
+        /**
+         * SearchBody
+         * @description Body of a search. Exactly one of `scene` and `scene_id` is given.
+         */
+        SearchBody: {
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
+            /**
+             * Format: uint64
+             * @description Ends the search when so many tries satisfy the condition. Default: all tries are made.
+             * @default null
+             */
+            found?: number | null;
+            /**
+             * @description Options of every generation.
+             * @default {
+             *       "diversity": 0.5,
+             *       "horizon_s": 9,
+             *       "modes": 6,
+             *       "react": true,
+             *       "start_s": 0,
+             *       "steps": 5
+             *     }
+             */
+            generate?: components["schemas"]["BatchOptions"];
+            /**
+             * @description The client's id of the job, to cancel it by.
+             * @default null
+             */
+            job?: string | null;
+            /**
+             * @description How the numbers of the next tries are chosen.
+             * @default search
+             */
+            method?: components["schemas"]["SamplingMethod"];
+            /**
+             * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+             * @default null
+             */
+            scene?: components["schemas"]["Scene"] | null;
+            /**
+             * @description A scene of this server.
+             * @default null
+             */
+            scene_id?: string | null;
+            /**
+             * Format: uint64
+             * @description Seed of these choices.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description Seeds of the generations: a count from 0 on, or a list.
+             * @default 1
+             */
+            seeds?: number | number[];
+            /**
+             * @description What is varied: a template with ranges of its figures, or conditions with ranges. A condition for several road
+             *     users is searched for each of them.
+             * @default {}
+             */
+            situation?: components["schemas"]["BatchSituation"];
+            /**
+             * Format: uint64
+             * @description Tries for each road user and each seed. All of them together are at most 1000.
+             * @default 100
+             */
+            tries?: number;
+            /**
+             * @description Condition on the figures of the score, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
+             * @default
+             */
+            where?: string;
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
+        /**
+         * SearchEnd
+         * @description Why a search ended.
+         *
+         *     `found`: As many tries satisfy the condition as were wanted.
+         *
+         *     `tries`: All tries are made.
+         *
+         *     `time`: The time of a call is over; the tries so far are there.
+         * @enum {string}
+         */
+        SearchEnd: "found" | "tries" | "time";
+        /**
+         * SearchEvent
+         * @description One event of a search. Exactly one of final and error ends it.
+         */
+        SearchEvent: components["schemas"]["SearchAcceptedEvent"] | components["schemas"]["SearchTriedEvent"] | components["schemas"]["SearchFinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["HeartbeatEvent"];
+        /**
+         * SearchFinalEvent
+         * @description Last event of a search that was not cancelled: all tries.
+         */
+        SearchFinalEvent: {
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /** @description Why the search ended. */
+            ended: components["schemas"]["SearchEnd"];
+            /**
+             * @description Type of the event.
+             * @constant
+             */
+            event: "final";
+            /** @description Numbers of the tries that satisfy the condition, in their order. */
+            found: number[];
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint64
+             * @description Number of the try that is nearest to the condition; null without a result.
+             */
+            nearest: number | null;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /** @description All tries. */
+            tries: components["schemas"]["SearchTry"][];
+        };
+        /**
+         * SearchTriedEvent
+         * @description A try.
+         */
+        SearchTriedEvent: {
+            /** @description Names the result, in six characters. */
+            code?: string;
+            /** @description Drawn numbers by path, such as `goal.speed_mps`. */
+            drawn: {
+                [key: string]: number;
+            };
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description Type of the event.
+             * @constant
+             */
+            event: "try";
+            /** @description Figures of the score by name. */
+            figures: {
+                [key: string]: number;
+            };
+            /**
+             * Format: uint
+             * @description Tries so far that satisfy the condition.
+             */
+            found: number;
+            /** @description Whether the goal of the actor is met: met, missed, none. */
+            goal?: string;
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: double
+             * @description How far it is from the condition, 0 where it holds; absent without a result.
+             */
+            miss?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one a try, from 0.
+             */
+            number: number;
+            /** @description The road user that the situation affects. */
+            other?: string;
+            /** @description How it ended. */
+            outcome: components["schemas"]["UnitOutcome"];
+            /** @description Code of the problem for which there is no result. */
+            problem?: string;
+            /** @description The body of a `POST /v1/generate` that gives the same result, without its scene; absent without a result. */
+            request?: components["schemas"]["TryRequest"];
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /** @description What the actor of a template does, in one sentence. */
+            what?: string;
+        };
+        /**
+         * SearchTry
+         * @description One try.
+         */
+        SearchTry: {
+            /** @description Names the result, in six characters. */
+            code?: string;
+            /** @description Drawn numbers by path, such as `goal.speed_mps`. */
+            drawn: {
+                [key: string]: number;
+            };
+            /** @description Figures of the score by name. */
+            figures: {
+                [key: string]: number;
+            };
+            /** @description Whether the goal of the actor is met: met, missed, none. */
+            goal?: string;
+            /**
+             * Format: double
+             * @description How far it is from the condition, 0 where it holds; absent without a result.
+             */
+            miss?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one a try, from 0.
+             */
+            number: number;
+            /** @description The road user that the situation affects. */
+            other?: string;
+            /** @description How it ended. */
+            outcome: components["schemas"]["UnitOutcome"];
+            /** @description Code of the problem for which there is no result. */
+            problem?: string;
+            /** @description The body of a `POST /v1/generate` that gives the same result, without its scene; absent without a result. */
+            request?: components["schemas"]["TryRequest"];
+            /** @description What the actor of a template does, in one sentence. */
+            what?: string;
+        };
+        /**
          * Shown
          * @description The future that was shown last.
          */
@@ -4833,6 +5284,20 @@ export interface components {
              */
             y_m?: number | null;
         } & (unknown & unknown);
+        /**
+         * StartRanges
+         * @description Fields of a start; those absent are the recording's.
+         */
+        StartRanges: {
+            /** @description Heading in the frame of the scene, radians. */
+            heading_rad?: components["schemas"]["Distribution"] | null;
+            /** @description Metres per second. */
+            speed_mps?: components["schemas"]["Distribution"] | null;
+            /** @description Box centre in the frame of the scene, metres; with `y_m`. */
+            x_m?: components["schemas"]["Distribution"] | null;
+            /** @description Box centre in the frame of the scene, metres; with `x_m`. */
+            y_m?: components["schemas"]["Distribution"] | null;
+        };
         /**
          * State
          * @description Place, heading and velocity of a road user at one moment, scene frame.
@@ -5310,6 +5775,63 @@ export interface components {
             y_m: number[];
         };
         /**
+         * TryRequest
+         * @description A generation that gives the result of a try again.
+         */
+        TryRequest: {
+            /** @description Road users to generate; absent for all. */
+            agents?: string[];
+            /** @description Conditions by road user. */
+            conditions: {
+                [key: string]: components["schemas"]["Conditions"];
+            };
+            /**
+             * Format: double
+             * @description Scale of the noise, which makes seeds differ.
+             * @default 0.5
+             */
+            diversity: number;
+            /**
+             * Format: double
+             * @description Time to generate, seconds.
+             * @default 9
+             */
+            horizon_s: number;
+            /**
+             * Format: uint64
+             * @description Futures that are planned for each road user.
+             * @default 6
+             */
+            modes: number;
+            /**
+             * @description Let the other road users react.
+             * @default true
+             */
+            react: boolean;
+            /**
+             * Format: double
+             * @description Replan interval, seconds: 3, 6 or 9.
+             */
+            replan_interval_s?: number;
+            /**
+             * Format: uint64
+             * @description Seed of the random draws.
+             */
+            seed: number;
+            /**
+             * Format: double
+             * @description Scene time of the start, seconds.
+             * @default 0
+             */
+            start_s: number;
+            /**
+             * Format: uint64
+             * @description Refinement steps.
+             * @default 5
+             */
+            steps: number;
+        };
+        /**
          * Turn
          * @description A direction out of a junction, as seen from the entry.
          * @enum {string}
@@ -5325,6 +5847,20 @@ export interface components {
          * @enum {string}
          */
         TurnAcross: "permissive" | "protected";
+        /**
+         * UnitOutcome
+         * @description How a unit ended.
+         *
+         *     `kept`: Its result satisfies the condition, or there is none.
+         *
+         *     `left-out`: Its result does not satisfy the condition.
+         *
+         *     `nobody-fits`: No road user of the scene fits the situation.
+         *
+         *     `failed`: It has no result; the row has the problem.
+         * @enum {string}
+         */
+        UnitOutcome: "kept" | "left-out" | "nobody-fits" | "failed";
         /**
          * Velocity
          * @description A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
@@ -10985,6 +11521,257 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, map-too-complex, unsupported-version */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, store-unavailable, shutting-down */
+            503: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "store-unavailable" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    search: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "found": 3,
+                 *       "scene_id": "demo-crossing",
+                 *       "situation": {
+                 *         "parameters": {
+                 *           "gap_m": {
+                 *             "uniform": [
+                 *               2,
+                 *               8
+                 *             ]
+                 *           }
+                 *         },
+                 *         "template": "cut-in"
+                 *       },
+                 *       "tries": 20,
+                 *       "where": "actor.min_ttc_s < 1.5 && collisions == 0"
+                 *     }
+                 */
+                "application/json": components["schemas"]["SearchBody"];
+            };
+        };
+        responses: {
+            /** @description the tries */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SearchFinalEvent"];
+                    "application/x-ndjson": components["schemas"]["SearchEvent"];
+                    "text/event-stream": components["schemas"]["SearchEvent"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description forbidden, cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "forbidden" | "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description not-found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-found";
+                    };
+                };
+            };
+            /** @description not-acceptable */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "not-acceptable";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled, exists */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled" | "exists";
                     };
                 };
             };

@@ -1,6 +1,5 @@
 //! Which road users: ids, or words for sets of them.
 
-use crate::cli::Failure;
 use scene::{AgentType, STANDING_MPS, Scene};
 use std::str::FromStr;
 
@@ -46,13 +45,8 @@ impl FromStr for AgentSelector {
 /// not. `None` for all.
 ///
 /// # Errors
-/// Exit 2 when a selector matches no road user; `flag` is named in the message.
-pub fn ids(
-    who: &[AgentSelector],
-    scene: &Scene,
-    start_step: usize,
-    flag: &str,
-) -> Result<Option<Vec<String>>, Failure> {
+/// A selector that matches no road user, in words.
+pub fn ids(who: &[AgentSelector], scene: &Scene, start_step: usize) -> Result<Option<Vec<String>>, String> {
     let mut ids: Vec<String> = Vec::new();
     for who in who {
         let there = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other);
@@ -66,7 +60,7 @@ pub fn ids(
                 .collect(),
         };
         if meant.is_empty() {
-            return Err(Failure::usage(format!("{flag}: no road user of the scene is {}", who.words())));
+            return Err(format!("no road user of the scene is {}", who.words()));
         }
         for id in meant {
             if !ids.contains(&id) {
@@ -75,6 +69,25 @@ pub fn ids(
         }
     }
     Ok(Some(ids))
+}
+
+/// The road users of a scene that are there at the start and meant by these selectors, each on its own; an id of another
+/// scene means nobody here.
+pub fn actors(of: &[AgentSelector], scene: &Scene, start_step: usize) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for selector in of {
+        let everybody = || scene.agents.iter().map(|agent| agent.id.clone()).collect();
+        let meant = ids(std::slice::from_ref(selector), scene, start_step).unwrap_or(Some(Vec::new()));
+        for id in meant.unwrap_or_else(everybody) {
+            let there = scene.agent(&id).is_some_and(|agent| {
+                agent.kind() != AgentType::Other && scene.shown(agent).track.at(start_step).is_some()
+            });
+            if there && !all.contains(&id) {
+                all.push(id);
+            }
+        }
+    }
+    all
 }
 
 impl AgentSelector {
@@ -122,16 +135,14 @@ mod tests {
         let scene = Scene::bare("test", LaneMap::default(), agents);
         let meant = |words: &[&str]| {
             let who: Vec<AgentSelector> = words.iter().map(|word| word.parse().unwrap()).collect();
-            ids(&who, &scene, 0, "--agents")
+            ids(&who, &scene, 0)
         };
         let some = |ids: &[&str]| Some(ids.iter().map(|id| (*id).to_owned()).collect::<Vec<_>>());
         assert_eq!(meant(&["@moving"]).unwrap(), some(&["car", "walker"]));
         assert_eq!(meant(&["walker", "@vehicles"]).unwrap(), some(&["walker", "car", "parked"]));
         assert_eq!(meant(&["car", "@all"]).unwrap(), None);
-        assert_eq!(
-            meant(&["@cyclists"]).unwrap_err().message,
-            "--agents: no road user of the scene is a cyclist at the start"
-        );
+        let nobody = "no road user of the scene is a cyclist at the start";
+        assert_eq!(meant(&["@cyclists"]).unwrap_err(), nobody);
         assert!("@everybody".parse::<AgentSelector>().unwrap_err().contains("@moving"));
     }
 }

@@ -1,8 +1,11 @@
 //! The figures of a score by name, for conditions and tables: the numbers of the scene's score and how many entries
 //! its lists have, and under `actor.` those of the requested road user.
 
-use super::expression::Expression;
-use batch::names::hint;
+mod expression;
+mod tokens;
+
+use crate::names::hint;
+use expression::Expression;
 use scene::Scene;
 use scene::score::{AgentScore, SceneScore, Score};
 use schemars::{JsonSchema, Schema, SchemaGenerator};

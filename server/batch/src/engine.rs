@@ -1,0 +1,202 @@
+//! The work of one unit, by the operations: who acts, the generation, and its row.
+
+use crate::case::facts::CaseFacts;
+use crate::case::motion::CaseMotion;
+use crate::catalogue::{CatalogueScene, UnitProblem};
+use crate::figures::{FigureFilter, Figures};
+use crate::plan::BatchPlan;
+use crate::row::{BatchRow, UnitOutcome};
+use crate::unit::BatchUnit;
+use api::generate::GenerationAnswer;
+use api::generate::request::{AgentChoice, ReactChoice};
+use api::{GenerateRequest, Operations, Problem, Subject};
+use experts::{Cancel, Field, Limiting, ReachReport, Resolved, Source};
+use formats::native::{ConditionsDoc, Members};
+use scene::scenarios::Casting;
+use scene::score::ScoreInput;
+use scene::score::meeting::MeetingSearch;
+use scene::{Conditions, Scene};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Who acts in a unit, and on what conditions.
+#[derive(Default)]
+struct UnitRoles {
+    actor: Option<String>,
+    casting: Option<Casting>,
+    conditions: BTreeMap<String, ConditionsDoc>,
+}
+
+/// The generation of a unit.
+pub struct UnitAnswer {
+    roles: UnitRoles,
+    /// What it came to: one sample, scored.
+    pub answer: GenerationAnswer,
+}
+
+/// What came of a unit.
+pub struct UnitEnd {
+    /// Its row.
+    pub row: BatchRow,
+    /// Conditions of its request, by road user.
+    pub conditions: BTreeMap<String, ConditionsDoc>,
+    /// Its motion, for pictures; none without a result, or where nobody is seen.
+    pub motion: Option<CaseMotion>,
+}
+
+/// Works on the units of a plan.
+pub struct UnitEngine<'a> {
+    plan: &'a BatchPlan,
+    scenes: &'a [CatalogueScene],
+    filter: Option<FigureFilter>,
+    operations: &'a Operations,
+}
+
+impl<'a> UnitEngine<'a> {
+    /// For the units of a plan over a catalogue.
+    pub fn new(plan: &'a BatchPlan, scenes: &'a [CatalogueScene], operations: &'a Operations) -> Self {
+        // The plan was checked when it was read.
+        let filter = plan.filter.as_deref().and_then(|text| FigureFilter::parse(text).ok());
+        Self { plan, scenes, filter, operations }
+    }
+
+    /// The row of a unit before its generation; `None` for a unit of another plan.
+    pub fn row(&self, unit: &BatchUnit) -> Option<BatchRow> {
+        let entry = self.scenes.get(unit.scene)?;
+        let situation = self.plan.situations.get(unit.situation)?;
+        Some(BatchRow {
+            unit: unit.id.hex(),
+            scene: entry.sha256.clone(),
+            name: entry.name.clone(),
+            situation: situation.name().to_owned(),
+            actor: unit.actor.clone(),
+            other: None,
+            draw: unit.draw,
+            drawn: unit.drawn.clone(),
+            seed: unit.seed,
+            outcome: if entry.problem.is_some() { UnitOutcome::Failed } else { UnitOutcome::NobodyFits },
+            problem: entry.problem.clone(),
+            code: None,
+            goal: None,
+            reacting: None,
+            what: None,
+            miss: None,
+            figures: BTreeMap::new(),
+            facts: CaseFacts::default(),
+        })
+    }
+
+    /// Is there something to generate? Else the row stays as it is.
+    pub fn has_work(&self, unit: &BatchUnit) -> bool {
+        let is_scene = self.scenes.get(unit.scene).is_some_and(|entry| entry.problem.is_none());
+        let names_agents = self.plan.situations.get(unit.situation).is_some_and(|of| !of.agents.is_empty());
+        is_scene && (!names_agents || unit.actor.is_some())
+    }
+
+    /// Generates a unit in its scene; `None` where nobody fits.
+    ///
+    /// # Errors
+    /// Those of the generation.
+    pub fn answer(
+        &self,
+        unit: &BatchUnit,
+        scene: &Arc<Scene>,
+        cancel: &Cancel,
+    ) -> Result<Option<UnitAnswer>, Problem> {
+        let Some(roles) = self.roles(unit, scene) else { return Ok(None) };
+        let mut request: GenerateRequest = self.plan.generate.request(unit.seed);
+        request.conditions = Members(roles.conditions.clone());
+        match &roles.actor {
+            Some(actor) => request.agents = Some(AgentChoice::Ids(vec![actor.clone()])),
+            // All are generated, and nobody is left to react.
+            None => request.react = ReactChoice::Whether(false),
+        }
+        let about = Subject::passing(Arc::clone(scene));
+        let answer = self.operations.generate(&request, &about, cancel.clone())?.answer()?;
+        Ok(Some(UnitAnswer { roles, answer }))
+    }
+
+    fn roles(&self, unit: &BatchUnit, scene: &Scene) -> Option<UnitRoles> {
+        let situation = self.plan.situations.get(unit.situation)?;
+        let options = &self.plan.generate;
+        if let Some(template) = situation.template() {
+            let graph = self.operations.generator.maps().graph(&scene.map);
+            let fixed = situation.parameters_of(&unit.drawn);
+            let casting =
+                template.cast(scene, &graph, options.start_step(), options.horizon_s, unit.seed, &fixed)?;
+            let conditions = ConditionsDoc::from_conditions(&casting.conditions);
+            let conditions = BTreeMap::from([(casting.actor.clone(), conditions)]);
+            return Some(UnitRoles {
+                actor: Some(casting.actor.clone()),
+                casting: Some(casting),
+                conditions,
+            });
+        }
+        let Some(actor) = &unit.actor else { return Some(UnitRoles::default()) };
+        let own = scene.agent(actor).map_or_else(Conditions::default, |agent| agent.conditions.clone());
+        let conditions = situation.applied(ConditionsDoc::from_conditions(&own), &unit.drawn);
+        let conditions = BTreeMap::from([(actor.clone(), conditions)]);
+        Some(UnitRoles { actor: Some(actor.clone()), casting: None, conditions })
+    }
+
+    /// Writes what came of a generation into the row of its unit.
+    pub fn end(&self, mut row: BatchRow, answered: Result<Option<UnitAnswer>, Problem>) -> UnitEnd {
+        let UnitAnswer { roles, answer } = match answered {
+            Ok(Some(answered)) => answered,
+            Ok(None) => return UnitEnd { row, conditions: BTreeMap::new(), motion: None },
+            Err(Problem { code, detail, .. }) => {
+                row.outcome = UnitOutcome::Failed;
+                row.problem = Some(UnitProblem { code: code.name().to_owned(), detail });
+                return UnitEnd { row, conditions: BTreeMap::new(), motion: None };
+            }
+        };
+        let actor = roles.actor.as_deref();
+        let score = answer.scores.as_ref().and_then(|scores| scores.first());
+        let figures = score.map(|score| Figures::new(score, actor));
+        let sample = answer.samples.first();
+        let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
+        row.code = Some(answer.code.clone());
+        row.goal = Some(goal_word(actor.and_then(|id| answer.answer.resolved.get(id))).to_owned());
+        row.reacting = Some(reacting as u64);
+        row.actor = roles.actor.clone();
+        if let Some(casting) = roles.casting {
+            (row.other, row.what) = (casting.other, Some(casting.words));
+        }
+        let motion = self.happened(&mut row, &answer);
+        row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
+        row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
+        let is_left_out = self.filter.is_some() && row.miss != Some(0.0);
+        row.outcome = if is_left_out { UnitOutcome::LeftOut } else { UnitOutcome::Kept };
+        UnitEnd { row, conditions: roles.conditions, motion }
+    }
+
+    /// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives
+    /// the motion.
+    fn happened(&self, row: &mut BatchRow, answered: &GenerationAnswer) -> Option<CaseMotion> {
+        let hardest = || answered.scores.as_ref()?.first()?.scene.min_ttc_pair.as_ref().map(|pair| &pair[0]);
+        let id = row.actor.as_ref().or_else(hardest)?;
+        let drivable = self.operations.generator.maps().drivable(&answered.scene.map);
+        let input = ScoreInput::of_sample(&answered.scene, answered.samples.first(), &drivable);
+        let of = input.actors.iter().position(|actor| actor.id == id)?;
+        let (facts, pair) = CaseFacts::of(&input, &MeetingSearch::new(&input), of)?;
+        row.facts = facts;
+        CaseMotion::of(&row.unit, &input, of, pair.as_ref())
+    }
+}
+
+/// Has a road user a goal that was requested?
+pub fn has_goal(resolved: &Resolved) -> bool {
+    let asked = |field: Field| matches!(field.from, Source::User | Source::Relation);
+    let goal = &resolved.goal;
+    let is_unplaced = matches!(resolved.reach, ReachReport::Unreachable { limiting: Limiting::Relation, .. });
+    is_unplaced || asked(goal.x_m) || asked(goal.speed_mps) || asked(goal.heading_rad)
+}
+
+/// Whether the goal of a road user is met, in one word, for tables.
+pub fn goal_word(resolved: Option<&Resolved>) -> &'static str {
+    match resolved.filter(|resolved| has_goal(resolved)).map(|resolved| &resolved.reach) {
+        Some(ReachReport::Reached { .. }) => "met",
+        Some(ReachReport::Unreachable { .. }) => "missed",
+        None => "none",
+    }
+}

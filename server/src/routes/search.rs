@@ -1,0 +1,59 @@
+//! `/v1/search`: tries in one scene, towards a condition on what happens.
+
+use crate::app::App;
+use crate::base::id::is_id;
+use crate::base::problem::Refusal;
+use crate::generation;
+use crate::generation::stream::{self, StreamPace};
+use crate::http::accept::ReplyFormat;
+use crate::http::body::Json;
+use crate::http::extract::Connection;
+use crate::work::Caller;
+use api::{AboutScene, Code, Problem};
+use axum::extract::{FromRequest, Request, State};
+use axum::response::Response;
+use batch::search::call::SearchBody;
+use batch::search::one_scene::SceneSearch;
+use std::sync::Arc;
+use std::time::Duration;
+
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK, NotAcceptable, Exists);
+
+/// Searches a scene for results that satisfy a condition. Each try draws the numbers of the situation, generates once
+/// and is scored; the numbers of the next tries follow from how near the tries before came. The reply is a stream of
+/// events (NDJSON or SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends
+/// after most of `generate_s` with the tries that it has made; a client that leaves ends it at once. Stores nothing.
+#[utoipa::path(post, path = "/v1/search", operation_id = "search", tag = "generate",
+    request_body(content = ref("#/components/schemas/SearchBody"), content_type = "application/json",
+        example = json!({
+            "scene_id": "demo-crossing", "where": "actor.min_ttc_s < 1.5 && collisions == 0", "tries": 20, "found": 3,
+            "situation": {"template": "cut-in", "parameters": {"gap_m": {"uniform": [2.0, 8.0]}}},
+        })),
+    responses((status = 200, description = "the tries", content(
+        (ref("#/components/schemas/SearchFinalEvent") = "application/json"),
+        (ref("#/components/schemas/SearchEvent") = "application/x-ndjson", extensions(("x-stream-item" = json!(true)))),
+        (ref("#/components/schemas/SearchEvent") = "text/event-stream", extensions(("x-stream-item" = json!(true)))))),
+        Refused))]
+pub async fn search(
+    State(app): State<App>,
+    connection: Connection,
+    request: Request,
+) -> Result<Response, Refusal> {
+    let form = ReplyFormat::negotiate(request.headers())?;
+    let Json(mut body) = Json::<SearchBody>::from_request(request, &app).await?;
+    if body.job.as_ref().is_some_and(|id| !is_id(id)) {
+        let detail = "1 to 64 of A-Z a-z 0-9 _ and - expected";
+        return Err(Problem::field("/job", Code::InvalidField, detail).into());
+    }
+    let caller = Caller { job: body.job.take(), ..connection.into() };
+    app.pool.expects(&caller)?;
+    let scene = body.take_scene().open(&app.catalog.of(connection.party)).await?.scene;
+    app.map_preparation(&scene.map).await?;
+    let search = SceneSearch::new(&body, Arc::clone(&scene), app.patient.generator.hashes())?;
+    let pace = StreamPace {
+        heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
+        together: Duration::ZERO,
+    };
+    let reader = generation::submit_search(&app.pool, app.patient.clone(), &app.limits, caller, search)?;
+    Ok(stream::reply(reader, form, pace).await)
+}
