@@ -11,7 +11,9 @@ pub use std::thread;
 /// Threads of the model checker.
 #[cfg(feature = "shuttle")]
 pub mod thread {
-    pub use shuttle::thread::{Builder, spawn, yield_now};
+    #[cfg(test)]
+    pub use shuttle::thread::spawn;
+    pub use shuttle::thread::{Builder, yield_now};
 
     /// The model has no clock: a sleeping thread yields to all others.
     pub fn sleep(_: std::time::Duration) {

@@ -63,7 +63,7 @@ const CHECKS: &[Check] = &[
     ("plain", || cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])),
     ("wasm", wasm::check),
     ("test", suites::check),
-    ("schedules", soak::schedules),
+    ("schedules", suites::schedules),
     ("openapi", || drift(&["openapi"], "assets/openapi.json")),
     ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
     ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),

@@ -1,5 +1,4 @@
-//! Trials of the real program that go on for as long as one likes (`dragtraffic_tests::soak`), and the pool under
-//! a model checker.
+//! Trials of the real program that go on for as long as one likes (`dragtraffic_tests::soak`).
 
 use super::{Outcome, WHOLE, cargo_command, root, run as command};
 use std::path::PathBuf;
@@ -25,11 +24,4 @@ pub fn run(arguments: &[String]) -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// The pool in thousands of orders of its threads; `SCHEDULES` says how many of each.
-pub fn schedules() -> anyhow::Result<Outcome> {
-    let mut tests = cargo_command();
-    tests.arg("test").args(WHOLE).args(["--features", "dragtraffic/shuttle"]);
-    command(tests.args(["--bin", "dragtraffic", "work::schedules"]))
 }

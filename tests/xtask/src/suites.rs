@@ -13,7 +13,7 @@ const NGINX: SystemProgram = SystemProgram { variable: "NGINX", names: &["nginx"
 
 /// Runs all tests, and the documentation's examples.
 pub fn check() -> anyhow::Result<Outcome> {
-    let (mut tests, _) = runner()?;
+    let (mut tests, _) = runner("pass")?;
     let without_nginx = match NGINX.find() {
         Ok(Some(nginx)) => {
             tests.env(NGINX.variable, nginx);
@@ -39,7 +39,7 @@ pub fn check() -> anyhow::Result<Outcome> {
 /// Unit tests of some crates, from the build of the full run: another choice of packages would have other features,
 /// and compile all dependencies again. Without nextest the unit tests of all crates run.
 pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
-    let (mut tests, filters) = runner()?;
+    let (mut tests, filters) = runner("pass")?;
     tests.args(WHOLE).arg("--lib");
     if crates.iter().any(|name| WITHOUT_LIBRARY.contains(&name.as_str())) {
         tests.arg("--bins");
@@ -51,11 +51,24 @@ pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
     run(&mut tests)
 }
 
-/// `cargo nextest run`, which takes filters, else `cargo test`.
-fn runner() -> anyhow::Result<(Command, bool)> {
+/// The pool of workers in thousands of orders of its threads, under a model checker; `SCHEDULES` says how many of each.
+pub fn schedules() -> anyhow::Result<Outcome> {
+    let (mut tests, filters) = runner("fail")?;
+    tests.args(WHOLE).args(["--features", "dragtraffic/shuttle", "--lib"]);
+    if filters {
+        tests.args(["-E", "package(dragtraffic) & test(/^work::schedules/)"]);
+    } else {
+        tests.arg("work::schedules");
+    }
+    run(&mut tests)
+}
+
+/// `cargo nextest run`, which takes filters, else `cargo test`. `without_tests` says what nextest does where no test is
+/// meant: `pass` or `fail`.
+fn runner(without_tests: &str) -> anyhow::Result<(Command, bool)> {
     Ok(match tools::command("nextest")? {
         Ok(mut nextest) => {
-            nextest.args(["run", "--no-tests", "pass"]);
+            nextest.args(["run", "--no-tests", without_tests]);
             (nextest, true)
         }
         Err(_) => {
