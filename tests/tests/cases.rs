@@ -240,3 +240,31 @@ fn the_report_counts_every_result_once_and_is_the_same_again() {
     assert_eq!(shown, 1, "the hardest case alone");
     ends(base, &["batch", "report", "scenes"], 3);
 }
+
+#[test]
+fn an_index_has_a_row_for_each_road_user_that_moves() {
+    let folder = finished();
+    let base = folder.path();
+    std::fs::write(base.join("scenes/broken.json"), "{").unwrap();
+    let (_, told) = ends(base, &["index", "scenes", "-o", "index.parquet"], 4);
+    assert!(told.contains("broken.json"), "{told}");
+    ends(base, &["index", "scenes", "-o", "index.parquet"], 8);
+    std::fs::remove_file(base.join("scenes/broken.json")).unwrap();
+    let first = std::fs::read(base.join("index.parquet")).unwrap();
+    ends(base, &["index", "scenes", "-o", "index.parquet", "--force", "--jobs", "1"], 0);
+    assert!(std::fs::read(base.join("index.parquet")).unwrap() == first, "equal scenes, other bytes");
+    let mut table = ParquetTable::open(&first).unwrap();
+    let at = |name: &str| table.names().iter().position(|known| known == name).unwrap();
+    let wanted = ["file", "index", "actor", "case.meeting", "case.driven_m"].map(at);
+    table.choose(wanted.to_vec()).unwrap();
+    let mut actors = BTreeMap::<String, BTreeSet<String>>::new();
+    while table.advance().unwrap() {
+        let text = |value| if let ColumnValue::Text(text) = value { text.to_owned() } else { String::new() };
+        actors.entry(text(table.value(0))).or_default().insert(text(table.value(2)));
+        assert!(matches!(table.value(1), ColumnValue::Whole(0)));
+        assert!(!text(table.value(3)).is_empty());
+        assert!(matches!(table.value(4), ColumnValue::Number(metres) if metres > 1.0));
+    }
+    assert_eq!(actors.keys().map(String::as_str).collect::<Vec<_>>(), ["scenes/a.json", "scenes/b.json"]);
+    assert!(actors.values().all(|ids| ids.len() == 6), "{actors:?}");
+}

@@ -20,6 +20,7 @@ pub mod draws;
 pub mod engine;
 pub mod fault;
 pub mod figures;
+pub mod index;
 mod latin_hypercube;
 pub mod map;
 pub mod names;

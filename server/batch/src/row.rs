@@ -1,6 +1,6 @@
 //! What a batch writes about each unit: a row of a table, and a line for each result that is kept.
 
-use crate::case::facts::{self, CaseFacts};
+use crate::case::facts::CaseFacts;
 use crate::catalogue::UnitProblem;
 use formats::ReadError;
 use formats::columnar::{self, Column, ColumnValue, ColumnValues, ParquetTable};
@@ -193,13 +193,7 @@ fn columns(rows: &[BatchRow], figures: &'static [String]) -> Vec<Column> {
         column("what", false, text(|row| row.what.clone())),
         column("miss", false, ColumnValues::Number(rows.iter().map(|row| row.miss).collect())),
     ];
-    for (name, fact) in facts::columns() {
-        let words = || rows.iter().map(|row| row.facts.words.get(fact).cloned()).collect();
-        let numbers = || rows.iter().map(|row| row.facts.numbers.get(fact).copied()).collect();
-        let is_word = facts::WORDS.contains(fact);
-        let values = if is_word { ColumnValues::Text(words()) } else { ColumnValues::Number(numbers()) };
-        columns.push(column(name, false, values));
-    }
+    columns.extend(CaseFacts::table(rows.iter().map(|row| &row.facts)));
     columns.extend(figures.iter().map(|name| {
         let values = rows.iter().map(|row| row.figures.get(name).copied()).collect();
         column(name, false, ColumnValues::Number(values))

@@ -25,6 +25,7 @@ mod exit;
 mod export_all;
 mod generate;
 mod health;
+mod index;
 mod inputs;
 mod interrupt;
 #[cfg(feature = "lab")]
@@ -87,6 +88,9 @@ enum Command {
     /// Make results of a batch again from their references: scenes with futures, byte for byte.
     #[command(after_help = examples!("dragtraffic replay out/ S63D1R -o scene.json", "dragtraffic replay out/ --kept -o cases/"))]
     Replay(batch::ReplayArgs),
+    /// List what moving road users do in recorded scenes, as a table to choose scenes by.
+    #[command(after_help = examples!("dragtraffic index logs/ -o index.parquet", "dragtraffic index 'logs/**/*.tfrecord*' -o index.parquet --force"))]
+    Index(index::IndexArgs),
     /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
     #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
     Map(map::MapArgs),
@@ -281,6 +285,7 @@ impl Command {
             Self::Generate(args) => generate::run(*args, common),
             Self::Batch(args) => batch::run(args, common),
             Self::Replay(args) => batch::replay(&args, common),
+            Self::Index(args) => index::index(&args, common),
             Self::Map(args) => map::run(args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),

@@ -1,7 +1,7 @@
 //! The facts of a result: who meets whom, where, in what order, how close and how fast.
 
 use super::layout::road_layout;
-use formats::columnar::ColumnValue;
+use formats::columnar::{Column, ColumnValue, ColumnValues};
 use scene::score::meeting::{HardestPair, MeetingSearch, PairRelation};
 use scene::score::{Actor, ScoreInput};
 use scene::{AgentType, STEP_S, SignalState, State};
@@ -92,6 +92,17 @@ impl CaseFacts {
         Some((facts, pair))
     }
 
+    /// The columns of these facts, in their order.
+    pub(crate) fn table<'a>(all: impl Iterator<Item = &'a Self> + Clone) -> impl Iterator<Item = Column> {
+        columns().iter().map(move |(name, fact)| {
+            let words = || all.clone().map(|facts| facts.words.get(fact).cloned()).collect();
+            let numbers = || all.clone().map(|facts| facts.numbers.get(fact).copied()).collect();
+            let is_word = WORDS.contains(fact);
+            let values = if is_word { ColumnValues::Text(words()) } else { ColumnValues::Number(numbers()) };
+            Column { name, required: false, values }
+        })
+    }
+
     /// Takes the value of a column; false where the column has no fact.
     pub fn read(&mut self, column: &str, value: &ColumnValue<'_>) -> bool {
         let Some(name) = column.strip_prefix(PREFIX) else { return false };
@@ -112,15 +123,19 @@ impl CaseFacts {
     }
 }
 
-/// The facts of a scene as it is recorded: those of each road user that moves.
-pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<CaseFacts> {
+/// The facts of a scene as it is recorded: each road user that moves, by its id.
+pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<(String, CaseFacts)> {
     let logs = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other).map(Actor::of_kept);
     let input = ScoreInput { actors: logs.collect(), ..ScoreInput::of_sample(scene, None, drivable) };
     let search = MeetingSearch::new(&input);
     let moves =
         |of: &usize| input.actors.get(*of).is_some_and(|a| a.travel_m(input.steps.clone()) >= MOVES_M);
     let all = (0..input.actors.len()).filter(moves);
-    all.filter_map(|of| CaseFacts::of(&input, &search, of).map(|(facts, _)| facts)).collect()
+    let named = |of: usize| {
+        let (facts, _) = CaseFacts::of(&input, &search, of)?;
+        Some((input.actors.get(of)?.id.to_owned(), facts))
+    };
+    all.filter_map(named).collect()
 }
 
 /// A recorded road user that travels less stays, metres.
