@@ -16,7 +16,7 @@ const MOVES_MPS = 1;
 const ASIDE_M = 1.5;
 const TURNED_RAD = 0.35;
 /** Gaps between the two that are worth holding, metres. */
-const LEAST_M = 2;
+const LEAST_M = 4;
 const MOST_M = 25;
 
 export interface OfferedGap {
@@ -40,9 +40,11 @@ function nearestGap(e: Editor, a: Agent): GoalRelationJson | null {
   const scene = e.scene.value;
   const goal = e.reading.goalPose(a);
   if (!scene || !goal?.set || !lanesFor(a)) return null;
+  // A gap to the one that the shown future hits or nearly hits is not one to hold.
+  const met = e.reading.futures.value?.modes[e.reading.chosen.value]?.about?.faults[0]?.with;
   let best: { readonly gap: number; readonly relation: GoalRelationJson } | null = null;
   for (const other of scene.agents.values()) {
-    if (other.id === a.id || other.type === 'pedestrian' || other.type === 'other') continue;
+    if (other.id === a.id || other.id === met || other.type === 'pedestrian' || other.type === 'other') continue;
     const at = poseAt(e.reading.motionFor(other), goal.time);
     if (!at || Math.abs(at.speed) < MOVES_MPS || Math.abs(wrapAngle(goal.heading - at.heading)) > TURNED_RAD) continue;
     const [dx, dy] = [goal.x - at.x, goal.y - at.y];
