@@ -33,7 +33,7 @@ function packed(): Plugin {
 }
 
 /** The most that scripts may weigh, in KB (1000 bytes) as gzip: what comes first, and what comes after it at once. */
-const MOST_KB = { first: 80, desk: 126.5 };
+const MOST_KB = { first: 80.3, desk: 128.3 };
 
 /** A build whose first scripts weigh more than they may fails. */
 function weighed(): Plugin {

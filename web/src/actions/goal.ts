@@ -267,6 +267,15 @@ export const goal = inGroup('goal', [
     ...wayOut(roadWay, TEXTS.noRouteByRoad),
   },
   {
+    id: 'hold-gap',
+    label: TEXTS.keepTheGap,
+    keys: ['Shift+Enter'],
+    help: 'theGoalIsThenRelative',
+    onOffer: (c: Context) => c.gapOffer.now.value !== null,
+    when: (c: Context) => (c.gapOffer.now.value ? true : TEXTS.noGapToKeep),
+    run: (c: Context) => c.gapOffer.accept(),
+  },
+  {
     id: 'may-cross',
     label: TEXTS.allowCrossing,
     keys: ['Alt+Enter'],

@@ -64,6 +64,14 @@ const PARTS = {
     () => import('./hud/place-panel'),
     (m) => m.PlacePanel,
   ),
+  phases: of(
+    () => import('./timeline/phase-strip'),
+    (m) => m.PhaseStrip,
+  ),
+  'map item': of(
+    () => import('./inspector/map-item-panel'),
+    (m) => m.default,
+  ),
   points: of(
     () => import('./timeline/point-fields'),
     (m) => m.PointFields,

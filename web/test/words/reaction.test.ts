@@ -109,6 +109,7 @@ describe('words', () => {
     expect(said({ kind: 'slows', place: { x: 0, y: 0, heading: 0, speed: 0.1 } })).toBe('stops briefly for Car 7');
     expect(said({ kind: 'speeds_up' })).toBe('speeds up for Car 7');
     expect(said({ kind: 'keeps_clear' })).toBe('keeps clear of Car 7');
+    expect(said({ kind: 'keeps_clear', ahead: true })).toBe('stays behind Car 7');
   });
 
   it('distinguish a cause ahead on the same path from a crossing one', () => {

@@ -8,6 +8,8 @@ import { along, lanesBeside, openEmpty } from '../../support/maps.js';
 
 const FIELD = '[data-text="relation"]';
 const GAP_M = 12;
+/** Places of words around a place, pixels. */
+const AROUND = [-60, 0, 60].flatMap((dx) => [-20, -36, -52, 52, 36, 20].map((dy) => [dx, dy]));
 
 async function clickAt(e, x, y) {
   const at = await e.at(x, y);
@@ -38,6 +40,21 @@ function gapOf(goal, other, lengths) {
   const h = goal.heading_rad.value;
   const ahead = (goal.x_m.value - other[0]) * Math.cos(h) + (goal.y_m.value - other[1]) * Math.sin(h);
   return ahead - lengths;
+}
+
+/** Presses the words of the offer: they are around the middle between the goal and the other one behind it. */
+async function pressWords(e, goal, gap) {
+  const back = (gap + 4.7) / 2;
+  const at = await e.at(goal.x - back * Math.cos(goal.heading), goal.y - back * Math.sin(goal.heading));
+  for (const [dx, dy] of AROUND) {
+    await e.page.mouse.move(at[0] + dx, at[1] + dy);
+    await e.frames(2);
+    if (!(await e.page.evaluate(() => document.querySelector('main.stage').dataset.cursor === 'pointer'))) continue;
+    await e.page.mouse.down();
+    await e.page.mouse.up();
+    return true;
+  }
+  return false;
 }
 
 journeys('goals relative to another road user', (stage) => {
@@ -110,6 +127,29 @@ journeys('goals relative to another road user', (stage) => {
     await e.settled();
     assert.equal(await e.shows(FIELD), false, 'a goal with a place of its own has the field under More fields');
     assert.ok(distance(before, await e.goal()) < 0.3, 'the goal stays where it was');
+
+    // Dropped there, the flag offers to hold the gap; the words in the picture are pressed.
+    await e.page.evaluate(() => document.activeElement?.blur?.());
+    const offer = e.page.locator('.opt.gap');
+    assert.equal(await offer.count(), 0, 'nothing is offered where a relation has just ended');
+    const flag = await e.at(before.x, before.y);
+    const pennant = [flag[0] + 6, flag[1] - 14];
+    const further = await e.at(before.x + 6 * Math.cos(before.heading), before.y + 6 * Math.sin(before.heading));
+    await e.drag(pennant, [pennant[0] + further[0] - flag[0], pennant[1] + further[1] - flag[1]], {
+      then: async () => assert.equal(await offer.count(), 0, 'nothing is offered in a drag'),
+    });
+    await e.release();
+    const kept = /^Keep (\d+) m ahead of (.+)$/.exec(await offer.innerText());
+    assert.ok(kept?.[2] === first.name && Number(kept[1]) > GAP_M, await offer.innerText());
+    await e.picture('gap-offered');
+    assert.ok(await pressWords(e, await e.pose('Goal'), Number(kept[1])), 'the words are in the picture');
+    await e.settled();
+    assert.equal(await e.page.inputValue(FIELD), `${kept[1]} m ahead of ${first.name} at 5.0 s`);
+    assert.equal(await offer.count(), 0);
+    assert.deepEqual(await e.page.locator('.goalsec .fx').allInnerTexts(), ['Relative', 'Free']);
+    await e.key('Control+z');
+    await e.settled();
+    assert.equal(await offer.count(), 0, 'an undo offers nothing');
   });
 
   it('a car reaches a place after another one', { timeout: 90_000 }, async () => {

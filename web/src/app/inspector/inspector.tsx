@@ -19,6 +19,7 @@ export function Inspector() {
   }).value;
   const scene = useComputed(() => editor.resting.value?.id).value;
   const selected = editor.selection.value;
+  const item = useComputed(() => editor.mapItem.value !== null).value;
   const several = useComputed(() => editor.selected.value.length > 1).value;
   return (
     <aside class="insp" aria-label={TEXTS.inspector} data-group="inspector">
@@ -36,6 +37,8 @@ export function Inspector() {
         <Later key="several" part="several" />
       ) : selected ? (
         <Later key={`agent:${selected}`} part="agent" id={selected} />
+      ) : item ? (
+        <Later key="map item" part="map item" />
       ) : (
         <ScenePanel key={`scene:${scene}`} />
       )}

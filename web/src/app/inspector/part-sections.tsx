@@ -17,7 +17,7 @@ import { leaveGiven } from '../../edit/moves/ways-out';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
-import { RelationRow } from './relation-row';
+import { GapOfferButton, RelationRow } from './relation-row';
 import type { LiveAgent } from './use-agent';
 import { placesAlong } from '../../model/document/lanemap';
 import { TEXTS as RELATION } from '../../texts/editing/relation';
@@ -131,6 +131,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
         />
       </Row>
       {all || !own ? <RelationRow agent={agent} /> : null}
+      <GapOfferButton />
       <LeaveLine agent={agent} />
     </section>
   );
@@ -215,13 +216,22 @@ function PoseRows({ all, ...props }: PartProps & { all: boolean }) {
   );
 }
 
+/** Does the other road user give this value of a goal? A passing gives the time alone. */
+function givenByRelation({ relation: r }: GoalSpec, field: Field): boolean {
+  if (!r || r.after_s != null) return false;
+  return field === 'speed' ? r.slower_mps != null : true;
+}
+
 function FixedPill({ agent, part, field, label }: PartProps & { field: Field; label: string }) {
   const { editor } = useApp();
   const fixed = useComputed(() => agent.value[part][field] !== null).value;
+  const related = useComputed(() => part === 'goal' && givenByRelation(agent.value.goal, field)).value;
   const toggle = () => {
     const command = toggleField(editor, agent.peek(), part, field);
     if (command) editor.commits.run(command);
   };
+  // Its heading is that of the lane, and is not fixed.
+  if (related && field === 'heading') return <span />;
   return (
     <button
       type="button"
@@ -229,11 +239,11 @@ function FixedPill({ agent, part, field, label }: PartProps & { field: Field; la
       role="switch"
       aria-checked={fixed}
       aria-label={TEXTS.fixed(WORD[part], label)}
-      title={fixed ? TEXTS.fixedYouDecide : TEXTS.freeTheGeneratorDecides}
+      title={fixed ? TEXTS.fixedYouDecide : related ? TEXTS.relativeToAnother : TEXTS.freeTheGeneratorDecides}
       onClick={toggle}
     >
       <Icon name="lock" size={11} />
-      {fixed ? TEXTS.isFixed : TEXTS.free}
+      {fixed ? TEXTS.isFixed : related ? TEXTS.isRelative : TEXTS.free}
     </button>
   );
 }

@@ -6,12 +6,15 @@ import { relationWords } from '../../model/words/relation-words';
 import { endRelation, relate } from '../../edit/moves/relating';
 import { readRelation } from '../../edit/tools/relations/typed-relation';
 import { useApp } from '../parts/app-context';
+import { titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { TEXTS } from '../../texts/editing/relation';
 import type { LiveAgent } from './use-agent';
 
 /** Long enough for the longest name and all parts. */
 const MOST_CHARACTERS = 200;
+
+const HOLD = 'hold-gap';
 
 export function RelationRow({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
@@ -92,6 +95,18 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
       <Refusal why={why} />
     </>
   );
+}
+
+/** The gap to a road user beside the goal, which one press holds. */
+export function GapOfferButton() {
+  const { gapOffer } = useApp();
+  const offer = gapOffer.now.value;
+  return offer ? (
+    <button type="button" class="opt gap" data-action={HOLD} title={titleOf(HOLD)} onClick={() => gapOffer.accept()}>
+      <Icon name="link" size={15} />
+      {offer.words}
+    </button>
+  ) : null;
 }
 
 /** Why typed text is refused. */

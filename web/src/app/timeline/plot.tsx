@@ -81,6 +81,7 @@ export function Plot() {
       </div>
       <svg class="pts" role="group" aria-label={TEXTS.pointsOfTheSpeed}>
         <Points tick={tick} axes={axes} />
+        <Phases tick={tick} axes={axes} />
       </svg>
       {pointed ? <Later part="points" /> : null}
     </div>
@@ -123,6 +124,12 @@ function Points({ tick, axes }: DrawingProps) {
   // The shown motion then is not the one of these points.
   if (editor.view.beside.peek()?.meeting || editor.drag.active.peek()) return null;
   return curve.points.peek().length ? <Later part="speed points" axes={axes.value} /> : null;
+}
+
+function Phases({ tick, axes }: DrawingProps) {
+  void tick.value;
+  const some = useApp().signalEdges.lanes.value.length > 0;
+  return some ? <Later part="phases" axes={axes.value} /> : null;
 }
 
 function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
@@ -184,6 +191,11 @@ function useSeek(c: Context, size: ReadonlySignal<PlotSize>) {
       const a = axesOf(c, size.peek());
       const r = e.currentTarget.getBoundingClientRect();
       const [x, y] = [e.clientX - r.left, e.clientY - r.top];
+      if (c.signalEdges.lanes.peek().length) {
+        c.editor.playhead.moveTo(before.current[0]);
+        c.signalEdges.add(((x - X0) / (a.x1 - X0)) * a.duration);
+        return;
+      }
       const v = ((a.y1 - y) / (a.y1 - a.y0)) * a.top;
       const why = c.curve.why;
       c.editor.playhead.moveTo(before.current[0]);

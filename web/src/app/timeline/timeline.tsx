@@ -10,7 +10,7 @@ import { Plot } from './plot';
 import { TEXTS } from '../../texts/panels/timeline';
 
 export function Timeline() {
-  const { editor, form, variants } = useApp();
+  const { editor, form, signalEdges, variants } = useApp();
   const sheet = form.sheet.value;
   const some = useComputed(() => editor.reading.events.value.length > 0).value;
   const curves = useComputed(
@@ -20,9 +20,16 @@ export function Timeline() {
       editor.view.beside.value !== null ||
       variants.comparing.compared.value !== null,
   ).value;
+  const phases = useComputed(() => signalEdges.lanes.value.length > 0).value;
   const others = useOthersWord();
   return (
-    <footer class="time" aria-label={TEXTS.timeline} data-group="timeline" data-low={curves || sheet ? undefined : ''}>
+    <footer
+      class="time"
+      aria-label={TEXTS.timeline}
+      data-group="timeline"
+      data-low={curves || sheet ? undefined : ''}
+      data-phases={phases ? '' : undefined}
+    >
       <div class="tb">
         <IconButton id="play" class="playing" after={<Icon name="pause" size={18} />} />
         {sheet ? <Scrubber /> : null}

@@ -10,6 +10,7 @@ import {
   conditionOf,
   generatedJson,
   isEmptyCondition,
+  signalsJson,
   thresholdsOf,
   withStill,
 } from '../../model/document/scene-writer';
@@ -137,6 +138,7 @@ export class RequestBuilder {
     const agents = someStill(scene) ? withStill(scene, cast, moving) : cast;
     return {
       ...raw,
+      ...signalsJson(raw, scene),
       map,
       agents,
       generated: generatedJson(

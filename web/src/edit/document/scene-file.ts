@@ -4,7 +4,8 @@ import type { MotionSet } from '../../model/document/futures';
 import type { Committed } from '../../model/document/history';
 import { castKeyOfJson } from '../../model/document/scene-reader';
 import { sceneKey, type Scene } from '../../model/document/scene';
-import { castJson, generatedJson, variantSample, writeScene } from '../../model/document/scene-writer';
+import { castJson, generatedJson, signalsJson, variantSample, writeScene } from '../../model/document/scene-writer';
+import type { SignalStates } from '../../model/physics/signal-phases';
 import type { SceneRef } from '../../net/generator';
 import type { Session } from './session';
 
@@ -35,8 +36,9 @@ export class SceneFile {
   /** Variants whose motions are stored with the scene. */
   variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
-  /** Road users of the version that the server holds. */
+  /** Road users and signals of the version that the server holds. */
   #castKey: string | null = null;
+  #signals = '';
 
   constructor(private readonly session: Session) {}
 
@@ -54,9 +56,9 @@ export class SceneFile {
     return hash ? { ref: hash } : this.map!;
   }
 
-  /** Does the server hold a scene of these road users under the id of this one? */
+  /** Does the server hold a scene of these road users and signals under the id of this one? */
   holds(scene: Scene): boolean {
-    return this.stored && this.#castKey === scene.castKey;
+    return this.stored && this.#castKey === scene.castKey && this.#signals === statesOf(scene.signals);
   }
 
   /**
@@ -64,6 +66,7 @@ export class SceneFile {
    */
   noteStored(json: SceneJson): void {
     this.#castKey = castKeyOfJson(json);
+    this.#signals = statesOf(json.signals ?? []);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
   }
@@ -71,7 +74,9 @@ export class SceneFile {
   /** The scene of a request about its motions: by name where the server holds it, else with its road users. */
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
-    return { scene: { ...this.raw!, agents: castJson(scene), map: this.sentMap(), generated: null } };
+    const raw = this.raw!;
+    const of = { agents: castJson(scene), map: this.sentMap(), ...signalsJson(raw, scene) };
+    return { scene: { ...raw, ...of, generated: null } };
   }
 
   hadConditions(id: string): boolean {
@@ -109,6 +114,17 @@ export class SceneFile {
   complete(): SceneJson | null {
     return this.snapshot()?.complete() ?? null;
   }
+}
+
+type WithStates = readonly { readonly states: SignalStates }[];
+
+const written = new WeakMap<WithStates, string>();
+
+/** States of signals as text: equal texts, equal states. */
+function statesOf(signals: WithStates): string {
+  let text = written.get(signals);
+  if (text === undefined) written.set(signals, (text = JSON.stringify(signals.map((s) => s.states))));
+  return text;
 }
 
 /** Kept variants are written with the motions of all their road users: another generator may not reproduce them. */

@@ -2,6 +2,7 @@
 import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../../model/base/geometry';
 import { setBoth, setGoal, setStart, type Command } from '../../model/document/commands';
 import { topSpeed } from '../../model/base/domain';
+import { seconds } from '../../model/base/units';
 import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/document/scene';
 import { PENNANT, speedForTip } from '../../draw/handles';
 import type { View } from '../../draw/view';
@@ -227,7 +228,7 @@ export class HandleMove implements Move {
     const grid = mods.alt ? 0.01 : mods.shift || Math.abs(raw - Math.round(raw)) < WHOLE_SECOND_S ? 1 : 0.1;
     const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
     const patch = { time: Math.round(time * 100) / 100, ...this.#keptPlace() };
-    return { ...setGoal(a, { ...a.goal, ...patch }), name: TEXTS.goalTimeOfChanged(a.name) };
+    return { ...setGoal(a, { ...a.goal, ...patch }), name: TEXTS.goalTimeOfChanged(a.name, seconds(patch.time)) };
   }
 
   /** Ctrl: start and goal move, turn or change speed together. */

@@ -11,7 +11,7 @@ import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
 import { HandleMove } from './handle-move';
-import { wordsOnMap } from './on-the-map';
+import { itemOnMap, itemWords } from './on-the-map';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
 import { rectangle, Sweeping } from './sweeping';
@@ -129,12 +129,15 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
   editor.takeVia(added.index);
 }
 
-/** With nothing selected a click tells what is there. */
-function tellMap({ editor, surface }: Chart, press: Press): void {
+/** With nothing selected a click picks what is there: the panel has it. A finger covers that panel, and gets words. */
+function pickOnMap({ editor, surface }: Chart, press: Press): void {
   const scene = editor.scene.peek();
-  const at = surface.view.from(press.x, press.y);
-  const words = scene && wordsOnMap(scene, at, editor.playhead.time.peek());
-  if (words) editor.notices.show({ text: words }, TOLD_MS);
+  const item = scene && itemOnMap(scene, surface.view.from(press.x, press.y));
+  editor.pickOnMap(item);
+  if (!item) return;
+  const words = itemWords(scene, item, editor.playhead.time.peek());
+  if (press.touch) editor.notices.show({ text: words }, TOLD_MS);
+  editor.notices.say(words);
 }
 
 /** Room for a flag and its label, pixels. */
@@ -216,7 +219,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       else if (!adds) {
         const some = editor.selected.peek().length > 0;
         editor.select(null);
-        if (!some) tellMap(chart, press);
+        if (!some) pickOnMap(chart, press);
       }
   }
 }

@@ -4,6 +4,7 @@ import { nearestLanes } from '../../model/document/lanemap';
 import { choose, setGoal, setSize, setStart, type Command } from '../../model/document/commands';
 import { LETTERS } from '../../model/document/futures';
 import { topSpeed } from '../../model/base/domain';
+import { degrees, seconds, speedInUse } from '../../model/base/units';
 import { poseAt } from '../../model/base/motion';
 import {
   GOAL_TIME,
@@ -59,6 +60,13 @@ const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
 export const shownPose = (e: Editor, a: Agent, part: HandlePart): Pose | null =>
   part === 'start' ? startPose(a) : e.reading.goalPose(a);
 
+/** To which value, so that several steps in a row differ by name. */
+function changedTo(a: Agent, { heading, speed, time }: Partial<GoalSpec>): string {
+  if (time !== undefined) return TEXTS.changedTo(seconds(time));
+  if (heading != null) return TEXTS.changedTo(degrees(heading));
+  return speed == null ? TEXTS.changed : TEXTS.changedTo(speedInUse(speed, a.type === 'pedestrian'));
+}
+
 export function withField(a: Agent, part: HandlePart, patch: Partial<GoalSpec>, fold = false): Command {
   const words =
     'pos' in patch
@@ -70,7 +78,7 @@ export function withField(a: Agent, part: HandlePart, patch: Partial<GoalSpec>, 
         : 'speed' in patch
           ? `${part === 'goal' ? TEXTS.goalSpeed : TEXTS.speed}`
           : TEXTS.goalTime;
-  const done = 'pos' in patch ? TEXTS.movedWord : TEXTS.changed;
+  const done = 'pos' in patch ? TEXTS.movedWord : changedTo(a, patch);
   const c =
     part === 'goal'
       ? setGoal(a, { ...a.goal, ...patch })

@@ -10,9 +10,7 @@ import { trail } from '../../draw/strokes';
 import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
-
-/** More labels would cover the road users; the list is complete. */
-export const LABELS = 3;
+import { labelledChanges } from './picture';
 
 export class ChangesOverlay {
   constructor(
@@ -55,8 +53,7 @@ export class ChangesOverlay {
   paintChangeLabels(g: Pen, v: View): string[] {
     const { editor: e } = this;
     const labelled: string[] = [];
-    if (!e.view.showBefore.value || e.playhead.playing.value) return labelled;
-    for (const ch of e.answers.changes.value.slice(0, LABELS)) {
+    for (const ch of labelledChanges(e)) {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
       const style = { leader: colours().ink, radii: [44, 60, 84, 110], must: false };

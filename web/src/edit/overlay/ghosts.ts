@@ -11,7 +11,7 @@ import { boxOnScreen, colourKey, stamp } from '../../draw/sprites';
 import { colours } from '../../draw/theme';
 import type { View } from '../../draw/view';
 import type { Editor } from '../session/editor';
-import { LABELS } from './changes';
+import { LABELS } from './picture';
 
 /** Nearer to its own box than this share of its length, a ghost is only an outline. */
 const OVER_ITSELF = 0.6;

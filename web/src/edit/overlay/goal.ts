@@ -5,7 +5,7 @@ import { reachableWays, reachBetween, shortfall } from '../../model/physics/reac
 import { canChange, startPose, type Agent } from '../../model/document/scene';
 import { metres, seconds, speedLabel } from '../../model/base/units';
 import { pill, tag, type Labels, type Rect } from '../../draw/labels';
-import { paintFlag, paintGhost, paintHandles, paintString } from '../../draw/handles';
+import { FLAG, paintFlag, paintGhost, paintHandles, paintString } from '../../draw/handles';
 import { paintRing, paintWays } from '../../draw/ground';
 import { polyline } from '../../draw/strokes';
 import { colours } from '../../draw/theme';
@@ -23,6 +23,12 @@ const EDGE_TRIES = [
   [-32, -43],
   [-32, 17],
 ] as const;
+
+/** Is the foot of a flag or its pennant in the uncovered part of the picture? */
+function isFlagClear(v: View, { x, y }: Pose): boolean {
+  const [px, py] = v.to(x, y);
+  return v.isClear(x, y) || v.isClear(...v.from(px, py - (FLAG.height * v.grip) / 2));
+}
 
 export class GoalOverlay {
   /** Painted place of the time tag, for the pointer. */
@@ -156,7 +162,7 @@ export class GoalOverlay {
   /** A flag outside the picture has a tag at the edge, with the distance; it is dragged as the flag itself. */
   paintEdgeTag(g: Pen, v: View, a: Agent, now: Pose | null, goal: Pose & { set: boolean }): void {
     const { editor: e } = this;
-    if (e.drag.info.value || e.playhead.playing.value || a.locked || v.isClear(goal.x, goal.y)) return;
+    if (e.drag.info.value || e.playhead.playing.value || a.locked || isFlagClear(v, goal)) return;
     const c = colours();
     const { left, right, top, bottom } = v.inset;
     const middle = [(v.w + left - right) / 2, (v.h + top - bottom) / 2] as const;

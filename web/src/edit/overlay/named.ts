@@ -8,7 +8,7 @@ import { boxOnScreen, sizeOnScreen } from '../../draw/sprites';
 import type { View } from '../../draw/view';
 import { verdictsHold } from '../moves/goal-verdict';
 import type { Editor } from '../session/editor';
-import { namesAll } from './picture';
+import { labelledChanges, namesAll } from './picture';
 
 /** More names would cover the road users; the panel is complete. */
 const MOST_NAMES = 6;
@@ -17,7 +17,7 @@ const MOST_EVENTS = 3;
 
 export type NamedIn = Pick<
   Editor,
-  'agent' | 'answers' | 'drag' | 'hover' | 'reading' | 'scene' | 'selected' | 'selectedEvent' | 'view'
+  'agent' | 'answers' | 'drag' | 'hover' | 'playhead' | 'reading' | 'scene' | 'selected' | 'selectedEvent' | 'view'
 >;
 
 /** Ids of the road users that the panel names now, in the order of its texts. */
@@ -50,11 +50,12 @@ export class NamesOverlay {
   /** `but`: ids of those that another label names. */
   paint(g: Pen, v: View, but: readonly string[]): void {
     const { editor: e } = this;
+    const reacting = labelledChanges(e).map((c) => c.id);
     for (const id of namedNow(e)) {
       const a = e.scene.value!.agents.get(id)!;
       const p = this.poseNow(a);
       const isSelected = e.selected.value.includes(id);
-      if (!p || but.includes(id) || (!isSelected && namesAll(e, v) && !a.parked)) continue;
+      if (!p || but.includes(id) || (!isSelected && namesAll(e, v) && !a.parked && !reacting.includes(id))) continue;
       const half = boxOnScreen(v, a, p).h / 2;
       const [l] = sizeOnScreen(a, v.z);
       pill(g, this.labels, ...v.to(p.x, p.y), a.name, {

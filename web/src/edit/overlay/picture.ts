@@ -19,11 +19,21 @@ import { colours } from '../../draw/theme';
 import { MapPicture } from '../../draw/paint-map';
 import type { Stage } from '../../draw/stage';
 import type { View } from '../../draw/view';
+import type { Change } from '../../model/words/change-words';
 import type { Editor } from '../session/editor';
 import { laneWords } from '../moves/snap';
 import { TEXTS } from '../../texts/editing/picture';
 
 const REACT_MS = 320;
+
+/** More labels would cover the road users; the list is complete. */
+export const LABELS = 3;
+
+/** Reactions with a label, which has the name of the road user, too. */
+export const labelledChanges = (e: Pick<Editor, 'answers' | 'playhead' | 'view'>): readonly Change[] =>
+  e.view.showBefore.value && !e.view.beside.value && !e.playhead.playing.value
+    ? e.answers.changes.value.slice(0, LABELS)
+    : [];
 
 /** Are all moving road users named? By the layer, or from a near view. */
 export const namesAll = (e: Pick<Editor, 'view'>, v: View): boolean =>
@@ -230,13 +240,14 @@ export class Picture {
 
   private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): Rect[] {
     const names: Rect[] = [];
+    const reacting = new Set(labelledChanges(this.editor).map((c) => c.id));
     const labels = new Labels(v.w, v.h);
     for (const [, p] of shown) {
       const [x, y] = v.to(p.x, p.y);
       labels.block(x - 9, y - 7, 18, 14);
     }
     for (const [a, p] of shown) {
-      if (a.parked) continue;
+      if (a.parked || reacting.has(a.id)) continue;
       const half = sizeOnScreen(a, v.z)[1] / 2 + 12;
       const r = pill(g, labels, ...v.to(p.x, p.y), a.name, {
         weight: 500,

@@ -11,6 +11,7 @@ import { TEXTS } from '../../texts/editing/generation';
 import { Answers } from './answers';
 import { Commits } from './commits';
 import { Drag, type Grip, type HandlePart } from './drag';
+import type { MapItem } from './map-item';
 import { Notices } from './notices';
 import type { SessionPart } from './part';
 import { Playhead } from './playhead';
@@ -58,6 +59,7 @@ export class Editor {
   readonly #measure = signal<MeasuredLine | null>(null);
   readonly #sweep = signal<AreaSelection | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
+  readonly #mapItem = signal<MapItem | null>(null);
 
   readonly document = new Document();
   readonly scene: ReadonlySignal<Scene | null> = this.document.shown;
@@ -97,6 +99,8 @@ export class Editor {
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
   readonly sweep: ReadonlySignal<AreaSelection | null> = this.#sweep;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
+  /** The clicked part of the map; null while a road user is selected. */
+  readonly mapItem: ReadonlySignal<MapItem | null> = this.#mapItem;
 
   readonly answers = new Answers();
   readonly notices = new Notices();
@@ -121,7 +125,7 @@ export class Editor {
       this.document.open(scene, kept);
       this.#selected.value = NOBODY;
       this.#hover.value = null;
-      this.#selectedEvent.value = null;
+      this.#selectedEvent.value = this.#mapItem.value = null;
       this.#sweep.value = null;
       this.answers.open(scene, saved);
       this.playhead.rewind();
@@ -159,6 +163,7 @@ export class Editor {
   }
 
   selectAll(wanted: readonly string[]): void {
+    this.#mapItem.value = null;
     const now = this.#selected.peek();
     const here = this.scene.peek()?.agents;
     const ids = wanted.filter((id) => here?.has(id));
@@ -195,6 +200,10 @@ export class Editor {
 
   #chosenIn(scene: Scene | null): Agent[] {
     return this.selected.value.flatMap((id) => scene?.agents.get(id) ?? []);
+  }
+
+  pickOnMap(item: MapItem | null): void {
+    this.#mapItem.value = item;
   }
 
   pickEvent(event: TrafficEvent | null): void {

@@ -5,6 +5,7 @@ import { CASES } from './cases/feature';
 import type { FeatureParts, Supplies } from './feature';
 import { FILLING } from './filling/feature';
 import { LAYOUTS } from './layouts/feature';
+import { MAP_ITEMS } from './map-items/feature';
 import { PLACING } from './placing/feature';
 import { POINTING } from './pointing/feature';
 import { RELATIONS } from './relations/feature';
@@ -23,6 +24,7 @@ const FEATURES = [
   VARIANTS,
   CASES,
   RELATIONS,
+  MAP_ITEMS,
   REMEDIES,
 ] as const;
 

@@ -221,6 +221,7 @@ type ScenePatch = Partial<
     | 'replan'
     | 'duration'
     | 'drawn'
+    | 'signals'
     | 'variants'
     | 'variantStates'
     | 'feedback'
@@ -250,6 +251,10 @@ export const setReplan = (replan: Replan): Command => patchScene(TEXTS.replanEve
 
 /** Draws the motion of all road users again. */
 export const drawAnew = (scene: Scene): Command => patchScene(TEXTS.allGeneratedAgain, { drawn: scene.drawn + 1 });
+
+/** Other phases of signals: all road users are computed again. */
+export const setSignals = (scene: Scene, signals: Scene['signals'], fold?: string): Command =>
+  patchScene(TEXTS.signalPhasesChanged, { signals, drawn: scene.drawn + 1 }, fold);
 
 /** Sets the planned time. Goals after its end move to the end. */
 export function setLength(scene: Scene, length: Length): Command {

@@ -12,7 +12,7 @@ interface AgentDiff {
   readonly forth: AgentChange;
 }
 
-type Fields = Partial<Omit<Scene, 'agents' | 'castKey' | 'map' | 'signals' | 'id'>>;
+type Fields = Partial<Omit<Scene, 'agents' | 'castKey' | 'map' | 'id'>>;
 
 export interface SceneDiff {
   readonly agents: readonly AgentDiff[];
@@ -23,7 +23,7 @@ export interface SceneDiff {
 }
 
 /** Never part of a step: another map is another scene, and `castKey` follows from the agents. */
-const FIXED: readonly string[] = ['agents', 'castKey', 'map', 'signals', 'id'];
+const FIXED: readonly string[] = ['agents', 'castKey', 'map', 'id'];
 
 /** Values are frozen; equal ones may be different objects after storage. */
 const same = (a: unknown, b: unknown): boolean =>

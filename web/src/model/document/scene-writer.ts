@@ -167,6 +167,17 @@ export const castJson = (scene: Scene): AgentJson[] => [...scene.agents.values()
 /** A complete road user: for files and for copies. */
 export const wholeAgentJson = (a: Agent): AgentJson => ({ ...agentJson(a), conditions: conditionOf(a) });
 
+/** Signals as they were read, with the states of the scene: only these change. */
+export const signalsJson = (raw: SceneJson, scene: Scene): Pick<SceneJson, 'signals'> =>
+  raw.signals
+    ? {
+        signals: raw.signals.map((s, i) => {
+          const states = scene.signals[i]?.states.map(([first, state]): [number, string] => [first, state]);
+          return states ? { ...s, states } : s;
+        }),
+      }
+    : {};
+
 /** The loaded scene with the user's changes written in; all else is unchanged. */
 export function writeScene(
   raw: SceneJson,
@@ -178,6 +189,7 @@ export function writeScene(
     ...raw,
     name: scene.name,
     map: map ?? raw.map,
+    ...signalsJson(raw, scene),
     agents: Array.from(scene.agents.values(), wholeAgentJson),
     generated,
     x_editor: {

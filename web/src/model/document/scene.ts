@@ -85,7 +85,10 @@ export interface Pin {
 export interface Signal {
   readonly lane: string;
   readonly stop: Vec | null;
+  /** From this step on, this state. */
   readonly states: readonly (readonly [number, string])[];
+  /** The user has changed its states. */
+  readonly edited?: true;
 }
 
 /** Name and rating of a variant. */
@@ -273,6 +276,7 @@ function keyOf(scene: Scene): string {
   ];
   parts.push(scene.castKey);
   if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
+  for (const s of scene.signals) if (s.edited) parts.push([s.lane, s.states]);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
     if (profileOf(a)) parts.push([a.id, a.profile]);

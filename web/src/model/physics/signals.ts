@@ -14,10 +14,10 @@ const stepAt = (time: number): number => Math.floor(time / STEP_S + 1e-6);
 const nameAt = ({ states }: Signal, step: number): string =>
   states.findLast(([first]) => first <= step)?.[1] ?? 'unknown';
 
-export function lightAt(signal: Signal, time: number): Light {
-  const name = nameAt(signal, stepAt(time));
-  return LIGHTS.find((light) => name.includes(light)) ?? 'unknown';
-}
+/** The light of a state by its name. */
+export const lightOf = (name: string): Light => LIGHTS.find((light) => name.includes(light)) ?? 'unknown';
+
+export const lightAt = (signal: Signal, time: number): Light => lightOf(nameAt(signal, stepAt(time)));
 
 /** When the next state begins, seconds; null for the last one. */
 export function changesAt(signal: Signal, time: number): number | null {

@@ -47,7 +47,7 @@ export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'):
     case 'speeds_up':
       return TEXTS.speedsUpFor(name);
     case 'keeps_clear':
-      return TEXTS.keepsClearOf(name);
+      return TEXTS.keepsClearOf(name, r.ahead);
   }
 }
 

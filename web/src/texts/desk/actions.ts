@@ -74,6 +74,8 @@ export const TEXTS = table('actions', {
   chooseAndPlay: 'Choose and play',
   compareAllSide: 'Compare all side by side',
   backToTheMost: 'Back to the most likely future',
+  keepTheGap: 'Keep the gap to another road user',
+  noGapToKeep: 'Put a goal behind or ahead of a moving road user first.',
   useTheRouteByRoad: 'Use the route by road',
   noRouteByRoad: 'No other route by road is needed.',
   allowCrossing: 'Allow crossing the kerb or median',

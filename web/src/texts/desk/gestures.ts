@@ -11,7 +11,7 @@ export const TEXTS = table('gestures', {
   speed: 'Speed',
   ofChanged: (word: string, name: string) => `${word} of ${name} changed`,
   startOfMoved: (name: string) => `Start of ${name} moved`,
-  goalTimeOfChanged: (name: string) => `Goal time of ${name} changed`,
+  goalTimeOfChanged: (name: string, time: string) => `Goal time of ${name} changed to ${time}`,
   signalAt: (phase: string, place: string) => `Signal: ${phase}${place ? ` · ${place}` : ''}.`,
   phases: { red: 'red', amber: 'amber', green: 'green', unknown: 'state unknown' },
   until: (time: string) => ` until ${time} s`,

@@ -50,6 +50,7 @@ export const HELPS = table('helps', {
   playsFromTheStart: 'Plays from 0.0 s with the reactions of others',
   eachFuture: 'Each future as a variant, with the reactions of others',
   undoesTheChoice: 'Undoes your choice of a future',
+  theGoalIsThenRelative: 'Makes the goal relative to the road user beside it; it follows when that one moves',
   theNearest:
     'Moves the goal to the nearest place reachable by road in the same time, or chooses a future that follows the road',
   forThisGoalOnly: 'For this goal only: the kerb or median that the shown future crosses',

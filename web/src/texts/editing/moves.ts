@@ -61,6 +61,7 @@ export const TEXTS = table('moves', {
   speedWithin: 'speed',
   movedWord: 'moved',
   changed: 'changed',
+  changedTo: (value: string) => `changed to ${value}`,
   locked: 'locked',
   unlocked: 'unlocked',
   reacts: 'reacts',

@@ -28,6 +28,8 @@ export const TEXTS = table('relation', {
     three: 'three',
     four: 'four',
   },
+  /** A gap that can be held: "12 m behind Car 1". */
+  keep: (where: string) => `Keep ${where}`,
   relativeTo: (name: string) => `relative to ${name}`,
   relative: 'Relative',
   goalRelativeTo: 'Goal relative to another road user',

@@ -32,6 +32,8 @@ export const TEXTS = table('agent', {
   freeTheGeneratorDecides: 'Free: the generator decides. Click to fix it here',
   isFixed: 'Fixed',
   free: 'Free',
+  isRelative: 'Relative',
+  relativeToAnother: 'Relative to another road user. Click to fix it here',
   inMetres: (word: string, name: string) => `${word} ${name} in metres`,
   heading: 'Heading',
   headingWithin: 'heading',

@@ -11,5 +11,5 @@ export const TEXTS = table('reactions', {
   slowsTo: (speed: string, whom: string, behind: boolean) => `slows to ${speed} ${behind ? 'behind' : 'for'} ${whom}`,
   stopsBriefly: (whom: string, behind: boolean) => `stops briefly ${behind ? 'behind' : 'for'} ${whom}`,
   speedsUpFor: (name: string) => `speeds up for ${name}`,
-  keepsClearOf: (name: string) => `keeps clear of ${name}`,
+  keepsClearOf: (name: string, behind: boolean) => (behind ? `stays behind ${name}` : `keeps clear of ${name}`),
 });

@@ -21,6 +21,7 @@ export const TEXTS = table('steps', {
   othersReplay: 'Others replay the log',
   othersHoldStill: 'Others hold still',
   replanEvery: (replan: number) => `Replan every ${replan} s`,
+  signalPhasesChanged: 'Signal phases changed',
   allGeneratedAgain: 'All road users generated again',
   length: (length: number) => `Length ${length} s`,
   renamedTo: (name: string) => `Renamed to ${name}`,

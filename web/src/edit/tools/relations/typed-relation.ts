@@ -4,6 +4,7 @@ import { RELATION } from '../../../model/base/domain';
 import { figure, fromUnit, type SpeedUnit } from '../../../model/base/units';
 import type { Agent, Scene } from '../../../model/document/scene';
 import type { GoalRelationJson } from '../../../model/document/scene-json';
+import { dependence } from '../../moves/relating';
 import { TEXTS } from '../../../texts/editing/relation';
 
 /** A relation, and the goal time where one was typed; or why there is none. */
@@ -102,18 +103,6 @@ function outside(relation: GoalRelationJson): string | null {
     const value = relation[name as keyof typeof RANGES];
     if (value != null && (value < least || value > most))
       return TEXTS.outsideOf(`${figure(least)} ${unit}`.trim(), `${figure(most)} ${unit}`.trim());
-  }
-  return null;
-}
-
-/** Why the goal of a road user cannot depend on another's; null where it can. */
-function dependence(scene: Scene, own: Agent, to: Agent): string | null {
-  let next: Agent | undefined = to;
-  for (let row = 1; next; row++) {
-    if (next.id === own.id) return TEXTS.ring(to.name);
-    if (!next.goal.relation) return null;
-    if (row >= RELATION.most_in_a_row) return TEXTS.row(RELATION.most_in_a_row);
-    next = scene.agents.get(next.goal.relation.to);
   }
   return null;
 }

@@ -74,6 +74,8 @@ export const german: Said<typeof TEXTS> = {
   chooseAndPlay: 'Wählen und abspielen',
   compareAllSide: 'Alle nebeneinander vergleichen',
   backToTheMost: 'Zurück zur wahrscheinlichsten Zukunft',
+  keepTheGap: 'Abstand zu einem anderen Verkehrsteilnehmer halten',
+  noGapToKeep: 'Zuerst ein Ziel vor oder hinter einen fahrenden Verkehrsteilnehmer setzen.',
   useTheRouteByRoad: 'Route über die Straße nehmen',
   noRouteByRoad: 'Es ist keine andere Route über die Straße nötig.',
   allowCrossing: 'Überfahren von Bordstein oder Mittelstreifen erlauben',

@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   speed: 'Tempo',
   ofChanged: (word, name) => `${word} von ${name} geändert`,
   startOfMoved: (name) => `Start von ${name} verschoben`,
-  goalTimeOfChanged: (name) => `Zeit am Ziel von ${name} geändert`,
+  goalTimeOfChanged: (name, time) => `Zeit am Ziel von ${name} auf ${time} geändert`,
   signalAt: (phase, place) => `Signal: ${phase}${place ? ` · ${place}` : ''}.`,
   phases: { red: 'rot', amber: 'gelb', green: 'grün', unknown: 'Zustand unbekannt' },
   until: (time) => ` bis ${time.replace('.', ',')} s`,

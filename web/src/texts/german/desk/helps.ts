@@ -51,6 +51,7 @@ export const german: Said<typeof HELPS> = {
   playsFromTheStart: 'Spielt ab 0,0 s mit den Reaktionen anderer',
   eachFuture: 'Jede Zukunft als Variante, mit den Reaktionen anderer',
   undoesTheChoice: 'Hebt die Wahl einer Zukunft auf',
+  theGoalIsThenRelative: 'Macht das Ziel relativ zum Verkehrsteilnehmer daneben; es folgt, wenn der sich bewegt',
   theNearest:
     'Setzt das Ziel auf den nächsten Ort, den die Straße in derselben Zeit erreicht, oder wählt eine Zukunft, die der Straße folgt',
   forThisGoalOnly: 'Nur für dieses Ziel: der Bordstein oder Mittelstreifen, den die gezeigte Zukunft quert',

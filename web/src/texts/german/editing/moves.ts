@@ -64,6 +64,7 @@ export const german: Said<typeof TEXTS> = {
   speedWithin: 'Tempo',
   movedWord: 'verschoben',
   changed: 'geändert',
+  changedTo: (value) => `auf ${value} geändert`,
   locked: 'gesperrt',
   unlocked: 'entsperrt',
   reacts: 'reagiert',

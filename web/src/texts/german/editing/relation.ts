@@ -27,6 +27,7 @@ export const german: Said<typeof TEXTS> = {
     three: 'drei',
     four: 'vier',
   },
+  keep: (where) => `${where} halten`,
   relativeTo: (name) => `relativ zu ${name}`,
   relative: 'Relativ',
   goalRelativeTo: 'Ziel relativ zu einem anderen Verkehrsteilnehmer',

@@ -33,6 +33,8 @@ export const german: Said<typeof TEXTS> = {
   freeTheGeneratorDecides: 'Frei: der Generator entscheidet. Ein Klick legt es hier fest',
   isFixed: 'Fest',
   free: 'Frei',
+  isRelative: 'Relativ',
+  relativeToAnother: 'Relativ zu einem anderen Verkehrsteilnehmer. Ein Klick legt es hier fest',
   inMetres: (word: string, name: string) => `${word}, ${name} in Metern`,
   heading: 'Richtung',
   headingWithin: 'Richtung',

@@ -1,0 +1,81 @@
+// Parts of the map are clicked: the phases of a signal are dragged on the timeline, and all road users follow; a lane
+// has its limit and its users, a crosswalk who goes first.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { journeys } from '../../support/journey.js';
+
+const PANEL = 'aside.insp';
+const EDGE = '.phases .edge';
+
+journeys('signals, lanes and crosswalks', (stage) => {
+  it('an edge of a phase is dragged, moved by keys, undone and stored', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const { map, signals } = await e.get('/v1/scenes/demo-crossing');
+    const { lane, stop_m, states } = signals.find((s) => s.states.length === 2 && s.states[0][1] === 'go');
+    const pick = async ([x, y]) => {
+      await e.page.mouse.click(...(await e.at(x, y)));
+      await e.frames(2);
+    };
+    const edge = e.page.locator(EDGE);
+    const time = async () => Number(await edge.first().getAttribute('aria-valuenow'));
+    await pick(stop_m);
+    await edge.waitFor();
+    assert.match(await e.text(PANEL), /Signal[^]*Phases[^]*Green[^]*Amber/);
+    assert.equal(await time(), states[1][0] / 10);
+
+    // Dragged to 3 s: the edge follows the hand, and the release computes all road users with the new phases.
+    const [box, plot] = [await edge.boundingBox(), await e.page.locator('.plot').boundingBox()];
+    const perSecond = (plot.width - 74) / 9;
+    const asked = e.wire.asked.length;
+    const from = [box.x + box.width / 2, box.y + box.height / 2];
+    await e.drag(from, [from[0] - ((await time()) - 3) * perSecond, from[1]], { moves: 4 });
+    assert.equal(await time(), 3);
+    assert.equal(e.wire.asked.length, asked, 'nothing is asked in the drag');
+    await e.release();
+    const { body } = e.wire.last();
+    assert.equal(body.agents, 'all');
+    const group = signals.filter((s) => JSON.stringify(s.states) === JSON.stringify(states)).map((s) => s.lane);
+    const sent = new Map(body.scene.signals.map((s) => [s.lane, s.states]));
+    for (const s of signals) {
+      const expected = group.includes(s.lane) ? [states[0], [30, states[1][1]]] : s.states;
+      assert.deepEqual(sent.get(s.lane), expected, s.lane);
+    }
+    assert.ok(group.includes(lane) && group.length > 1);
+    await e.picture('signal-dragged');
+
+    // Keys move it, too; an undo restores it, and the signal stays picked.
+    await edge.focus();
+    await e.key('Shift+ArrowRight');
+    await e.settled();
+    assert.equal(await time(), 4);
+    for (const expected of [3, states[1][0] / 10]) {
+      await e.key('Control+z');
+      await e.settled();
+      assert.equal(await time(), expected);
+    }
+    await e.key('Control+Shift+z');
+    await e.settled();
+    assert.equal(await time(), 3);
+
+    // Another page has it.
+    await e.page.reload();
+    await e.ready();
+    await e.begin();
+    await pick(stop_m);
+    await edge.waitFor();
+    assert.equal(await time(), 3);
+
+    // Esc lets go of the signal; a crosswalk and a lane have their own words.
+    await e.key('Escape');
+    await e.until(() => !document.querySelector('.phases'));
+    const [p, , q] = map.crosswalks[0].polygon_m;
+    await pick([(p[0] + q[0]) / 2, (p[1] + q[1]) / 2]);
+    assert.match(await e.text(PANEL), /Crosswalk[^]*Priority[^]*By the signals/);
+    const free = map.lanes.find((l) => l.type === 'surface_street' && l.id === lane) ?? map.lanes[0];
+    const [x, y] = free.points_m[Math.floor(free.points_m.length / 2)];
+    await pick([x, y]);
+    assert.match(await e.text(PANEL), /Lane[^]*Speed limit[^]*Who may use it/);
+    await e.picture('lane-picked');
+  });
+});
