@@ -98,9 +98,10 @@ const HOUSES: &[House] = &[
                 "written",
                 "driving_side",
                 "encoding",
+                "around",
             ],
             &["problem", "surface"],
-            &["unpack", "describe", "lights", "sides", "markup", "headings"],
+            &["unpack", "describe", "lights", "sides", "markup", "headings", "cut"],
             &["xml", "format", "identities", "columnar", "repairs"],
             &["osm_items", "recording", "map_file", "tree", "unwritten", "settle", "kinds"],
             &[

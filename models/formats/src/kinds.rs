@@ -40,12 +40,6 @@ const KINDS: &[Kind] = &[
         instead: "export XML 1.x",
     },
     Kind {
-        what: "an OpenSCENARIO scenario",
-        ends: &["xosc"],
-        marks: &[Mark::Root("OpenSCENARIO"), Mark::Root("OpenScenario")],
-        instead: "import the OpenDRIVE map that it names; road users are placed on that",
-    },
-    Kind {
         what: "a list of SUMO routes",
         ends: &["rou.xml"],
         marks: &[Mark::Root("routes")],
