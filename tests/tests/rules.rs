@@ -115,6 +115,7 @@ const HOUSES: &[House] = &[
                 "gpudrive",
                 "table",
                 "av2",
+                "nuscenes",
                 "geojson",
                 "html",
                 "foxglove",

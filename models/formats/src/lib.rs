@@ -58,6 +58,7 @@ mod markup;
 pub mod native;
 pub mod netconvert;
 mod numbers;
+mod nuscenes;
 pub mod opendrive;
 mod openscenario;
 mod osm;
