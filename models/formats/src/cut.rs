@@ -21,7 +21,7 @@ const CORNERS: u32 = 96;
 
 /// Keeps what lies within the circle of a part, and says how much that is.
 pub(crate) fn cut(map: &mut LaneMap, signals: &mut Vec<Signal>, part: &MapPart) -> ImportWarning {
-    let circle = Circle { middle: part.middle, radius_m: part.around.radius_m };
+    let circle = CutCircle { middle: part.middle, radius_m: part.around.radius_m };
     let lanes = map.lanes.len();
     let stretches = cut_lanes(map, circle);
     let pieces = [&mut map.road_lines, &mut map.road_edges].map(|lines| cut_lines(lines, circle));
@@ -59,12 +59,12 @@ pub(crate) fn cut(map: &mut LaneMap, signals: &mut Vec<Signal>, part: &MapPart) 
 }
 
 #[derive(Clone, Copy)]
-struct Circle {
+struct CutCircle {
     middle: Vec2,
     radius_m: f64,
 }
 
-impl Circle {
+impl CutCircle {
     fn holds(&self, p: Vec2) -> bool {
         (p - self.middle).norm() <= self.radius_m
     }
@@ -84,18 +84,18 @@ impl Circle {
     }
 
     /// Stretches of a line that lie inside.
-    fn stretches(&self, line: &Points) -> Vec<Stretch> {
+    fn stretches(&self, line: &Points) -> Vec<CutStretch> {
         let last = line.xy.len().saturating_sub(1) as f64;
         if line.xy.iter().all(|p| self.holds(*p)) {
-            return vec![Stretch { from: 0.0, to: last, last }];
+            return vec![CutStretch { from: 0.0, to: last, last }];
         }
-        let mut found: Vec<Stretch> = Vec::new();
+        let mut found: Vec<CutStretch> = Vec::new();
         for (i, pair) in line.xy.windows(2).enumerate() {
             let Some((low, high)) = self.within(pair[0], pair[1]) else { continue };
             let (from, to) = (i as f64 + low, i as f64 + high);
             match found.last_mut() {
                 Some(before) if before.to >= from => before.to = to,
-                _ => found.push(Stretch { from, to, last }),
+                _ => found.push(CutStretch { from, to, last }),
             }
         }
         found
@@ -104,14 +104,14 @@ impl Circle {
 
 /// A stretch of a line, in numbers of its points and shares of the pieces between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Stretch {
+struct CutStretch {
     from: f64,
     to: f64,
     /// Last point of the line.
     last: f64,
 }
 
-impl Stretch {
+impl CutStretch {
     fn begins_cut(&self) -> bool {
         self.from > 0.0
     }
@@ -161,10 +161,10 @@ impl Stretch {
 }
 
 /// Cuts lanes; of one that enters the circle several times the longest stretch is kept.
-fn cut_lanes(map: &mut LaneMap, circle: Circle) -> HashMap<String, Stretch> {
+fn cut_lanes(map: &mut LaneMap, circle: CutCircle) -> HashMap<String, CutStretch> {
     let mut kept = HashMap::new();
     map.lanes.retain_mut(|lane| {
-        let long = |stretch: &Stretch| {
+        let long = |stretch: &CutStretch| {
             if stretch.is_cut() { length(&stretch.of(&lane.points).xy) } else { f64::INFINITY }
         };
         let stretches = circle.stretches(&lane.points).into_iter().map(|stretch| (long(&stretch), stretch));
@@ -183,7 +183,7 @@ fn cut_lanes(map: &mut LaneMap, circle: Circle) -> HashMap<String, Stretch> {
 type Pieces = Vec<(String, String, Vec<Vec2>)>;
 
 /// Cuts lines. A line may have several pieces; the first keeps its id.
-fn cut_lines(lines: &mut Vec<TypedLine>, circle: Circle) -> Pieces {
+fn cut_lines(lines: &mut Vec<TypedLine>, circle: CutCircle) -> Pieces {
     let mut taken: HashSet<String> = lines.iter().map(|line| line.id.clone()).collect();
     let (mut kept, mut pieces) = (Vec::new(), Vec::new());
     for line in lines.drain(..) {
@@ -218,7 +218,7 @@ fn fresh(id: &str, taken: &mut HashSet<String>) -> String {
 }
 
 /// Links, sides and neighbours after the cut.
-fn refer(map: &mut LaneMap, stretches: &HashMap<String, Stretch>, pieces: &Pieces) {
+fn refer(map: &mut LaneMap, stretches: &HashMap<String, CutStretch>, pieces: &Pieces) {
     let mut by_line: HashMap<&str, Vec<(&str, &[Vec2])>> = HashMap::new();
     for (whole, id, points) in pieces {
         by_line.entry(whole).or_default().push((id, points));
@@ -264,7 +264,7 @@ fn refer(map: &mut LaneMap, stretches: &HashMap<String, Stretch>, pieces: &Piece
 }
 
 /// The parts of an area inside, under its id.
-fn cut_area(area: Area, circle: Circle) -> Vec<Area> {
+fn cut_area(area: Area, circle: CutCircle) -> Vec<Area> {
     let rings = || std::iter::once(&area.polygon).chain(&area.holes);
     if rings().all(|ring| ring.xy.iter().all(|p| circle.holds(*p))) {
         return vec![area];
@@ -378,7 +378,7 @@ mod tests {
 
     #[test]
     fn ranges_are_numbered_anew() {
-        let stretch = Stretch { from: 1.5, to: 4.25, last: 9.0 };
+        let stretch = CutStretch { from: 1.5, to: 4.25, last: 9.0 };
         assert_eq!(stretch.renumbered((0, 9)), Some((0, 4)));
         assert_eq!(stretch.renumbered((2, 4)), Some((1, 3)));
         assert_eq!((stretch.renumbered((0, 1)), stretch.renumbered((5, 9))), (None, None));

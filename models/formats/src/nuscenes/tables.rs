@@ -175,9 +175,9 @@ impl Tables {
 
 /// Hands over the rows of a table.
 fn rows<T: DeserializeOwned>(bytes: &[u8], table: &str, take: impl FnMut(T)) -> Result<(), ReadError> {
-    struct Rows<T, F>(F, PhantomData<T>);
+    struct TableRows<T, F>(F, PhantomData<T>);
 
-    impl<'de, T: DeserializeOwned, F: FnMut(T)> Visitor<'de> for Rows<T, F> {
+    impl<'de, T: DeserializeOwned, F: FnMut(T)> Visitor<'de> for TableRows<T, F> {
         type Value = bool;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -197,7 +197,8 @@ fn rows<T: DeserializeOwned>(bytes: &[u8], table: &str, take: impl FnMut(T)) -> 
     }
 
     let mut json = serde_json::Deserializer::from_reader(bytes.take(u64::MAX));
-    let read = json.deserialize_seq(Rows(take, PhantomData)).and_then(|whole| json.end().map(|()| whole));
+    let read =
+        json.deserialize_seq(TableRows(take, PhantomData)).and_then(|whole| json.end().map(|()| whole));
     match read {
         Ok(true) => Ok(()),
         Ok(false) => {

@@ -19,14 +19,14 @@ pub(super) fn most(file: &dyn Source) -> u64 {
 
 /// Files of a scenario.
 #[derive(Default)]
-pub(super) struct Files {
+pub(super) struct ScenarioFiles {
     /// Scenarios and catalogs with their names.
     pub texts: Vec<(String, Vec<u8>)>,
     /// Maps with their names.
     pub maps: Vec<(String, Vec<u8>)>,
 }
 
-impl Files {
+impl ScenarioFiles {
     /// # Errors
     /// The bounds of a file, `malformed-file`.
     pub fn read(file: &dyn Source) -> Result<Self, ReadError> {

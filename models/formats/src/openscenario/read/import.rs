@@ -1,10 +1,10 @@
 //! From the files of a scenario to a scene.
 
 use super::entities::{Catalogs, Entity, entry};
-use super::files::Files;
-use super::motion::{MAX_POSES, Move, Stage, TimedPose, When, deepest, named, when};
+use super::files::ScenarioFiles;
+use super::motion::{MAX_POSES, MotionReader, Move, TracePose, When, deepest, named, when};
 use super::parameters::{Scope, attribute, number};
-use super::places::{Places, Pose};
+use super::places::{Pose, ScenarioPlaces};
 use super::unread::Unread;
 use crate::format::{ImportOptions, MAP_TIMING, NET_POINTER, NOW_STEP, Scenes, one};
 use crate::frame::Frame;
@@ -45,7 +45,7 @@ pub(crate) fn scenes<'a>(file: &'a dyn Source, options: &'a ImportOptions) -> Sc
 }
 
 fn read(file: &dyn Source, options: &ImportOptions) -> Result<Recording, ReadError> {
-    let files = Files::read(file)?;
+    let files = ScenarioFiles::read(file)?;
     let mut catalogs = Catalogs::new();
     let mut scenario = None;
     for (name, text) in &files.texts {
@@ -56,7 +56,8 @@ fn read(file: &dyn Source, options: &ImportOptions) -> Result<Recording, ReadErr
     let Some((_, text)) = scenario else {
         return Err(ReadError::other_content(refusals::file_has_no(what::ROAD_USER)));
     };
-    let mut reader = Reader { files: &files, options, catalogs, ..Reader::new(&files, options) };
+    let mut reader =
+        ScenarioReader { files: &files, options, catalogs, ..ScenarioReader::new(&files, options) };
     reader.read(text)?;
     reader.finish()
 }
@@ -94,8 +95,8 @@ fn catalog(text: &[u8], to: &mut Catalogs) -> Result<bool, ReadError> {
 /// Moves of an act, each with its own time, until the start of the act is known.
 type ActMoves = Vec<(String, Option<f64>, Move)>;
 
-struct Reader<'a> {
-    files: &'a Files,
+struct ScenarioReader<'a> {
+    files: &'a ScenarioFiles,
     options: &'a ImportOptions,
     catalogs: Catalogs,
     unread: Unread,
@@ -103,12 +104,12 @@ struct Reader<'a> {
     /// Parameters of the scenario, and those of the open story.
     scope: Scope,
     story: Scope,
-    places: Places,
+    places: ScenarioPlaces,
     entities: Vec<Entity>,
     /// Positions at the start that wait for another road user's.
     waiting: Vec<(String, XmlNode, String)>,
     speeds_mps: HashMap<String, f64>,
-    follows: BTreeMap<String, Vec<TimedPose>>,
+    follows: BTreeMap<String, Vec<TracePose>>,
     leaves: HashMap<String, f64>,
     poses: usize,
     /// Poses of actions, with those of acts that have not ended.
@@ -120,8 +121,8 @@ struct Reader<'a> {
     frame: Option<Frame>,
 }
 
-impl<'a> Reader<'a> {
-    fn new(files: &'a Files, options: &'a ImportOptions) -> Self {
+impl<'a> ScenarioReader<'a> {
+    fn new(files: &'a ScenarioFiles, options: &'a ImportOptions) -> Self {
         Self {
             files,
             options,
@@ -130,7 +131,7 @@ impl<'a> Reader<'a> {
             said: Said::default(),
             scope: Scope::default(),
             story: Scope::default(),
-            places: Places::default(),
+            places: ScenarioPlaces::default(),
             entities: Vec::new(),
             waiting: Vec::new(),
             speeds_mps: HashMap::new(),
@@ -207,7 +208,7 @@ impl<'a> Reader<'a> {
             ("Act", "ManeuverGroup") => {
                 let story = self.story.clone();
                 story.fill(&mut node)?;
-                let mut stage = Stage {
+                let mut stage = MotionReader {
                     places: &self.places,
                     catalogs: &self.catalogs,
                     unread: &mut self.unread,
@@ -339,7 +340,7 @@ impl<'a> Reader<'a> {
                 self.unread.push(&deepest(&way, inner));
                 continue;
             };
-            let mut stage = Stage {
+            let mut stage = MotionReader {
                 places: &self.places,
                 catalogs: &self.catalogs,
                 unread: &mut self.unread,
@@ -393,7 +394,7 @@ impl<'a> Reader<'a> {
                 Move::Follow(poses) => self.follow(&name, poses)?,
                 Move::Comes(timed) => {
                     let time_s = timed.time_s + late_s;
-                    self.follow(&name, vec![TimedPose { time_s, ..timed }])?;
+                    self.follow(&name, vec![TracePose { time_s, ..timed }])?;
                 }
                 Move::Leaves(time_s) => {
                     let first = self.leaves.entry(name).or_insert(f64::INFINITY);
@@ -404,7 +405,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn follow(&mut self, name: &str, poses: Vec<TimedPose>) -> Result<(), ReadError> {
+    fn follow(&mut self, name: &str, poses: Vec<TracePose>) -> Result<(), ReadError> {
         self.poses += poses.len();
         if self.poses > MAX_POSES {
             let message = refusals::more_than(MAX_POSES, what::POSITIONS);
@@ -453,12 +454,12 @@ impl<'a> Reader<'a> {
         let speed_mps = self.speeds_mps.get(&entity.name).copied();
         let begun = poses.first().is_none_or(|first| first.time_s > SAME_S);
         if let Some(pose) = initial.filter(|_| begun) {
-            poses.insert(0, TimedPose { time_s: 0.0, pose: *pose });
+            poses.insert(0, TracePose { time_s: 0.0, pose: *pose });
         }
         let leaves_s = self.leaves.get(&entity.name).copied().unwrap_or(f64::INFINITY);
         poses.retain(|timed| timed.time_s < leaves_s - SAME_S);
         let headings = headings(&poses);
-        let sample = |(i, timed): (usize, &TimedPose)| {
+        let sample = |(i, timed): (usize, &TracePose)| {
             let heading_rad = headings.get(i).copied().unwrap_or_default();
             let at = timed.pose.at + rotate(entity.middle, heading_rad);
             let first = speed_mps.filter(|_| timed.time_s == 0.0 && initial.is_some());
@@ -476,7 +477,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Poses with those at the steps between them: a polyline leads straight and evenly from one to the next.
-fn at_steps(poses: &[TimedPose]) -> Vec<TimedPose> {
+fn at_steps(poses: &[TracePose]) -> Vec<TracePose> {
     let mut filled = Vec::with_capacity(poses.len());
     for pair in poses.windows(2) {
         let (a, b) = (pair[0], pair[1]);
@@ -493,7 +494,7 @@ fn at_steps(poses: &[TimedPose]) -> Vec<TimedPose> {
             let turn = a.pose.heading_rad.zip(b.pose.heading_rad);
             let heading_rad = turn.map(|(from, to)| from + share * wrap_angle(to - from));
             let at = a.pose.at + (b.pose.at - a.pose.at) * share;
-            filled.push(TimedPose { time_s, pose: Pose { at, heading_rad } });
+            filled.push(TracePose { time_s, pose: Pose { at, heading_rad } });
         }
         if filled.len() > MAX_POSES {
             break;
@@ -504,7 +505,7 @@ fn at_steps(poses: &[TimedPose]) -> Vec<TimedPose> {
 }
 
 /// Headings of poses; one that is not stated is that of the way to the next pose, else from the one before.
-fn headings(poses: &[TimedPose]) -> Vec<f64> {
+fn headings(poses: &[TracePose]) -> Vec<f64> {
     let way = |a: &Pose, b: &Pose| {
         let way = b.at - a.at;
         (way.norm() > 0.01).then(|| way.y.atan2(way.x))

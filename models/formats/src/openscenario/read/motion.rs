@@ -6,7 +6,7 @@
 
 use super::entities::{Catalogs, entry};
 use super::parameters::{Scope, attribute, number};
-use super::places::{Places, Pose};
+use super::places::{Pose, ScenarioPlaces};
 use super::unread::Unread;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, what};
@@ -21,7 +21,7 @@ pub(super) type Place<'a> = &'a str;
 
 /// A pose at a time, seconds.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TimedPose {
+pub(super) struct TracePose {
     pub time_s: f64,
     pub pose: Pose,
 }
@@ -30,9 +30,9 @@ pub(super) struct TimedPose {
 #[derive(Debug)]
 pub(super) enum Move {
     /// Follows poses.
-    Follow(Vec<TimedPose>),
+    Follow(Vec<TracePose>),
     /// Is there from a time on.
-    Comes(TimedPose),
+    Comes(TracePose),
     /// Is gone from a time on, seconds.
     Leaves(f64),
 }
@@ -69,8 +69,8 @@ pub(super) fn when(trigger: &XmlNode) -> Result<When, ReadError> {
 }
 
 /// What actions refer to, and what of them is not read.
-pub(super) struct Stage<'a> {
-    pub places: &'a Places,
+pub(super) struct MotionReader<'a> {
+    pub places: &'a ScenarioPlaces,
     pub catalogs: &'a Catalogs,
     pub unread: &'a mut Unread,
     /// Poses of all moves so far.
@@ -79,7 +79,7 @@ pub(super) struct Stage<'a> {
     pub moves: Vec<(String, Option<f64>, Move)>,
 }
 
-impl Stage<'_> {
+impl MotionReader<'_> {
     /// Takes the events of a `<ManeuverGroup>`.
     ///
     /// # Errors
@@ -181,7 +181,7 @@ impl Stage<'_> {
                 };
                 match pose {
                     Some(pose) => {
-                        self.moves.push((name, start, Move::Comes(TimedPose { time_s, pose })));
+                        self.moves.push((name, start, Move::Comes(TracePose { time_s, pose })));
                     }
                     None if inner.child("DeleteEntityAction").is_some() => {
                         self.moves.push((name, start, Move::Leaves(time_s)));
@@ -204,7 +204,7 @@ impl Stage<'_> {
         start_s: f64,
         scope: &Scope,
         place: Place<'_>,
-    ) -> Result<Option<Vec<TimedPose>>, ReadError> {
+    ) -> Result<Option<Vec<TracePose>>, ReadError> {
         let reference = follow.child("TrajectoryRef").unwrap_or(follow);
         let catalogued = match reference.child("CatalogReference") {
             Some(reference) => entry(self.catalogs, scope, reference)?.map(|(node, _)| node),
@@ -229,7 +229,7 @@ impl Stage<'_> {
         for (i, vertex) in polyline.all("Vertex").enumerate() {
             let time_s = number(vertex, "time")?.unwrap_or(0.0) * scale + offset_s + from_s;
             match vertex.child("Position").map(|position| self.places.of(position)).transpose()?.flatten() {
-                Some(pose) => poses.push(TimedPose { time_s, pose }),
+                Some(pose) => poses.push(TracePose { time_s, pose }),
                 None => {
                     self.unread.push(&format!("{place}/Trajectory/Shape/Polyline/Vertex[{}]", i + 1));
                     return Ok(None);

@@ -71,7 +71,7 @@ impl Scope {
     fn value(&self, node: &XmlNode, text: &str) -> Result<String, ReadError> {
         let wrong = || node.wrong(text, wanted::PARAMETER);
         if let Some(inner) = text.strip_prefix("${").and_then(|rest| rest.strip_suffix('}')) {
-            let mut expression = Expression { scope: self, rest: inner.as_bytes(), depth: 0 };
+            let mut expression = ParameterExpression { scope: self, rest: inner.as_bytes(), depth: 0 };
             let value = expression.sum().filter(|v| v.is_finite() && expression.is_done());
             return value.map(|value| value.to_string()).ok_or_else(wrong);
         }
@@ -98,13 +98,13 @@ pub(super) fn number(node: &XmlNode, name: &str) -> Result<Option<f64>, ReadErro
 }
 
 /// The rest of an expression.
-struct Expression<'a> {
+struct ParameterExpression<'a> {
     scope: &'a Scope,
     rest: &'a [u8],
     depth: usize,
 }
 
-impl Expression<'_> {
+impl ParameterExpression<'_> {
     fn sum(&mut self) -> Option<f64> {
         let mut value = self.product()?;
         while let Some(sign) = self.sign(b"+-") {

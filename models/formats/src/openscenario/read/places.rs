@@ -19,7 +19,7 @@ pub(super) struct Pose {
 
 /// What positions refer to.
 #[derive(Default)]
-pub(super) struct Places {
+pub(super) struct ScenarioPlaces {
     pub roads: Option<RoadPlaces>,
     /// Initial poses by the name of the entity.
     pub entities: HashMap<String, Pose>,
@@ -28,7 +28,7 @@ pub(super) struct Places {
 /// Attributes that are offsets along and across something.
 type Offsets = (f64, f64);
 
-impl Places {
+impl ScenarioPlaces {
     /// The place of a `<Position>`; nothing for one that is not resolved.
     ///
     /// # Errors
