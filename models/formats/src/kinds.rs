@@ -212,11 +212,6 @@ mod tests {
                 "a.osc",
                 "an OpenSCENARIO 2 text is not read; export XML 1.x",
             ),
-            (
-                b"<?xml version='1.0'?><OpenSCENARIO><FileHeader/></OpenSCENARIO>",
-                "a.xosc",
-                "an OpenSCENARIO scenario is not read",
-            ),
             (b"SQLite format 3\0\x10", "log.db", "an SQLite database"),
             (b"PK\x03\x04\x14", "a.zip", "a ZIP archive is not read; unpack it"),
             (b"\x00\x00\x00\x0d\x0a\x09OSMHeader", "a.osm.pbf", "an OpenStreetMap extract in PBF"),

@@ -78,7 +78,7 @@ mod tests {
             radius: 20.0,
             segment_length: [10.0, quarter, 4.0],
         };
-        let line = points(&[path.clone()]).unwrap();
+        let line = points(std::slice::from_ref(&path)).unwrap();
         let end = line.last().unwrap();
         assert!((end - Vec2::new(35.0, 25.0)).norm() < 1e-9, "{end}");
         assert!(line.windows(2).all(|w| (w[1] - w[0]).norm() < 1.01));
