@@ -321,15 +321,19 @@ def _plain(number: Any) -> Any:
     raise TypeError(f"{type(number).__name__} has no place in a document")
 
 
-def open(path: str | os.PathLike[str], index: int = 0) -> Scene:
+def open(
+    path: str | os.PathLike[str], index: int = 0, around: tuple[float, float, float] | None = None
+) -> Scene:
     """Opens a scene of any format that ``dragtraffic convert`` reads; ``index`` says which one of a file of many.
+
+    ``around`` reads a part of a map: x, y in the coordinates of the file and a radius of 10 to 5000 m.
 
     Raises:
         DragTrafficError: with the fault and where in the file it lies.
     """
     path = Path(path)
     try:
-        native, said = _native.Scene.read(path.read_bytes(), path.name, index)
+        native, said = _native.Scene.read(path.read_bytes(), path.name, index, around)
     except DragTrafficError as refused:
         raise DragTrafficError(f"{path}: {refused}", refused.code, refused.errors) from None
     scene = Scene._of(native)

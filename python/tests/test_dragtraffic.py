@@ -240,3 +240,13 @@ def test_a_notebook_cell_takes_goals_and_keeps_what_the_engine_refuses(scene: Sc
         viewer._handle_custom_msg(odd, [])
     assert viewer._motion == before
     json.dumps([viewer._map, viewer._motion], allow_nan=False)
+
+
+def test_a_part_of_a_map_is_opened(tmp_path: Path) -> None:
+    lane = '<edge id="{0}"><lane id="{0}_0" index="0" speed="9" length="900" shape="0,{1} 900,{1}"/></edge>'
+    path = tmp_path / "a.net.xml"
+    path.write_text(f"<net>{lane.format('near', 0)}{lane.format('far', 500)}</net>")
+    part = dragtraffic.open(path, around=(400, 0, 150))
+    assert len(part.map["lanes"]) == 1
+    with pytest.raises(dragtraffic.DragTrafficError):
+        dragtraffic.open(path, around=(400, 0, 1))

@@ -318,3 +318,40 @@ fn commands_and_their_exit_codes() {
     let document = root().join("assets/openapi.json");
     assert_eq!(run(&["openapi", "--check", document.to_str().unwrap()]).status.code(), Some(0));
 }
+
+#[test]
+fn a_part_of_a_map_is_read_on_request() {
+    let lane = |id: &str, y: f64| {
+        format!(
+            r#"<edge id="{id}" from="a{id}" to="b{id}"><lane id="{id}_0" index="0" speed="13.9" length="900" width="3.2" shape="0,{y} 900,{y}"/></edge>"#
+        )
+    };
+    let net = format!("<net>{}{}</net>", lane("near", 0.0), lane("far", 500.0));
+    let server = Server::start(&[]).unwrap();
+    let ask = |query: &str, file: &str| {
+        let target = format!("/v1/import?dry_run=true&around={query}");
+        server.send(&upload(&target, file.as_bytes().to_vec())).unwrap()
+    };
+    let read = ask("400,0,150", &net);
+    assert_eq!(read.status, 200, "{}", read.text());
+    let scene = &read.json()["scenes"][0];
+    assert_eq!(scene["scene"]["map"]["lanes"].as_array().unwrap().len(), 1);
+    let said = scene["warnings"].as_array().unwrap().iter().find(|w| w["code"] == "cut-around").unwrap();
+    assert_eq!(
+        (said["message"]["values"]["kept"].as_f64(), said["message"]["values"]["outside"].as_f64()),
+        (Some(1.0), Some(1.0))
+    );
+    for (query, file) in [("400,0", net.as_str()), ("400,0,150", "agent_id,time_s,x_m,y_m\n1,0,0,0\n")] {
+        let refused = ask(query, file);
+        assert_eq!((refused.status, refused.code()), (422, "invalid-field".to_owned()), "{}", refused.text());
+        assert_eq!(refused.json()["errors"][0]["pointer"], "/query/around");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::write(at("a.net.xml"), &net).unwrap();
+    let made = run(&["convert", &at("a.net.xml"), "--around", "-400,0,150", "-o", &at("a.json")]);
+    assert_eq!(made.status.code(), Some(3), "a circle beside the map");
+    let made = run(&["convert", &at("a.net.xml"), "--around", "400,0,150", "-o", &at("a.json")]);
+    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    assert!(String::from_utf8_lossy(&made.stderr).contains("within 150 m of 400, 0: lanes kept 1"));
+}

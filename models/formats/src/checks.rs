@@ -2,6 +2,7 @@
 //! corpus; a violation panics.
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
+use crate::around::Chosen;
 use crate::format::{ExportOptions, ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::osm::extract;
@@ -59,8 +60,8 @@ pub fn native(bytes: &[u8]) -> bool {
 /// # Panics
 /// If it reads back differently.
 pub fn osm(bytes: &[u8]) -> bool {
-    let Ok(roads) = extract::read(&bytes) else { return false };
-    let again = extract::read(&roads.xml).expect("what was written is read");
+    let Ok(roads) = extract::read(&bytes, &mut Chosen::default()) else { return false };
+    let again = extract::read(&roads.xml, &mut Chosen::default()).expect("what was written is read");
     assert_eq!(again.xml, roads.xml, "writing is not stable");
     true
 }

@@ -1,5 +1,6 @@
 //! The interface of a format, implemented by every reader and writer.
 
+use crate::around::Around;
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::netconvert::Netconvert;
@@ -60,6 +61,8 @@ pub struct ImportOptions {
     /// The column file, for formats that accept one ([`Format::takes_columns`]): a JSON object from this
     /// program's column names to the table's. Faults in it are reported under [`COLUMNS_POINTER`].
     pub columns: Option<Arc<dyn Source>>,
+    /// The part of a map that is read, for formats of maps ([`Format::takes_around`]). All of it when absent.
+    pub around: Option<Around>,
 }
 
 /// Pointer of faults in [`ImportOptions::net`].
@@ -78,6 +81,7 @@ impl Default for ImportOptions {
             net: None,
             netconvert: None,
             columns: None,
+            around: None,
         }
     }
 }
@@ -207,6 +211,11 @@ pub trait Format: Sync {
 
     /// May come with names of columns ([`ImportOptions::columns`]).
     fn takes_columns(&self) -> bool {
+        false
+    }
+
+    /// A part of its map can be read ([`ImportOptions::around`]).
+    fn takes_around(&self) -> bool {
         false
     }
 

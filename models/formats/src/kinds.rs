@@ -40,12 +40,6 @@ const KINDS: &[Kind] = &[
         instead: "export XML 1.x",
     },
     Kind {
-        what: "an OpenSCENARIO scenario",
-        ends: &["xosc"],
-        marks: &[Mark::Root("OpenSCENARIO"), Mark::Root("OpenScenario")],
-        instead: "import the OpenDRIVE map that it names; road users are placed on that",
-    },
-    Kind {
         what: "a list of SUMO routes",
         ends: &["rou.xml"],
         marks: &[Mark::Root("routes")],
@@ -217,11 +211,6 @@ mod tests {
                 b"import osc.standard.all\n\nscenario top:\n",
                 "a.osc",
                 "an OpenSCENARIO 2 text is not read; export XML 1.x",
-            ),
-            (
-                b"<?xml version='1.0'?><OpenSCENARIO><FileHeader/></OpenSCENARIO>",
-                "a.xosc",
-                "an OpenSCENARIO scenario is not read",
             ),
             (b"SQLite format 3\0\x10", "log.db", "an SQLite database"),
             (b"PK\x03\x04\x14", "a.zip", "a ZIP archive is not read; unpack it"),

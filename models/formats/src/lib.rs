@@ -26,11 +26,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod around;
 pub mod av2;
 mod bounds;
 pub mod checks;
 pub mod columnar;
 mod commonroad;
+mod cut;
 mod describe;
 mod driving_side;
 mod encoding;
@@ -56,6 +58,7 @@ mod markup;
 pub mod native;
 pub mod netconvert;
 mod numbers;
+mod nuscenes;
 pub mod opendrive;
 mod openscenario;
 mod osm;

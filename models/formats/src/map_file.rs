@@ -1,10 +1,12 @@
 //! Formats whose file is one map: a scene with its signals, without road users.
 
+use crate::around::{Around, MapPart};
+use crate::cut::cut;
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one_scene, only, only_read,
 };
-use crate::problem::{ImportWarning, Imported, ReadError};
-use crate::refusals;
+use crate::problem::{ImportWarning, Imported, ReadError, code};
+use crate::refusals::{self, what};
 use crate::repairs::{self, checked};
 use crate::source::Source;
 use crate::{unpack, xml};
@@ -34,7 +36,7 @@ pub(crate) struct MapFile {
     /// Codes of the losses that a written file may have.
     pub loses: &'static [&'static str],
     /// The reader.
-    pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
+    pub read: fn(&dyn Source, Option<Around>) -> Result<MapRead, ReadError>,
     /// The writer, where there is one.
     pub write: Option<fn(&Scene, &ExportOptions) -> io::Result<Exported>>,
 }
@@ -50,6 +52,8 @@ pub(crate) struct MapRead {
     /// Origin in the file's frame.
     pub origin: Origin,
     pub warnings: Vec<ImportWarning>,
+    /// The circle to which the map is to be cut.
+    pub part: Option<MapPart>,
 }
 
 impl MapRead {
@@ -58,7 +62,13 @@ impl MapRead {
     /// # Errors
     /// The bounds of a scene.
     pub fn scene(self, source: &str, licence: Option<String>) -> Result<Imported, ReadError> {
-        let Self { name, mut map, signals, origin, mut warnings } = self;
+        let Self { name, mut map, mut signals, origin, mut warnings, part } = self;
+        if let Some(part) = part {
+            warnings.push(cut(&mut map, &mut signals, &part));
+            if map.lanes.is_empty() {
+                return Err(ReadError::other_content(refusals::file_has_no(what::LANE)));
+            }
+        }
         warnings.extend(repairs::drop_far_links(&mut map));
         let scene = Scene {
             id: None,
@@ -100,8 +110,16 @@ impl Format for MapFile {
         u8::from(self.extensions.iter().any(ends))
     }
 
+    fn takes_around(&self) -> bool {
+        true
+    }
+
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        only(options, || (self.read)(file).and_then(|read| read.scene(self.source, options.licence.clone())))
+        only(options, || {
+            let read = (self.read)(file, options.around);
+            let scene = read.and_then(|read| read.scene(self.source, options.licence.clone()));
+            scene.map_err(|error| with_advice(error, options.around))
+        })
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
@@ -110,6 +128,17 @@ impl Format for MapFile {
             Some(write) => one_scene(scenes).and_then(|scene| write(scene, options)),
         }
     }
+}
+
+/// The refusal of a map that is too large, with what reads a part of it.
+pub(crate) fn with_advice(mut error: ReadError, around: Option<Around>) -> ReadError {
+    let large = [code::MAP_TOO_LARGE, code::DECODED_TOO_LARGE].contains(&error.code());
+    if let (true, None, Some(first)) = (large, around, error.problems.first_mut())
+        && first.pointer.is_empty()
+    {
+        first.detail = format!("{}. {}", first.detail, refusals::near_a_place());
+    }
+    error
 }
 
 /// A map of this half size reaches farther from its middle than a scene can; with room for what is drawn beside lanes.

@@ -97,6 +97,7 @@ pub mod what {
 pub mod wanted {
     scene::words! {
         AFTER_VIA = "a time after that of the via point before";
+        AROUND = "X,Y,RADIUS: the coordinates of a place in the file and 10 to 5000 m";
         AGENT_TYPE = "vehicle, pedestrian or cyclist";
         ANGLE = "an angle in degrees";
         ARGUMENTS = "arguments that the name takes";
@@ -155,6 +156,7 @@ pub mod wanted {
         ONE_SCENARIO = "one scenario in the file";
         PAGE_PLACE = "pages that end within their column";
         PAIR = "a pair";
+        PARAMETER = "the name of a declared parameter, or an expression in ${}";
         PLACE = "a position";
         POINT = "a point such as 1.5,-2.0";
         PROBABILITY = "a probability";
@@ -231,15 +233,21 @@ scene::messages! {
         "map-too-wide", "{width_m:.0} m x {height_m:.0} m; a map reaches {most_m} m from its middle";
     needs(what: &str, expected: impl Placeholder) = "needs", "{what} needs {expected}";
     nested_deeper(most: usize) = "nested-deeper", "nested deeper than {most} levels";
+    near_a_place() =
+        "near-a-place",
+        "--around X,Y,RADIUS (in a call: around) reads the part within RADIUS metres of X,Y in the coordinates of the file";
     netconvert_failed(words: &str) =
         "netconvert-failed", "netconvert could not make a network of the file: {words}";
     netconvert_missing() =
         "netconvert-missing",
         "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with \
          `pip install eclipse-sumo` and start again";
+    nothing_around(radius_m: f64, x: f64, y: f64, x_range: &str, y_range: &str) =
+        "nothing-around",
+        "no lane lies within {radius_m:.0} m of {x}, {y}; the file has x {x_range} and y {y_range}";
     network_too_large(most: usize, what: Word) =
         "network-too-large",
-        "more than {most} {what}; cut a part out with netconvert --keep-edges.in-boundary";
+        "more than {most} {what}";
     no_column(column: &str, columns: &str) = "no-column", "no column \"{column}\"; there are {columns}";
     no_lanelets() =
         "no-lanelets", "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
@@ -279,7 +287,7 @@ scene::messages! {
     roads_over_memory(lanes_m: f64, elements: usize) =
         "roads-over-memory",
         "{lanes_m:.0} m of lanes and {elements} elements would take more memory than a file of this size may";
-    roads_too_far(reach_km: f64) = "roads-too-far", "roads over {reach_km:.0} km; cut out some kilometres";
+    roads_too_far(reach_km: f64) = "roads-too-far", "roads over {reach_km:.0} km; a map has some kilometres";
     too_far_from_start(what: Word, distance_m: f64, most_m: f64) =
         "too-far-from-start", "the {what} is {distance_m:.1} m from the start, at most {most_m} m expected";
     unequal_columns(count: usize, expected: usize, like: &str) =

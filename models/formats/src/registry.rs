@@ -11,6 +11,7 @@ use crate::kinds;
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
+use crate::nuscenes::format::NuScenesTables;
 use crate::opendrive::format::OPENDRIVE;
 use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
@@ -55,6 +56,7 @@ pub static FORMATS: &[&dyn Format] = &[
     &Csv,
     &Parquet,
     &Argoverse,
+    &NuScenesTables,
     &GeoJson,
     &Page,
     &Mcap,

@@ -72,8 +72,17 @@ scene::messages! {
     crossing_lanelets() =
         "crossing-lanelets", "Lanelets overlap too often to find the edges of the road";
     crossing_roads() = "crossing-roads", "Roads overlap too often to find their edges";
+    cut_around(radius_m: f64, x: f64, y: f64, kept: usize, ended: usize, what: Word, outside: usize) =
+        "cut-around",
+        "within {radius_m:.0} m of {x}, {y}: lanes kept {kept}, of these ending at the circle {ended}; {what} outside {outside}";
     cut_in_scenes(each_s: f64) =
         "cut-in-scenes", "The recording is longer than a scene: it is cut into scenes of {each_s:.1} s";
+    unread_by_place(count: usize, places: &str) =
+        "unread-by-place",
+        [count] "{count} element is not read: {places}",
+        "{count} elements are not read: {places}";
+    unread_places(count: usize, places: &str, more: usize) =
+        "unread-places", "{count} elements are not read: {places} and {more} more";
     elements_unread(count: usize) =
         "elements-unread",
         [count] "{count} element has no place in a scene and is left out",
@@ -163,6 +172,10 @@ scene::messages! {
         "lane-segments-unusable",
         [count] "{count} lane segment without two sides is left out",
         "{count} lane segments without two sides are left out";
+    lanes_without_line(count: usize) =
+        "lanes-without-line",
+        [count] "{count} lane without a centre line is left out",
+        "{count} lanes without a centre line are left out";
     left_hand() = "left-hand", "Traffic keeps to the left, as it does in this region";
     left_hand_network() = "left-hand-network", "Traffic keeps to the left, as the network states";
     lines_thinned(count: usize) =

@@ -3,12 +3,17 @@
 use crate::limits::MAX_EXPANSION;
 use crate::problem::{ReadError, code};
 use crate::refusals::{self, more_than, what};
+use crate::source::Source;
 use flate2::read::MultiGzDecoder;
 use scene::message::Message;
 use std::io::{self, BufReader, Read};
+use zip::ZipArchive;
+use zip::result::ZipError;
 
 /// The expansion ratio is checked after this many decoded bytes.
 const RATIO_FROM: u64 = 1 << 20;
+/// Most files of a zip that are looked at.
+const MAX_FILES: usize = 1_000;
 /// Bytes that are decoded at a time.
 const PIECE: usize = 64 << 10;
 
@@ -110,6 +115,36 @@ pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReade
     let whole = CountingReader { inner: io::Cursor::new(head).chain(input), count: 0 };
     let inner = if gzip { Inner::Gzip(Box::new(MultiGzDecoder::new(whole))) } else { Inner::Plain(whole) };
     Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
+}
+
+/// Files of a zip whose names in small letters are wanted, each with its name.
+///
+/// # Errors
+/// `malformed-file` for a broken zip, the bounds of a file.
+pub(crate) fn zipped(
+    file: &dyn Source,
+    most: u64,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<(String, Vec<u8>)>, ReadError> {
+    let mut packed = Vec::new();
+    let input = file.open().map_err(|error| fault(&error, 0))?;
+    input.take(most).read_to_end(&mut packed).map_err(|error| fault(&error, 0))?;
+    let broken = |error: ZipError| ReadError::malformed(0, refusals::unreadable("ZIP", &error.to_string()));
+    let mut zip = ZipArchive::new(io::Cursor::new(packed)).map_err(broken)?;
+    let (mut files, mut left) = (Vec::new(), most);
+    for i in 0..zip.len().min(MAX_FILES) {
+        let file = zip.by_index(i).map_err(broken)?;
+        let name = String::from_utf8_lossy(file.name_raw()).to_ascii_lowercase();
+        if !wanted(&name) {
+            continue;
+        }
+        let mut bytes = Vec::new();
+        let unpacked = open(file, Bounds::of(left));
+        unpacked.and_then(|mut file| file.read_to_end(&mut bytes)).map_err(|error| fault(&error, 0))?;
+        left -= bytes.len() as u64;
+        files.push((name, bytes));
+    }
+    Ok(files)
 }
 
 /// The first bytes once decoded, for recognising a file; what cannot be decoded is left out.

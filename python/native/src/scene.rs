@@ -3,7 +3,7 @@
 use crate::calls::{cancellable, raised, reply, request};
 use api::export::{self, MotionChoice};
 use api::generate::GenerationRun;
-use api::import::SceneFile;
+use api::import::{Companions, SceneFile};
 use api::place::PlaceBody;
 use api::score::ScoreRequest;
 use api::{Code, GenerateRequest, Problem, Subject};
@@ -32,16 +32,21 @@ impl NativeScene {
 
 #[pymethods]
 impl NativeScene {
-    /// The scene at an index of a file's content, and what the reader changed or left out. `name` has the file's ending.
+    /// The scene at an index of a file's content, and what the reader changed or left out. `name` has the file's ending;
+    /// `around` is the circle of a map that is read: x, y and radius.
     #[staticmethod]
+    #[pyo3(signature = (content, name, index, around = None))]
     fn read<'py>(
         py: Python<'py>,
         content: &[u8],
         name: &str,
         index: usize,
+        around: Option<(f64, f64, f64)>,
     ) -> PyResult<(Self, Bound<'py, PyBytes>)> {
         let read = cancellable(py, |_, _| {
-            let beside = dragtraffic::companions();
+            let circle = around.map(|(x, y, radius_m)| format!("{x},{y},{radius_m}"));
+            let around = circle.as_deref().map(api::import::around).transpose()?;
+            let beside = Companions { around, ..dragtraffic::companions() };
             let file = SceneFile::of(&content, None, name, &beside, (index, 1))?;
             let read = file.read(&content)?;
             let none = || Problem::new(Code::NotFound, format!("there is no scene {index} in this file"));

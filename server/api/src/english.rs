@@ -45,6 +45,8 @@ scene::messages! {
     one_scene() = "one-scene", "exactly one of scene and scene_id is needed";
     changed_scene() = "changed-scene", "The stored scene has changed since it was read.";
     no_network(format: &str) = "no-network", "a file of format {format} has no network";
+    no_part(format: &str) =
+        "no-part", "a file of format {format} is read whole; maps of SUMO, OpenDRIVE, Lanelet2 and OpenStreetMap are read in part";
     no_columns(format: &str) = "no-columns", "a file of format {format} has no columns to name";
     unknown_format(format: &str, formats: &str) =
         "unknown-format", "No format is named \"{format}\"; there are {formats}.";

@@ -3,12 +3,16 @@
 use crate::code::Code;
 use crate::english;
 use crate::problem::Problem;
+use formats::around::Around;
 use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
 use formats::{COLUMNS_POINTER, ImportOptions, NET_POINTER, Source};
 use scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// Pointer of faults in the part that is to be read.
+const AROUND_POINTER: &str = "/query/around";
 
 /// One scene of a file.
 pub struct ReadScene {
@@ -57,6 +61,8 @@ pub struct Companions {
     pub net: Option<Arc<dyn Source>>,
     /// Which columns of a table say what.
     pub columns: Option<Arc<dyn Source>>,
+    /// The part of a map that is read; all of it when absent.
+    pub around: Option<Around>,
     /// The program that makes a network of an extract of OpenStreetMap, where the carrier has one.
     pub netconvert: Option<Arc<dyn Netconvert>>,
 }
@@ -88,15 +94,25 @@ impl SceneFile {
             None => registry::identified(file, name)?,
         };
         let info = found.info();
-        let Companions { net, columns, netconvert } = beside.clone();
+        let Companions { net, columns, around, netconvert } = beside.clone();
         if net.is_some() && !info.takes_net {
             return Err(Problem::of(Code::InvalidField, english::no_network(info.id)).at(NET_POINTER));
         }
         if columns.is_some() && !found.takes_columns() {
             return Err(Problem::of(Code::InvalidField, english::no_columns(info.id)).at(COLUMNS_POINTER));
         }
-        let options =
-            ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };
+        if around.is_some() && !found.takes_around() {
+            return Err(Problem::of(Code::InvalidField, english::no_part(info.id)).at(AROUND_POINTER));
+        }
+        let options = ImportOptions {
+            skip,
+            max_scenes: most,
+            net,
+            netconvert,
+            columns,
+            around,
+            ..ImportOptions::default()
+        };
         Ok(Self { format: info.id, name: name.to_owned(), options })
     }
 
@@ -140,6 +156,14 @@ impl SceneFile {
         }
         Ok(skipped)
     }
+}
+
+/// `X,Y,RADIUS`: the circle of a map that is read.
+///
+/// # Errors
+/// `invalid-field`.
+pub fn around(text: &str) -> Result<Around, Problem> {
+    text.parse().map_err(|message| Problem::of(Code::InvalidField, message).at(AROUND_POINTER))
 }
 
 /// `3` or `0..9`, both ends taken.

@@ -1,5 +1,6 @@
 //! Values of flags, checked when they are parsed, so that messages name the flag.
 
+use formats::around::Around;
 use std::ops::Range;
 
 /// Most seeds of one call.
@@ -67,6 +68,11 @@ pub fn seeds(text: &str) -> Result<Range<u64>, String> {
         Some(0) | None => Err("at least one seed expected".into()),
         Some(_) => Err(format!("at most {MOST_SEEDS} seeds expected")),
     }
+}
+
+/// The circle of a map that is read.
+pub fn around(text: &str) -> Result<Around, String> {
+    text.parse().map_err(|message: scene::message::Message| message.to_string())
 }
 
 /// Positions of scenes in a file: one number, or `FIRST..LAST`.

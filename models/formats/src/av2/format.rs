@@ -86,6 +86,6 @@ fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadErr
     let (map, warnings) = place.lane_map(origin);
     let licence = options.licence.clone().unwrap_or_else(|| super::LICENCE.into());
     let origin = Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() };
-    MapRead { name: String::new(), map: map.into(), signals: Vec::new(), origin, warnings }
+    MapRead { name: String::new(), map: map.into(), signals: Vec::new(), origin, warnings, part: None }
         .scene("argoverse", Some(licence))
 }

@@ -2,11 +2,12 @@
 
 use super::lanelets::{Lanelet, is, lanelets};
 use super::osm::{self, Osm, Tags};
+use crate::around::{Around, Chosen, MapPart};
 use crate::format::MAP_TIMING;
 use crate::lights::{self, SignalHead, heading_at};
 use crate::map_file::{self, MapRead};
 use crate::problem::{ImportWarning, ReadError};
-use crate::refusals;
+use crate::refusals::{self, what};
 use crate::sentences;
 use crate::sides::LaneletKind;
 use crate::source::Source;
@@ -23,9 +24,22 @@ const JUNCTION_M: f64 = 60.0;
 ///
 /// # Errors
 /// Those of the file, `cannot-represent` for one without lanelets, `map-too-large`.
-pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
-    let mut osm = osm::read(file)?;
-    let origin = about_the_middle(&mut osm)?;
+pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead, ReadError> {
+    let mut chosen = Chosen::of(around);
+    let mut osm = osm::read(file, &mut chosen)?;
+    if let (0, Some(message)) = (osm.relations.len(), chosen.nothing()) {
+        return Err(ReadError::other_content(message));
+    }
+    let asked = around;
+    // In a file of degrees the circle has its place once they are metres.
+    let around = match (around, &osm.projection) {
+        (Some(around), Some(projection)) => {
+            let middle = projection.metres(around.y, around.x);
+            Some(Around { x: middle.x, y: middle.y, ..around })
+        }
+        (around, _) => around,
+    };
+    let origin = about_the_middle(&mut osm, around)?;
     let (lanelets, broken) = lanelets(&osm);
     let mut map = LaneMap::default();
     let lanes = draw(&lanelets, &mut map);
@@ -47,12 +61,16 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     warnings.extend((!whole).then(|| ImportWarning::new("edges-dropped", sentences::crossing_lanelets())));
     warnings.extend(made);
     let crs = osm.projection.map(|projection| projection.name());
+    let mut placed = Chosen::of(around);
+    placed.left_out = chosen.left_out;
+    let part = placed.part(origin, what::LANES);
     let origin = Origin { x_m: origin.x, y_m: origin.y, crs, ..Origin::default() };
-    Ok(MapRead { name: String::new(), map: map.into(), signals, origin, warnings })
+    let part = part.zip(asked).map(|(part, around)| MapPart { around, ..part });
+    Ok(MapRead { name: String::new(), map: map.into(), signals, origin, warnings, part })
 }
 
 /// Moves all points so that the middle of the lines that lanelets have is the origin, by whole metres.
-fn about_the_middle(osm: &mut Osm) -> Result<Vec2, ReadError> {
+fn about_the_middle(osm: &mut Osm, around: Option<Around>) -> Result<Vec2, ReadError> {
     let members = osm.relations.iter().filter(|r| is(&r.tags, "type", "lanelet")).flat_map(|r| &r.members);
     let nodes = members.filter_map(|member| osm.ways.get(&member.id)).flat_map(|way| &way.nodes);
     let corners =
@@ -61,7 +79,8 @@ fn about_the_middle(osm: &mut Osm) -> Result<Vec2, ReadError> {
         });
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
-    if map_file::is_too_wide(half) {
+    let middle = Chosen::of(around).origin().unwrap_or(middle);
+    if around.is_none() && map_file::is_too_wide(half) {
         return Err(ReadError::map_too_large(map_file::extent(half)));
     }
     osm.nodes.values_mut().for_each(|p| *p -= middle);

@@ -1,12 +1,13 @@
 //! A file of lanelets: points, lines of points, and relations of them.
 
-use crate::osm_items::{Member, each};
+use crate::around::Chosen;
+use crate::osm_items::{Member, OsmElement, each};
 use crate::problem::{FieldProblem, ReadError, at_most};
 use crate::projection::TransverseMercator;
 use crate::refusals::what;
 use crate::source::Source;
 use scene::Vec2;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Most points, lines, relations, and references to any of them.
 const MAX_NODES: usize = 800_000;
@@ -33,6 +34,8 @@ const PARTICIPANT: &str = "participant";
 const MAX_PARTICIPANTS: usize = 16;
 /// Most characters of a value.
 const VALUE_CHARS: usize = 60;
+/// Points this far outside of the circle of a part are still taken, metres.
+const BESIDE_M: f64 = 60.0;
 /// Farthest a local coordinate may lie from its origin, metres.
 const MAX_SOURCE_M: f64 = 1e8;
 
@@ -85,12 +88,16 @@ pub(super) struct Osm {
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
 /// `invalid-field` for what is no number, `map-too-large`.
-pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
+pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadError> {
+    let near = Near::of(file, chosen)?;
     let mut osm = Osm::default();
     let mut local: HashMap<i64, Vec2> = HashMap::new();
     let mut degrees: HashMap<i64, (f64, f64)> = HashMap::new();
     let mut references = 0;
     each(file, |item| {
+        if near.as_ref().is_some_and(|near| !near.takes(&item)) {
+            return Ok(());
+        }
         let tags = known(&item.tags);
         references += item.nodes.len() + item.members.len();
         match item.kind {
@@ -120,6 +127,80 @@ pub(super) fn read(file: &dyn Source) -> Result<Osm, ReadError> {
         osm.projection = Some(projection);
     }
     Ok(osm)
+}
+
+/// What of a file belongs to lanelets near the circle of a part.
+struct Near {
+    nodes: HashSet<i64>,
+    ways: HashSet<i64>,
+    relations: HashSet<i64>,
+}
+
+impl Near {
+    /// Nothing where all is read.
+    fn of(file: &dyn Source, chosen: &mut Chosen) -> Result<Option<Self>, ReadError> {
+        if !chosen.is_part() {
+            return Ok(None);
+        }
+        let (mut nodes, mut near_ways) = (HashSet::new(), HashSet::new());
+        each(file, |item| {
+            if item.kind == "node" {
+                let is_near = match (local_of(&known(&item.tags))?, item.degrees) {
+                    (Some(p), _) => chosen.takes_near(p, 0.0),
+                    (None, Some((lat, lon))) => chosen.takes_degrees(&[Vec2::new(lon, lat)], BESIDE_M),
+                    (None, None) => false,
+                };
+                nodes.extend(is_near.then_some(item.id));
+            }
+            Ok(())
+        })?;
+        each(file, |item| {
+            if item.kind == "way" && item.nodes.iter().any(|node| nodes.contains(node)) {
+                near_ways.insert(item.id);
+            }
+            Ok(())
+        })?;
+        let (mut ways, mut relations) = (HashSet::new(), HashSet::new());
+        each(file, |item| {
+            let member = |sort: &str| {
+                let members = item.members.iter().filter(move |member| member.sort == sort);
+                members.map(|member| member.id).collect::<Vec<_>>()
+            };
+            if item.kind == "relation" && item.tag("type") == Some("lanelet") {
+                if member("way").iter().any(|way| near_ways.contains(way)) {
+                    relations.insert(item.id);
+                    relations.extend(member("relation"));
+                    ways.extend(member("way"));
+                } else {
+                    chosen.left_out += 1;
+                }
+            }
+            Ok(())
+        })?;
+        // The rules of the lanelets name signs and lines.
+        each(file, |item| {
+            if item.kind == "relation" && relations.contains(&item.id) {
+                ways.extend(item.members.iter().filter(|m| m.sort == "way").map(|member| member.id));
+            }
+            Ok(())
+        })?;
+        nodes.clear();
+        each(file, |item| {
+            if item.kind == "way" && ways.contains(&item.id) {
+                nodes.extend(item.nodes);
+            }
+            Ok(())
+        })?;
+        Ok(Some(Self { nodes, ways, relations }))
+    }
+
+    fn takes(&self, item: &OsmElement) -> bool {
+        match item.kind {
+            "node" => self.nodes.contains(&item.id),
+            "way" => self.ways.contains(&item.id),
+            _ => self.relations.contains(&item.id),
+        }
+    }
 }
 
 fn known(tags: &[(String, String)]) -> Tags {

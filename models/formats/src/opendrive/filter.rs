@@ -6,6 +6,7 @@
 //! move to the middle of the file's first road, because the crate keeps them in single precision.
 
 use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
+use crate::around::Chosen;
 use crate::limits::memory_for;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::refusals::{self, what};
@@ -116,6 +117,8 @@ pub(super) struct Filtered {
     pub left_hand: HashSet<String>,
     /// Faults that were repaired.
     pub faults: Vec<String>,
+    /// No road is taken.
+    pub is_empty: bool,
     /// Lanes that have borders in a section with widths, and their length, metres.
     pub bordered: (usize, f64),
 }
@@ -133,11 +136,12 @@ pub(super) struct Offset {
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
 /// `map-too-large` and `out-of-range` for what no scene can hold.
-pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
+pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Filtered, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.map_err(|error| unpack::fault(&error, 0))?;
     let mut scanner = Scanner::new(input, MAX_TAG).with_texts();
-    let mut filter = Filter { room: memory_for(file.encoded_len()), ..Filter::default() };
+    let room = memory_for(file.encoded_len());
+    let mut filter = Filter { room, chosen: std::mem::take(chosen), ..Filter::default() };
     while let Some(event) = scanner.next()? {
         match event {
             XmlEvent::Start(element) => filter.start(&element)?,
@@ -145,6 +149,8 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
             XmlEvent::Text(text) => filter.text(&text),
         }
     }
+    *chosen = std::mem::take(&mut filter.chosen);
+    filter.out.is_empty = filter.links.roads.is_empty();
     let mut edits = filter.edits;
     edits.extend(filter.links.edits());
     filter.out.text = short::edited(filter.out.text, edits);
@@ -190,6 +196,19 @@ struct OpenLane {
     has_border: bool,
 }
 
+/// What is counted and written before a road, to pass over one that lies outside.
+#[derive(Default)]
+struct BeforeRoad {
+    text: usize,
+    edits: usize,
+    origin: Option<Vec2>,
+    kept: usize,
+    lanes: usize,
+    signals: usize,
+    objects: usize,
+    lines_m: f64,
+}
+
 #[derive(Default)]
 struct Filter {
     out: Filtered,
@@ -213,6 +232,12 @@ struct Filter {
     junction: String,
     connection: (String, String, bool),
     lane_link: Option<JunctionLink>,
+    /// What is read; whether the open road comes near, and what there was before it.
+    chosen: Chosen,
+    is_near: bool,
+    before: BeforeRoad,
+    /// Ids of roads outside of the part that is read.
+    outside: HashSet<String>,
     /// Changes of the text that are made at the end.
     edits: Vec<(Range<usize>, String)>,
     kept: usize,
@@ -244,6 +269,13 @@ impl Filter {
         };
         let known =
             KEPT.iter().any(|(name, inner)| *name == parent && inner.contains(&element.name.as_str()));
+        let outside = |name| element.get(name).is_some_and(|id| self.outside.contains(id));
+        let across = element.name == "connection"
+            && ["incomingRoad", "connectingRoad", "linkedRoad"].into_iter().any(outside);
+        if across {
+            self.skipped = 1;
+            return Ok(());
+        }
         if !known || !self.wanted(element) {
             self.projection = parent == "header" && element.name == "geoReference";
             if parent == "header" && element.name == "offset" {
@@ -355,6 +387,10 @@ impl Filter {
         }
         let Some(name) = self.open.pop() else { return Ok(()) };
         if name == "road" {
+            if self.chosen.is_part() && !self.is_near {
+                self.pass_over();
+                return Ok(());
+            }
             self.end_of_road()?;
         }
         if name == "lanes" {
@@ -481,6 +517,17 @@ impl Filter {
             self.out.left_hand.insert(id.clone());
         }
         self.road = Road { id, length_m, ..Road::default() };
+        self.is_near = false;
+        self.before = BeforeRoad {
+            text: self.out.text.len(),
+            edits: self.edits.len(),
+            origin: self.origin,
+            kept: self.kept,
+            lanes: self.lanes,
+            signals: self.signals,
+            objects: self.objects,
+            lines_m: self.lines_m,
+        };
         let from = self.out.text.len();
         self.keep(element, &[("length", length_m)])?;
         let tag = &self.out.text[from..];
@@ -490,6 +537,20 @@ impl Filter {
             self.road.length_at = from + at..from + end;
         }
         Ok(())
+    }
+
+    /// Drops the road that ends, as if it had not begun.
+    fn pass_over(&mut self) {
+        let road = std::mem::take(&mut self.road);
+        self.chosen.left_out += road.sections.iter().map(|section| section.drawn).sum::<usize>();
+        self.outside.insert(road.id);
+        self.sections.clear();
+        let BeforeRoad { text, edits, origin, kept, lanes, signals, objects, lines_m } = self.before;
+        self.out.text.truncate(text);
+        self.edits.truncate(edits);
+        self.origin = origin;
+        (self.kept, self.lanes, self.signals, self.objects) = (kept, lanes, signals, objects);
+        self.lines_m = lines_m;
     }
 
     /// A road is no longer than its reference line: what lies beyond has no place.
@@ -554,6 +615,7 @@ impl Filter {
         if let Some(far) = [x, y].into_iter().find(|v| v.abs() > MAX_SOURCE_M) {
             return Err(FieldProblem::range("", -MAX_SOURCE_M, MAX_SOURCE_M, far).into());
         }
+        self.is_near |= self.chosen.takes_near(Vec2::new(x, y), length_m);
         let origin = *self.origin.get_or_insert(Vec2::new(x.round(), y.round()));
         self.out.origin = origin;
         let s_m = number(element, "s").unwrap_or(0.0).clamp(0.0, xodr::MAX_LENGTH);
@@ -682,7 +744,7 @@ mod tests {
     use super::*;
 
     fn filtered(text: &str) -> Result<Filtered, ReadError> {
-        read(&text.as_bytes())
+        read(&text.as_bytes(), &mut Chosen::default())
     }
 
     #[test]

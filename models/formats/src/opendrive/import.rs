@@ -2,8 +2,10 @@
 
 use super::filter::{self, Filtered, Offset};
 use super::lanes::{self, Found, carries_vehicles, is_road};
+use super::places::RoadPlaces;
 use super::sections::{NetworkFrame, Section, sections};
 use super::{marks, objects, signals};
+use crate::around::{Around, Chosen};
 use crate::format::MAP_TIMING;
 use crate::map_file::{self, MapRead};
 use crate::problem::{ImportWarning, ReadError};
@@ -28,15 +30,31 @@ const NAME_CHARS: usize = 100;
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or
 /// one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
-pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
-    let mut file = filter::read(file)?;
+pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead, ReadError> {
+    read_with_roads(file, around).map(|(map, _)| map)
+}
+
+/// The same, and the places on its roads that a scenario may name.
+pub(crate) fn read_with_roads(
+    file: &dyn Source,
+    around: Option<Around>,
+) -> Result<(MapRead, RoadPlaces), ReadError> {
+    let mut chosen = Chosen::of(around);
+    let mut file = filter::read(file, &mut chosen)?;
+    if let (true, Some(message)) = (file.is_empty, chosen.nothing()) {
+        return Err(ReadError::other_content(message));
+    }
     let text = std::mem::take(&mut file.text);
     let (network, provenance) = xodr::load_str_with_provenance(&text)
         .map_err(|error| ReadError::other_content(refusals::no_roads_with_lanes(&error.to_string())))?;
     drop(text);
-    let frame = NetworkFrame::of(&network);
+    let mut frame = NetworkFrame::of(&network);
+    if let Some(origin) = chosen.origin() {
+        frame.middle = origin - file.origin;
+    }
     // Roads begin about the network's origin; numbers far from it have lost their places.
-    if map_file::is_too_wide(frame.half) || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
+    let wide = !chosen.is_part() && map_file::is_too_wide(frame.half);
+    if wide || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
         return Err(ReadError::map_too_large(map_file::extent(frame.half)));
     }
     let sections = sections(&network, &file, &frame);
@@ -68,6 +86,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     warnings.extend(made);
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
     let name = name.trim().to_owned();
+    let part = chosen.part(file.origin + frame.middle, what::LANES);
     let Offset { at, z_m, turn_rad } = file.offset;
     let middle = at + rotate(file.origin + frame.middle, turn_rad);
     let origin = Origin {
@@ -77,7 +96,8 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
         rotation_rad: wrap_angle(turn_rad),
         crs: file.projection,
     };
-    Ok(MapRead { name, map: map.into(), signals, origin, warnings })
+    let roads = RoadPlaces::of(network, file.origin, frame.middle);
+    Ok((MapRead { name, map: map.into(), signals, origin, warnings, part }, roads))
 }
 
 /// The carriageway of each section: lanes side by side without a kerb, with traffic among them.

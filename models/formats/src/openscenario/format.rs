@@ -1,7 +1,7 @@
 //! OpenSCENARIO as users export it.
 
-use super::scenario;
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene, written_only};
+use super::{read, scenario};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene};
 use crate::loss::{Loss, code};
 use crate::opendrive;
 use crate::pack;
@@ -38,13 +38,15 @@ impl Format for OpenScenario {
             id: "openscenario",
             name: "ASAM OpenSCENARIO XML with OpenDRIVE (zip)",
             media_type: "application/zip",
-            extensions: &["xosc.zip"],
-            import: false,
+            extensions: &["xosc.zip", "xosc"],
+            import: true,
             export: true,
             many: false,
-            takes_net: false,
+            takes_net: true,
             notes: "XML 1.2 with its OpenDRIVE map: every road user follows its track to the tenth of a \
-                 second, comes and leaves when it does; lights by their states.",
+                 second, comes and leaves when it does; lights by their states. In, 1.0 to 1.3, alone or in a \
+                 zip with map and catalogs: initial states, parameters, catalogs and polylines with times; \
+                 manoeuvres and lights are listed by their place.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_GENERATED,
@@ -65,8 +67,20 @@ impl Format for OpenScenario {
         }
     }
 
-    fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        written_only(&self.info())
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        if read::begins(head) {
+            return 2;
+        }
+        let name = name.to_ascii_lowercase();
+        u8::from(name.ends_with(".xosc") || name.ends_with(".xosc.zip"))
+    }
+
+    fn takes_around(&self) -> bool {
+        true
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        read::scenes(file, options)
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

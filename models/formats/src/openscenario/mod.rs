@@ -4,5 +4,6 @@
 //! as OpenDRIVE.
 
 pub(crate) mod format;
+mod read;
 mod scenario;
 mod signals;

@@ -2,12 +2,14 @@
 //! dropped, so that the other program receives a small file written here.
 
 use super::pavements;
+use crate::around::Chosen;
 use crate::markup::Markup;
 use crate::osm_items::{Member, OsmElement, each};
 use crate::problem::{ReadError, at_most};
 use crate::projection::TransverseMercator;
 use crate::refusals::{self, what};
 use crate::source::Source;
+use scene::Vec2;
 use std::collections::HashSet;
 
 /// Most points and ways of roads, and references among them: a town of 4 km has about 30,000 points.
@@ -16,6 +18,8 @@ const MAX_WAYS: usize = 20_000;
 const MAX_MEMBERS: usize = 200_000;
 /// Farther north or south the projection that netconvert takes has no place, degrees.
 const MAX_LATITUDE_DEG: f64 = 85.0;
+/// Points this far outside of the circle of a part are still taken: points of a road lie no farther apart, metres.
+const BESIDE_M: f64 = 300.0;
 /// Farthest that roads may reach from north to south, degrees: a map is some kilometres wide.
 const MAX_REACH_DEG: f64 = 0.25;
 
@@ -42,28 +46,39 @@ fn is_road(item: &OsmElement) -> bool {
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for a map of lanelets and one
 /// without roads, `map-too-large`.
-pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
+pub(crate) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Extract, ReadError> {
     let (mut ways, mut used) = (HashSet::new(), HashSet::new());
+    let near = near(file, chosen)?;
     each(file, |item| {
         if item.kind == "relation" && item.tag("type") == Some("lanelet") {
             return Err(ReadError::other_content(refusals::lanelets_in_extract()));
         }
         if is_road(&item) {
+            let nodes = part_of(&item.nodes, near.as_ref());
+            if nodes.is_empty() && near.is_some() {
+                chosen.left_out += 1;
+                return Ok(());
+            }
             ways.insert(item.id);
-            used.extend(item.nodes);
+            used.extend(nodes.iter().copied());
             at_most(ways.len(), MAX_WAYS, what::ROADS)?;
             at_most(used.len(), MAX_POINTS, what::ROAD_POINTS)?;
         }
         Ok(())
     })?;
     if ways.is_empty() {
-        return Err(ReadError::other_content(refusals::file_has_no(what::HIGHWAY)));
+        let message = chosen.nothing().filter(|_| chosen.left_out > 0);
+        let message = message.unwrap_or_else(|| refusals::file_has_no(what::HIGHWAY));
+        return Err(ReadError::other_content(message));
     }
     let mut out = Markup::new(u64::MAX);
     out.open("osm", &[("version", "0.6")]);
     let mut places = Vec::new();
     let mut members = 0;
-    each(file, |item| {
+    each(file, |mut item| {
+        if item.kind == "way" {
+            item.nodes = part_of(&item.nodes, near.as_ref()).to_vec();
+        }
         let kept = match item.kind {
             "node" => {
                 used.contains(&item.id)
@@ -98,6 +113,32 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
 }
 
+/// Points near the circle of a part; nothing where all is read.
+fn near(file: &dyn Source, chosen: &mut Chosen) -> Result<Option<HashSet<i64>>, ReadError> {
+    if !chosen.is_part() {
+        return Ok(None);
+    }
+    let mut near = HashSet::new();
+    each(file, |item| {
+        if let (Some((lat, lon)), "node") = (item.degrees, item.kind)
+            && chosen.takes_degrees(&[Vec2::new(lon, lat)], BESIDE_M)
+        {
+            near.insert(item.id);
+        }
+        Ok(())
+    })?;
+    Ok(Some(near))
+}
+
+/// Points of a way from the one before the first near point to the one behind the last.
+fn part_of<'a>(nodes: &'a [i64], near: Option<&HashSet<i64>>) -> &'a [i64] {
+    let Some(near) = near else { return nodes };
+    let is_near = |node: &i64| near.contains(node);
+    let Some(first) = nodes.iter().position(is_near) else { return &[] };
+    let last = nodes.iter().rposition(is_near).unwrap_or(first);
+    nodes.get(first.saturating_sub(1)..(last + 2).min(nodes.len())).unwrap_or_default()
+}
+
 /// Writes an item as OpenStreetMap does.
 fn write(item: &OsmElement, out: &mut Markup) {
     let id = item.id.to_string();
@@ -123,7 +164,7 @@ mod tests {
     use super::*;
 
     fn extract(text: &str) -> Result<Extract, ReadError> {
-        read(&text.as_bytes())
+        read(&text.as_bytes(), &mut Chosen::default())
     }
 
     #[test]
@@ -146,6 +187,27 @@ mod tests {
         assert!((found.middle.0 - 48.1005).abs() < 1e-9);
         // The written file reads back unchanged.
         assert_eq!(extract(text).unwrap().xml, found.xml);
+    }
+
+    #[test]
+    fn a_part_has_the_ways_near_its_place() {
+        let node = |id: i64, lon: f64| format!(r#"<node id="{id}" lat="48.1" lon="{lon}"/>"#);
+        // Points 743 m apart along one way, and another way far away.
+        let nodes: String = (0..100).map(|i| node(i, 11.0 + 0.01 * i as f64)).collect();
+        let way = |id: i64, from: i64, to: i64| {
+            let points: String = (from..to).map(|i| format!(r#"<nd ref="{i}"/>"#)).collect();
+            format!(r#"<way id="{id}">{points}<tag k="highway" v="primary"/></way>"#)
+        };
+        let text = format!("<osm>{nodes}{}{}</osm>", way(500, 0, 60), way(501, 70, 100));
+        let mut chosen = Chosen::of("11.3,48.1,100".parse().ok());
+        let found = read(&text.as_bytes(), &mut chosen).unwrap();
+        let xml = std::str::from_utf8(&found.xml).unwrap();
+        assert_eq!((xml.matches("<node").count(), xml.matches("<way").count()), (3, 1));
+        assert_eq!(chosen.left_out, 1);
+        let mut chosen = Chosen::of("12.5,48.1,100".parse().ok());
+        let error = read(&text.as_bytes(), &mut chosen).unwrap_err().to_string();
+        assert!(error.contains("x 11 to 11.99 and y 48.1 to 48.1"), "{error}");
+        assert_eq!(extract(&text).unwrap_err().code(), "map-too-large", "the whole is 73 km wide");
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use super::driving_side::is_left;
 use super::extract::{self, Extract};
+use crate::around::{Around, Chosen, MapPart};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, only, only_read};
-use crate::map_file::MapRead;
+use crate::map_file::{MapRead, with_advice};
 use crate::osm_items::holds_lanelets;
 use crate::problem::{ImportWarning, Imported, ReadError};
-use crate::refusals;
+use crate::refusals::{self, what};
 use crate::sentences;
 use crate::source::Source;
 use crate::sumo::formats::read_net;
@@ -50,16 +51,25 @@ pub struct OsmExtract;
 
 impl OsmExtract {
     fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
-        let Extract { xml, projection, middle: (lat, lon) } = extract::read(file)?;
+        let mut chosen = Chosen::of(options.around);
+        let Extract { xml, projection, middle: (lat, lon) } = extract::read(file, &mut chosen)?;
         let left = is_left(lat, lon);
         let network = network(options, &xml, &projection.name(), left)?;
-        let MapRead { map, signals, mut origin, mut warnings, .. } = read_net(&network)?;
+        let circle = options.around.map(|around| {
+            let middle = projection.metres(around.y, around.x);
+            Around { x: middle.x, y: middle.y, ..around }
+        });
+        let MapRead { map, signals, mut origin, mut warnings, part, .. } = read_net(&network, circle)?;
+        let part = part.zip(options.around).map(|(part, around)| {
+            let left_out = chosen.left_out;
+            MapPart { around, left_out, what: what::ROADS, ..part }
+        });
         origin.crs = Some(projection.name());
         warnings.retain(|warning| warning.code != LEFT_HAND);
         if left {
             warnings.push(ImportWarning::new(LEFT_HAND, sentences::left_hand()));
         }
-        let read = MapRead { name: String::new(), map, signals, origin, warnings };
+        let read = MapRead { name: String::new(), map, signals, origin, warnings, part };
         let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;
         if let Some(licence) = &options.licence {
             scene.meta.licence = Some(licence.clone());
@@ -114,8 +124,12 @@ impl Format for OsmExtract {
         if holds_lanelets(&head.as_slice()) { 0 } else { 2 }
     }
 
+    fn takes_around(&self) -> bool {
+        true
+    }
+
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        only(options, || Self::scene(file, options))
+        only(options, || Self::scene(file, options).map_err(|error| with_advice(error, options.around)))
     }
 
     fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {

@@ -11,15 +11,12 @@ use crate::loss;
 use crate::problem::ReadError;
 use crate::refusals;
 use crate::source::Source;
-use crate::unpack::{self, Bounds};
+use crate::unpack;
 use scene::Scene;
-use std::io::{self, Cursor, Read};
-use zip::ZipArchive;
+use std::io::{self, Cursor};
 
 /// Memory per byte of the zip until it is a scene, bytes.
 const FOLDER_MEMORY: u64 = 4;
-/// Most files of a zip that are read.
-const MAX_FILES: usize = 1_000;
 /// Position of the first file's name in a zip: its length, and its beginning.
 const NAME_LENGTH: std::ops::Range<usize> = 26..28;
 const NAME_FROM: usize = 30;
@@ -38,31 +35,12 @@ struct ZipContents {
 impl ZipContents {
     fn read(file: &dyn Source) -> Result<Self, ReadError> {
         let most = MAX_DECODED_BYTES.min(memory_for(file.encoded_len()) / FOLDER_MEMORY);
-        let mut packed = Vec::new();
-        let input = file.open().map_err(|error| unpack::fault(&error, 0))?;
-        input.take(most).read_to_end(&mut packed).map_err(|error| unpack::fault(&error, 0))?;
-        let broken = |error: zip::result::ZipError| {
-            ReadError::malformed(0, refusals::unreadable("ZIP", &error.to_string()))
-        };
-        let mut zip = ZipArchive::new(Cursor::new(packed)).map_err(broken)?;
         let mut folder = Self::default();
-        for i in 0..zip.len().min(MAX_FILES) {
-            let file = zip.by_index(i).map_err(broken)?;
-            let name = String::from_utf8_lossy(file.name_raw()).to_ascii_lowercase();
-            let part = match () {
-                () if name.ends_with(NET) => &mut folder.net,
-                () if name.ends_with(RECORDING) => &mut folder.recording,
-                () => continue,
-            };
-            if part.is_some() {
-                continue;
-            }
-            let mut bytes = Vec::new();
-            let unpacked = unpack::open(file, Bounds::of(most));
-            unpacked
-                .and_then(|mut file| file.read_to_end(&mut bytes))
-                .map_err(|error| unpack::fault(&error, 0))?;
-            *part = Some(bytes);
+        for (name, bytes) in
+            unpack::zipped(file, most, |name| name.ends_with(NET) || name.ends_with(RECORDING))?
+        {
+            let part = if name.ends_with(NET) { &mut folder.net } else { &mut folder.recording };
+            part.get_or_insert(bytes);
         }
         Ok(folder)
     }
@@ -130,7 +108,7 @@ impl Format for SumoFolder {
             Ok(folder) => folder,
             Err(error) => return one(Err(error)),
         };
-        let net = match net.map(|net| import_net::read(&net)).transpose() {
+        let net = match net.map(|net| import_net::read(&net, None)).transpose() {
             Ok(net) => net,
             Err(error) => return one(Err(error)),
         };

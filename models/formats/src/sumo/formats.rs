@@ -5,6 +5,7 @@ use super::import_fcd::{FcdContext, Windows};
 use super::import_net::{self, NetScene};
 use super::out::{net, recording};
 use super::rows::FcdRows;
+use crate::around::Around;
 use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, one_scene,
 };
@@ -58,8 +59,8 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
 pub struct SumoFcd;
 
 /// A network as a map: see [`SUMO_NET`].
-pub(crate) fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
-    import_net::read(file).map(of_net)
+pub(crate) fn read_net(file: &dyn Source, around: Option<Around>) -> Result<MapRead, ReadError> {
+    import_net::read(file, around).map(of_net)
 }
 
 /// The map of a network without recording.
@@ -70,6 +71,7 @@ pub(super) fn of_net(net: NetScene) -> MapRead {
         map: net.map,
         origin: net.place,
         warnings: net.warnings,
+        part: net.part,
     }
 }
 
@@ -120,7 +122,7 @@ impl Format for SumoFcd {
     }
 
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        let net = match options.net.as_ref().map(|net| import_net::read(net)).transpose() {
+        let net = match options.net.as_ref().map(|net| import_net::read(net, None)).transpose() {
             Ok(net) => net,
             Err(error) => return one(Err(error.under(NET_POINTER))),
         };

@@ -3,7 +3,8 @@
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane};
 use super::programs::SignalProgram;
-use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
+use crate::around::{Around, Chosen, MapPart};
+use crate::limits::{MAX_DECODED_BYTES, MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
 use crate::map_file;
 use crate::polyline::length;
 use crate::problem::{FieldProblem, ImportWarning, ReadError};
@@ -37,6 +38,8 @@ pub(super) struct NetScene {
     /// Half the size of the box round all lanes, metres.
     pub half: Vec2,
     pub warnings: Vec<ImportWarning>,
+    /// The circle to which the map is to be cut.
+    pub part: Option<MapPart>,
     places: Vec<SignalPlace>,
     programs: HashMap<String, SignalProgram>,
 }
@@ -47,11 +50,14 @@ pub(super) struct NetScene {
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `invalid-field` with the line for a
 /// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
 /// `map-too-large` and `out-of-range` for what no scene can hold.
-pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
-    let most = MAX_BYTES.min(memory_for(file.encoded_len()) / TEXT_MEMORY);
+pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<NetScene, ReadError> {
+    let mut chosen = Chosen::of(around);
+    let whole = MAX_BYTES.min(memory_for(file.encoded_len()) / TEXT_MEMORY);
+    // Of a part little is kept, whatever the size of the file.
+    let most = if chosen.is_part() { MAX_DECODED_BYTES } else { whole };
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(most)));
-    let mut net = Net::read_from(input.map_err(|error| unpack::fault(&error, 0))?)?;
-    let (origin, half) = check_net(&net)?;
+    let mut net = Net::read_part(input.map_err(|error| unpack::fault(&error, 0))?, &mut chosen)?;
+    let (origin, half) = check_net(&net, &chosen)?;
     // Left-hand traffic is right-hand traffic in a mirror, the order of its lanes included: it is drawn there.
     let mirrored = net.notes.left_hand;
     let turned = |p: Vec2| if mirrored { Vec2::new(p.x, -p.y) } else { p };
@@ -90,7 +96,8 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     };
     let mut map = Shared::from(drawn.map);
     warnings.extend(repairs::drop_far_links(&mut map));
-    Ok(NetScene { map, origin, place, half, warnings, places, programs })
+    let part = chosen.part(origin, what::LANES);
+    Ok(NetScene { map, origin, place, half, warnings, part, places, programs })
 }
 
 impl NetScene {
@@ -107,9 +114,10 @@ impl NetScene {
 
 /// Finds what no scene can hold before anything is drawn. Gives the middle of the network in whole
 /// metres and half its size.
-fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
+fn check_net(net: &Net, chosen: &Chosen) -> Result<(Vec2, Vec2), ReadError> {
     if net.lanes.is_empty() {
-        return Err(ReadError::other_content(refusals::file_has_no(what::LANE)));
+        let message = chosen.nothing().unwrap_or_else(|| refusals::file_has_no(what::LANE));
+        return Err(ReadError::other_content(message));
     }
     // Each edge gives two borders and an area besides its lanes.
     let polylines = net.lanes.len() + 2 * net.edges.len();
@@ -125,14 +133,21 @@ fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
     }
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
+    if let Some(origin) = chosen.origin() {
+        return check_points(net).map(|()| (origin, half));
+    }
     if map_file::is_too_wide(half) {
         return Err(ReadError::map_too_large(map_file::extent(half)));
     }
+    check_points(net).map(|()| (middle, half))
+}
+
+fn check_points(net: &Net) -> Result<(), ReadError> {
     let points: f64 = net.lanes.iter().map(|l| l.shape.len() as f64 + length(&l.shape) / 2.0).sum();
     if points > MAX_MAP_POINTS as f64 {
         return Err(ReadError::map_too_large(refusals::network_too_large(MAX_MAP_POINTS, what::POINTS)));
     }
-    Ok((middle, half))
+    Ok(())
 }
 
 fn check_lane(lane: &NetLane) -> Result<(), ReadError> {

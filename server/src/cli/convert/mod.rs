@@ -11,6 +11,7 @@ use crate::base::netconvert::companions;
 use api::export::{self, FilePart, MotionChoice, WrittenFile};
 use api::import::{self, Companions};
 use clap::Args;
+use formats::around::Around;
 use formats::format::Info;
 use formats::registry::{self, FORMATS};
 use one::{One, too_many};
@@ -39,6 +40,10 @@ pub struct ConvertArgs {
     /// whose columns are known: citysim, exid, highd, ind, interaction, ngsim, pneuma, round, sind.
     #[arg(long, value_name = "FILE|SET")]
     columns: Option<PathBuf>,
+    /// Part of a map to read: what lies within RADIUS metres of X,Y in the coordinates of the file (longitude,latitude
+    /// where it has degrees). Lanes end at the circle.
+    #[arg(long, value_name = "X,Y,RADIUS", value_parser = values::around, allow_hyphen_values = true)]
+    around: Option<Around>,
     /// Scenes to take from each file, counted from 0: a number, or FIRST..LAST (both included). Default: all.
     #[arg(long, value_name = "WHICH", value_parser = values::index)]
     index: Option<Range<usize>>,
@@ -110,7 +115,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         Some(text) => Some(Arc::new(text.as_bytes()) as Arc<dyn formats::Source>),
         None => file(&args.columns)?,
     };
-    let beside = Companions { net: file(&args.net)?, columns, ..companions() };
+    let beside = Companions { net: file(&args.net)?, columns, around: args.around, ..companions() };
     let reading = Reading { from: args.from.map(str::to_owned), beside, index: args.index.clone() };
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
     let mut losses = Losses::new();

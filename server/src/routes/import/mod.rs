@@ -13,7 +13,7 @@ use crate::base::problem::Refusal;
 use crate::http::body::{self, JsonText, Reading};
 use crate::http::extract::{Connection, QueryParams};
 use crate::work::{JobKind, JobRequest};
-use api::import::range;
+use api::import::{around, range};
 use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -33,6 +33,9 @@ pub struct ImportParams {
     /// Records to take, such as `0..9` (both ends), or one number.
     #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
     index: Option<String>,
+    /// The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
+    /// coordinates of the file (longitude, latitude where it has degrees).
+    around: Option<String>,
     /// Give the scenes back and store nothing.
     dry_run: bool,
     /// Name of the file, a label only.
@@ -75,6 +78,7 @@ pub async fn import(
 ) -> Result<Response, Refusal> {
     let media_type = body::media_type(request.headers(), UPLOADS)?;
     let wanted = params.index.as_deref().map(range).transpose()?;
+    let around = params.around.as_deref().map(around).transpose()?;
     let content_type = request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());
     let form = content_type.filter(|_| media_type == MULTIPART).map(str::to_owned);
     let upload = Arc::new(Reading::from_ref(&app).upload(request).await?);
@@ -92,6 +96,7 @@ pub async fn import(
         window: wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1))),
         most,
         most_files,
+        around,
         dry_run: params.dry_run,
         refuse_nc: app.refuse_nc,
     };

@@ -14,6 +14,7 @@ use crate::scenes::{Facts, record};
 use api::import::{ReadScene, SceneFile, names};
 use api::{Code, Problem};
 use experts::Cancel;
+use formats::around::Around;
 use formats::native::{MapForm, SceneDoc};
 use scene::licence::is_noncommercial;
 use std::sync::Arc;
@@ -37,6 +38,8 @@ pub(super) struct ImportOrder {
     pub(super) window: (usize, usize),
     pub(super) most: usize,
     pub(super) most_files: usize,
+    /// The part of maps that is read.
+    pub(super) around: Option<Around>,
     pub(super) dry_run: bool,
     pub(super) refuse_nc: bool,
 }
@@ -53,7 +56,8 @@ impl ImportOrder {
     }
 
     fn read(&self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
-        let files = ImportFile::all(&self.upload, self.form.as_deref(), self.most_files)?;
+        let mut files = ImportFile::all(&self.upload, self.form.as_deref(), self.most_files)?;
+        files.iter_mut().for_each(|file| file.beside.around = self.around);
         let mut taken = ImportProgress::new(self)?;
         let body = taken.files(&files, cancel)?;
         let ready = match self.dry_run {

@@ -7035,6 +7035,11 @@ export interface operations {
                 format?: string;
                 /** @description Records to take, such as `0..9` (both ends), or one number. */
                 index?: string;
+                /**
+                 * @description The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
+                 *     coordinates of the file (longitude, latitude where it has degrees).
+                 */
+                around?: string;
                 /** @description Give the scenes back and store nothing. */
                 dry_run?: boolean;
                 /** @description Name of the file, a label only. */

@@ -130,6 +130,10 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a page header without contradictions': 'ein Seitenkopf ohne Widersprüche',
     'a pair': 'ein Paar',
     'a place of the memory': 'ein Platz im Merkspeicher',
+    'X,Y,RADIUS: the coordinates of a place in the file and 10 to 5000 m':
+      'X,Y,RADIUS: die Koordinaten eines Ortes in der Datei und 10 bis 5000 m',
+    'the name of a declared parameter, or an expression in ${}':
+      'der Name eines deklarierten Parameters oder ein Ausdruck in ${}',
     'a point such as 1.5,-2.0': 'ein Punkt wie 1.5,-2.0',
     'a position': 'eine Position',
     'a probability': 'eine Wahrscheinlichkeit',
@@ -215,7 +219,6 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
   },
   file: {
     'an OpenSCENARIO 2 text': 'Ein Text in OpenSCENARIO 2',
-    'an OpenSCENARIO scenario': 'Ein OpenSCENARIO-Szenario',
     'a list of SUMO routes': 'Eine Liste von SUMO-Routen',
     'a SUMO configuration': 'Eine SUMO-Konfiguration',
     'an OpenStreetMap extract in PBF': 'Ein OpenStreetMap-Auszug in PBF',
@@ -245,8 +248,6 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
   },
   instead: {
     'export XML 1.x': 'XML 1.x exportieren',
-    'import the OpenDRIVE map that it names; road users are placed on that':
-      'die OpenDRIVE-Karte importieren, die darin genannt ist; Verkehrsteilnehmer werden darauf eingesetzt',
     'run SUMO with --fcd-output, and import what it writes with the network beside it':
       'SUMO mit --fcd-output starten und das Ergebnis zusammen mit dem Netz importieren',
     'import the network that it names, or run SUMO with --fcd-output':

@@ -13,6 +13,7 @@ export const SENTENCES = table('file-messages', {
       number: 'a number is invalid',
       text: 'a text is invalid',
     },
+    what: { lanes: 'lanes', roads: 'roads' },
     subject: { 'road-users': 'road users', 'map-features': 'map features', tracks: 'tracks' },
   },
   sentences: {
@@ -45,7 +46,15 @@ export const SENTENCES = table('file-messages', {
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
     'crossing-lanelets': 'Lanelets overlap too often to find the edges of the road',
     'crossing-roads': 'Roads overlap too often to find their edges',
+    'cut-around': (v: Values) =>
+      `within ${v.radius_m} of ${v.x}, ${v.y}: lanes kept ${v.kept}, of these ending at the circle ${v.ended}; ${v.what} outside ${v.outside}`,
     'cut-in-scenes': (v: Values) => `The recording is longer than a scene: it is cut into scenes of ${v.each_s}`,
+    'unread-by-place': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} element is not read: ${v.places}`,
+        other: `${v.count} elements are not read: ${v.places}`,
+      }),
+    'unread-places': (v: Values) => `${v.count} elements are not read: ${v.places} and ${v.more} more`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} element has no place in a scene and is left out`,
@@ -146,6 +155,11 @@ export const SENTENCES = table('file-messages', {
       plural(Number(v.count), {
         one: `${v.count} lane segment without two sides is left out`,
         other: `${v.count} lane segments without two sides are left out`,
+      }),
+    'lanes-without-line': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lane without a centre line is left out`,
+        other: `${v.count} lanes without a centre line are left out`,
       }),
     'left-hand': 'Traffic keeps to the left, as it does in this region',
     'left-hand-network': 'Traffic keeps to the left, as the network states',

@@ -21,6 +21,8 @@ export const SENTENCES = table('problem-messages', {
     'one-scene': 'exactly one of scene and scene_id is needed',
     'changed-scene': 'The stored scene has changed since it was read.',
     'no-network': (v: Values) => `a file of format ${v.format} has no network`,
+    'no-part': (v: Values) =>
+      `a file of format ${v.format} is read whole; maps of SUMO, OpenDRIVE, Lanelet2 and OpenStreetMap are read in part`,
     'no-columns': (v: Values) => `a file of format ${v.format} has no columns to name`,
     'unknown-format': (v: Values) => `No format is named \"${v.format}\"; there are ${v.formats}.`,
     'ego-absent': (v: Values) => `\"${v.id}\" is not there at the start`,

@@ -43,8 +43,11 @@ export const SENTENCES = table('refusal-messages', {
     'netconvert-failed': (v: Values) => `netconvert could not make a network of the file: ${v.words}`,
     'netconvert-missing':
       "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with `pip install eclipse-sumo` and start again",
-    'network-too-large': (v: Values) =>
-      `more than ${v.most} ${v.what}; cut a part out with netconvert --keep-edges.in-boundary`,
+    'near-a-place':
+      '--around X,Y,RADIUS (in a call: around) reads the part within RADIUS metres of X,Y in the coordinates of the file',
+    'network-too-large': (v: Values) => `more than ${v.most} ${v.what}`,
+    'nothing-around': (v: Values) =>
+      `no lane lies within ${v.radius_m} of ${v.x}, ${v.y}; the file has x ${v.x_range} and y ${v.y_range}`,
     'no-column': (v: Values) => `no column "${v.column}"; there are ${v.columns}`,
     'no-lanelets': 'no lanelets: if it is an extract of OpenStreetMap, it is read as osm',
     'no-open-lanelets': 'no lanelets with two sides that a road user may pass: subtypes and participants decide',
@@ -69,7 +72,7 @@ export const SENTENCES = table('refusal-messages', {
     'road-over-limit': (v: Values) => `road "${v.road}" has ${v.records} records, too many for its length`,
     'roads-over-memory': (v: Values) =>
       `${v.lanes_m} of lanes and ${v.elements} elements would take more memory than a file of this size may`,
-    'roads-too-far': (v: Values) => `roads over ${v.reach_km} km; cut out some kilometres`,
+    'roads-too-far': (v: Values) => `roads over ${v.reach_km} km; a map has some kilometres`,
     'too-far-from-start': (v: Values) =>
       `the ${v.what} is ${v.distance_m} from the start, at most ${v.most_m} expected`,
     'unequal-columns': (v: Values) =>

@@ -1,6 +1,7 @@
 //! Reads a network in one pass over its elements; unknown elements are dropped.
 
 use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
+use crate::around::Chosen;
 use crate::limits::MAX_POLYLINES;
 use crate::problem::ReadError;
 use crate::refusals::{self, wanted, what};
@@ -9,7 +10,8 @@ use crate::sumo::kerb::s_curve;
 use crate::sumo::programs::SignalProgram;
 use crate::xml::{Element, Scanner, XmlEvent};
 use scene::Vec2;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::BufRead;
 
 /// Most bytes of one tag: a shape with the most points a polyline may have, twice (`outlineShape`).
@@ -18,6 +20,8 @@ const MAX_TAG: usize = 1 << 20;
 const MAX_ELEMENTS: usize = 600_000;
 /// Most attributes in a network.
 const MAX_ATTRIBUTES: usize = 4_000_000;
+/// Junctions are no wider than this, metres.
+const JUNCTION_M: f64 = 200.0;
 /// Width of a lane that gives none, metres: the default of SUMO.
 const LANE_WIDTH_M: f64 = 3.2;
 
@@ -56,6 +60,9 @@ struct Reader {
     connections: Vec<Connection>,
     elements: usize,
     attributes: usize,
+    chosen: Chosen,
+    /// Hashes of the ids of edges that are not taken.
+    left_out: HashSet<u64>,
 }
 
 impl Net {
@@ -69,8 +76,13 @@ impl Net {
 
     /// Reads a network from a stream; its faults and limits return as [`SumoError::File`].
     pub(in crate::sumo) fn read_from(input: impl BufRead) -> Result<Self, SumoError> {
+        Self::read_part(input, &mut Chosen::default())
+    }
+
+    /// Reads what is chosen of a network: edges with a lane near the circle, with the connections among them.
+    pub(in crate::sumo) fn read_part(input: impl BufRead, chosen: &mut Chosen) -> Result<Self, SumoError> {
         let mut scanner = Scanner::new(input, MAX_TAG);
-        let mut reader = Reader::default();
+        let mut reader = Reader { chosen: std::mem::take(chosen), ..Reader::default() };
         while let Some(event) = scanner.next()? {
             match event {
                 XmlEvent::Start(element) => reader.start(&element)?,
@@ -78,6 +90,7 @@ impl Net {
                 XmlEvent::Text(_) => {}
             }
         }
+        *chosen = std::mem::take(&mut reader.chosen);
         Ok(reader.linked())
     }
 }
@@ -101,9 +114,17 @@ impl Reader {
             (2, "edge", open) => *open = edge(element)?.map_or(OpenElement::Other, OpenElement::Edge),
             (2, "tlLogic", open) => *open = OpenElement::Program(program(element)?),
             (2, "junction", _) if element.get("type") != Some("internal") => {
-                self.net.junctions.push(junction(element)?);
+                let junction = junction(element)?;
+                if self.chosen.takes_near(junction.position, JUNCTION_M) {
+                    self.net.junctions.push(junction);
+                }
             }
-            (2, "connection", _) => self.connections.push(connection(element)?),
+            (2, "connection", _) => {
+                let outside = |end| element.get(end).is_some_and(|id| self.left_out.contains(&hash(id)));
+                if !outside("from") && !outside("to") {
+                    self.connections.push(connection(element)?);
+                }
+            }
             (3, "lane", OpenElement::Edge(edge)) => {
                 let number = edge.lanes.len();
                 edge.lanes.push(self.net.lanes.len());
@@ -118,8 +139,13 @@ impl Reader {
 
     /// Bounds what the lists of a network can grow to.
     fn count(&mut self, element: &Element) -> Result<(), SumoError> {
-        self.elements += 1;
-        self.attributes += element.attributes.len();
+        if self.chosen.is_part() {
+            // What is passed over takes no memory but that of its hash.
+            self.elements = self.net.lanes.len() + self.connections.len() + self.left_out.len() / 8;
+        } else {
+            self.elements += 1;
+            self.attributes += element.attributes.len();
+        }
         let counts = [
             (self.elements, MAX_ELEMENTS, what::ELEMENTS),
             (self.attributes, MAX_ATTRIBUTES, what::ATTRIBUTES),
@@ -134,12 +160,32 @@ impl Reader {
     fn end(&mut self) {
         if self.depth == 2 {
             match std::mem::take(&mut self.open) {
-                OpenElement::Edge(edge) => self.net.edges.push(edge),
+                OpenElement::Edge(edge) => self.edge(edge),
                 OpenElement::Program(program) => self.net.programs.push(program),
                 OpenElement::Other => {}
             }
         }
         self.depth = self.depth.saturating_sub(1);
+    }
+
+    /// Takes an edge, or drops it with its lanes where it lies outside of the chosen part.
+    fn edge(&mut self, edge: NetEdge) {
+        let first = self.net.lanes.len() - edge.lanes.len();
+        let lanes = self.net.lanes.get(first..).unwrap_or_default();
+        let travelled = |lane: &&NetLane| {
+            !matches!(lane.kind, LaneKind::Crossing | LaneKind::WalkingArea | LaneKind::Closed)
+        };
+        let (count, mut taken) = (lanes.iter().filter(travelled).count(), false);
+        for lane in lanes {
+            taken |= self.chosen.takes(&lane.shape);
+        }
+        if taken || !self.chosen.is_part() {
+            self.net.edges.push(edge);
+            return;
+        }
+        self.net.lanes.truncate(first);
+        self.chosen.left_out += count;
+        self.left_out.insert(hash(&edge.id));
     }
 
     /// The network with its lanes linked. A connection of lanes that are not there links nothing.
@@ -174,6 +220,12 @@ impl Reader {
         }
         net
     }
+}
+
+fn hash(id: &str) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    id.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// A way through a junction between the ends of two lanes, for networks that are written without

@@ -14,6 +14,7 @@ export const german: Said<typeof SENTENCES> = {
       number: 'eine Zahl ist ungültig',
       text: 'ein Text ist ungültig',
     },
+    what: { lanes: 'Spuren', roads: 'Straßen' },
     subject: { 'road-users': 'Verkehrsteilnehmer', 'map-features': 'Kartenelemente', tracks: 'Trajektorien' },
   },
   sentences: {
@@ -46,8 +47,16 @@ export const german: Said<typeof SENTENCES> = {
     'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-lanelets': 'Lanelets überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-roads': 'Straßen überlappen sich zu oft, um ihre Ränder zu bestimmen',
+    'cut-around': (v: Values) =>
+      `Umkreis von ${v.radius_m} um ${v.x}, ${v.y}: Spuren behalten ${v.kept}, davon am Kreis endend ${v.ended}; außerhalb ${v.what} ${v.outside}`,
     'cut-in-scenes': (v: Values) =>
       `Die Aufzeichnung ist länger als eine Szene: Sie wird in Szenen von ${v.each_s} geteilt`,
+    'unread-by-place': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Element wird nicht gelesen: ${v.places}`,
+        other: `${v.count} Elemente werden nicht gelesen: ${v.places}`,
+      }),
+    'unread-places': (v: Values) => `${v.count} Elemente werden nicht gelesen: ${v.places} und ${v.more} weitere`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Element hat in einer Szene keinen Platz und entfällt`,
@@ -148,6 +157,11 @@ export const german: Said<typeof SENTENCES> = {
       plural(Number(v.count), {
         one: `${v.count} Spurabschnitt ohne zwei Seiten entfällt`,
         other: `${v.count} Spurabschnitte ohne zwei Seiten entfallen`,
+      }),
+    'lanes-without-line': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Spur ohne Mittellinie fehlt`,
+        other: `${v.count} Spuren ohne Mittellinie fehlen`,
       }),
     'left-hand': 'Es herrscht Linksverkehr, wie in dieser Gegend üblich',
     'left-hand-network': 'Es herrscht Linksverkehr, wie das Netz angibt',

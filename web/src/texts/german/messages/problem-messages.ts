@@ -23,6 +23,8 @@ export const german: Said<typeof SENTENCES> = {
     'one-scene': 'Nötig ist genau eines von scene und scene_id',
     'changed-scene': 'Die gespeicherte Szene wurde seit dem Lesen geändert.',
     'no-network': (v: Values) => `Eine Datei im Format ${v.format} kommt ohne Netz`,
+    'no-part': (v: Values) =>
+      `Eine Datei im Format ${v.format} wird ganz gelesen; Karten von SUMO, OpenDRIVE, Lanelet2 und OpenStreetMap auch in Teilen`,
     'no-columns': (v: Values) => `Eine Datei im Format ${v.format} hat keine Spalten zu benennen`,
     'unknown-format': (v: Values) => `Kein Format heißt „${v.format}“; es gibt ${v.formats}.`,
     'ego-absent': (v: Values) => `„${v.id}“ ist zu Beginn nicht da`,

@@ -46,8 +46,11 @@ export const german: Said<typeof SENTENCES> = {
     'netconvert-failed': (v: Values) => `netconvert konnte aus der Datei kein Netz machen: ${v.words}`,
     'netconvert-missing':
       'Ein OpenStreetMap-Auszug wird mit netconvert von SUMO gelesen, das hier fehlt: mit `pip install eclipse-sumo` installieren und neu starten',
-    'network-too-large': (v: Values) =>
-      `Mehr als ${v.most} ${v.what}; mit netconvert --keep-edges.in-boundary einen Teil ausschneiden`,
+    'near-a-place':
+      '--around X,Y,RADIUS (im Aufruf: around) liest den Teil im Umkreis von RADIUS Metern um X,Y in den Koordinaten der Datei',
+    'network-too-large': (v: Values) => `Mehr als ${v.most} ${v.what}`,
+    'nothing-around': (v: Values) =>
+      `Keine Spur liegt im Umkreis von ${v.radius_m} um ${v.x}, ${v.y}; die Datei hat x ${v.x_range} und y ${v.y_range}`,
     'no-column': (v: Values) => `Keine Spalte „${v.column}“; vorhanden sind ${v.columns}`,
     'no-lanelets': 'Keine Lanelets: Ein OpenStreetMap-Auszug wird als osm gelesen',
     'no-open-lanelets':
@@ -74,7 +77,7 @@ export const german: Said<typeof SENTENCES> = {
     'road-over-limit': (v: Values) => `Straße „${v.road}“ hat ${v.records} Einträge, zu viele für ihre Länge`,
     'roads-over-memory': (v: Values) =>
       `${v.lanes_m} Spuren und ${v.elements} Elemente brauchen mehr Speicher, als eine Datei dieser Größe darf`,
-    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km: einige Kilometer ausschneiden`,
+    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km; eine Karte hat einige Kilometer`,
     'too-far-from-start': (v: Values) => `${v.what} liegt ${v.distance_m} vom Start, höchstens ${v.most_m} erwartet`,
     'unequal-columns': (v: Values) =>
       plural(Number(v.count), {

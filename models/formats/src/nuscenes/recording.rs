@@ -1,0 +1,183 @@
+//! From the tables to scenes: road users where they are annotated, the ego where its pose is.
+
+use super::map::Expansion;
+use super::tables::{SceneRow, Tables};
+use crate::around::MapPart;
+use crate::cut::cut;
+use crate::format::{EGO, ImportOptions};
+use crate::problem::{Imported, ReadError};
+use crate::recording::{RecordedAgent, RecordedState, Recording, Said};
+use crate::source::Source;
+use crate::{limits, unpack};
+use scene::geometry::direction;
+use scene::{AgentType, Meta, Origin, Subtype, Vec2};
+use std::collections::{BTreeMap, HashMap};
+
+/// Memory per byte of the tables until they are scenes, bytes.
+const TABLE_MEMORY: u64 = 3;
+/// Licence of the data set.
+const LICENCE: &str = "cc-by-nc-sa-4.0";
+/// The data set's car (Renault Zoe): length, width and height, and how far its middle is ahead of the rear axle, which
+/// its poses are of, metres.
+const EGO_SIZE_M: [f64; 3] = [4.084, 1.730, 1.562];
+const EGO_AHEAD_M: f64 = 1.385;
+/// The map is kept so far round the road users of a scene, metres.
+const BESIDE_M: f64 = 100.0;
+/// Seconds of a unit of the tables' times.
+const TICK_S: f64 = 1e-6;
+
+/// The tables and maps of a zip.
+pub(super) struct NuScenes {
+    tables: Tables,
+    /// Map expansions by the place of the log.
+    maps: HashMap<String, Expansion>,
+    licence: Option<String>,
+}
+
+impl NuScenes {
+    /// # Errors
+    /// The bounds of a file, `malformed-file`, `malformed-json`, `cannot-represent`.
+    pub fn read(file: &dyn Source, options: &ImportOptions) -> Result<Self, ReadError> {
+        let most = limits::MAX_DECODED_BYTES.min(limits::memory_for(file.encoded_len()) / TABLE_MEMORY);
+        let mut files = HashMap::new();
+        for (path, bytes) in unpack::zipped(file, most, |name| name.ends_with(".json"))? {
+            let name = path.rsplit('/').next().unwrap_or_default().to_owned();
+            files.entry(name).or_insert(bytes);
+        }
+        let tables = Tables::read(&files)?;
+        let mut maps = HashMap::new();
+        for location in tables.locations.values() {
+            let name = format!("{location}.json");
+            if let (Some(bytes), false) = (files.get(&name), maps.contains_key(location)) {
+                maps.insert(location.clone(), Expansion::read(bytes, &name)?);
+            }
+        }
+        Ok(Self { tables, maps, licence: options.licence.clone() })
+    }
+
+    /// The scenes, each built on demand.
+    pub fn scenes(self) -> impl Iterator<Item = Result<Imported, ReadError>> {
+        (0..self.tables.scenes.len()).flat_map(move |i| {
+            let recording = self.tables.scenes.get(i).map(|row| self.recording(row));
+            recording.into_iter().flat_map(Recording::scenes).collect::<Vec<_>>()
+        })
+    }
+
+    fn recording(&self, row: &SceneRow) -> Recording {
+        let samples = self.tables.samples_of(row);
+        let start = samples.first().map_or(0, |(_, sample)| sample.timestamp);
+        let mut users: BTreeMap<&str, RecordedAgent> = BTreeMap::new();
+        let mut ego = Vec::new();
+        for (token, sample) in &samples {
+            let time_s = sample.timestamp.saturating_sub(start) as f64 * TICK_S;
+            let state = |at: [f64; 3], heading_rad: f64| RecordedState {
+                time_s,
+                at: Vec2::new(at[0], at[1]),
+                heading_rad,
+                velocity: Vec2::repeat(f64::NAN),
+                z_m: at[2],
+            };
+            if let Some(pose) = self.tables.egos.get(*token) {
+                let mut state = state(pose.translation, yaw(pose.rotation));
+                state.at += direction(state.heading_rad) * EGO_AHEAD_M;
+                ego.push(state);
+            }
+            for seen in self.tables.annotations.get(*token).into_iter().flatten() {
+                let category = self.tables.categories.get(&seen.instance_token).map_or("", String::as_str);
+                let (agent_type, subtype) = kind(category);
+                let [width, length, height] =
+                    seen.size.map(|side| Some(side).filter(|v| (0.05..=100.0).contains(v)));
+                let user = users.entry(&seen.instance_token).or_insert_with(|| RecordedAgent {
+                    id: seen.instance_token.clone(),
+                    agent_type,
+                    subtype,
+                    role: None,
+                    size_m: [length, width, height],
+                    samples: Vec::new(),
+                });
+                user.samples.push(state(seen.translation, yaw(seen.rotation)));
+            }
+        }
+        let mut all = Vec::new();
+        if !ego.is_empty() {
+            all.push(RecordedAgent {
+                id: EGO.to_owned(),
+                agent_type: AgentType::Vehicle,
+                subtype: Subtype::Car,
+                role: Some(EGO.to_owned()),
+                size_m: EGO_SIZE_M.map(Some),
+                samples: ego,
+            });
+        }
+        all.extend(users.into_values());
+        let mut said = Said {
+            name: row.name.clone(),
+            start_s: Some(0.0),
+            meta: Meta {
+                source: "nuscenes".into(),
+                source_id: Some(row.token.clone()),
+                licence: Some(self.licence.clone().unwrap_or_else(|| LICENCE.to_owned())),
+                ..Meta::default()
+            },
+            ..Said::default()
+        };
+        self.lay_map(row, &all, &mut said);
+        Recording { said, users: all, futures: Vec::new() }
+    }
+
+    /// Lays the map of the place under a scene, as far as its road users reach.
+    fn lay_map(&self, row: &SceneRow, users: &[RecordedAgent], said: &mut Said) {
+        let expansion = self.tables.locations.get(&row.log_token).and_then(|place| self.maps.get(place));
+        let ego = users.iter().filter(|user| user.role.is_some());
+        let reached =
+            if ego.clone().next().is_some() { ego.collect() } else { users.iter().collect::<Vec<_>>() };
+        let places = reached.iter().flat_map(|user| &user.samples).map(|sample| sample.at);
+        let corners = places.filter(|at| at.x.is_finite() && at.y.is_finite()).fold(None, |corners, at| {
+            let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
+            Some((low.inf(&at), high.sup(&at)))
+        });
+        let (Some(expansion), Some((low, high))) = (expansion, corners) else { return };
+        let origin = ((low + high) / 2.0).map(f64::round);
+        let (mut map, warnings) = expansion.map(origin);
+        let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(limits::MAX_GOAL_DISTANCE_M);
+        said.warnings.extend(warnings);
+        said.warnings.push(cut(&mut map, &mut Vec::new(), &MapPart::about(origin, radius_m)));
+        said.map = map.into();
+        said.origin = Some(Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() });
+    }
+}
+
+/// Heading of a turn in space: w, x, y and z.
+fn yaw([w, x, y, z]: [f64; 4]) -> f64 {
+    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+}
+
+/// Kind of a category such as `vehicle.bus.rigid`.
+fn kind(category: &str) -> (AgentType, Subtype) {
+    let part = |i: usize| category.split('.').nth(i).unwrap_or_default();
+    match (part(0), part(1), part(2)) {
+        ("vehicle", "bicycle", _) => (AgentType::Cyclist, Subtype::Bicycle),
+        ("vehicle", kind, _) => {
+            let subtype = match kind {
+                "car" => Subtype::Car,
+                "truck" | "construction" => Subtype::Truck,
+                "bus" => Subtype::Bus,
+                "trailer" => Subtype::Trailer,
+                "motorcycle" => Subtype::Motorcycle,
+                "emergency" => Subtype::Emergency,
+                _ => Subtype::Unknown,
+            };
+            (AgentType::Vehicle, subtype)
+        }
+        ("human", "pedestrian", kind) => {
+            let subtype = match kind {
+                "adult" | "construction_worker" | "police_officer" => Subtype::Adult,
+                "child" => Subtype::Child,
+                "wheelchair" => Subtype::Wheelchair,
+                _ => Subtype::Unknown,
+            };
+            (AgentType::Pedestrian, subtype)
+        }
+        _ => (AgentType::Other, Subtype::Unknown),
+    }
+}

@@ -1,0 +1,22 @@
+//! Reads OpenSCENARIO XML 1.x: road users with their initial states, catalogs, parameters, and trajectories with
+//! times. What needs a simulation is listed by its place in the file.
+
+mod entities;
+mod files;
+mod import;
+mod motion;
+mod parameters;
+mod places;
+mod unread;
+
+pub(super) use import::scenes;
+
+/// Whether a file that begins so is a scenario: by its element, or as a zip with a scenario in it.
+pub(super) fn begins(head: &[u8]) -> bool {
+    let ends = |end: &[u8]| head.windows(end.len()).any(|part| part.eq_ignore_ascii_case(end));
+    if head.starts_with(files::ZIP) {
+        return ends(b".xosc");
+    }
+    let root = crate::xml::root_of(&crate::unpack::head(head));
+    root.is_some_and(|root| root == "OpenSCENARIO" || root == "OpenScenario")
+}
