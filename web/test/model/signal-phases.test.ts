@@ -12,6 +12,8 @@ import {
   withStates,
   type SignalStates,
 } from '../../src/model/physics/signal-phases';
+import { hasSignals } from '../../src/model/physics/signals';
+import type { Vec } from '../../src/model/base/geometry';
 import { crossing } from '../helpers';
 
 const CYCLE: SignalStates = [
@@ -72,5 +74,20 @@ describe('phases of a signal', () => {
     const diff = structuredClone(diffOf(scene, after));
     expect(applyDiff(scene, diff, 'forth').signals).toEqual(after.signals);
     expect(applyDiff(after, diff, 'back').signals).toEqual(scene.signals);
+  });
+});
+
+describe('the signals of a crosswalk', () => {
+  it('are those whose stop line is near', () => {
+    const scene = crossing();
+    const square = (x: number): Vec[] => [
+      [x, 0],
+      [x + 4, 0],
+      [x + 4, 10],
+      [x, 10],
+    ];
+    const map = { ...scene.map, crosswalks: [square(0), square(60)] };
+    const of: Scene = { ...scene, map, signals: [{ lane: 'a', stop: [-3, 5], states: CYCLE }] };
+    expect([hasSignals(of, 0), hasSignals(of, 1)]).toEqual([true, false]);
   });
 });

@@ -2,6 +2,7 @@
 // crosswalk or a stop sign with who goes first.
 import { num, speedInUse } from '../../model/base/units';
 import type { Lane } from '../../model/document/lanemap';
+import { hasSignals } from '../../model/physics/signals';
 import { placeOfItem } from '../../edit/gestures/on-the-map';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -16,7 +17,6 @@ export default function MapItemPanel() {
   const scene = editor.resting.value;
   if (!item || !scene) return null;
   const lane = item.kind === 'lane' ? scene.map.lanes.get(item.lane) : undefined;
-  const controlled = scene.signals.length > 0;
   return (
     <>
       <div class="ih">
@@ -39,7 +39,9 @@ export default function MapItemPanel() {
       </div>
       {item.kind === 'signal' ? <Phases /> : null}
       {lane ? <LaneRows lane={lane} /> : null}
-      {item.kind === 'crosswalk' ? <Priority words={controlled ? TEXTS.bySignals : TEXTS.pedestriansFirst} /> : null}
+      {item.kind === 'crosswalk' ? (
+        <Priority words={hasSignals(scene, item.index) ? TEXTS.bySignals : TEXTS.pedestriansFirst} />
+      ) : null}
       {item.kind === 'stop-sign' ? <Priority words={TEXTS.everyoneStops} /> : null}
     </>
   );

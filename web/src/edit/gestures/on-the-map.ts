@@ -3,7 +3,7 @@ import { insidePolygon, pointAt, type Vec } from '../../model/base/geometry';
 import { speedInUse } from '../../model/base/units';
 import { nearestLanes, type Lane } from '../../model/document/lanemap';
 import type { Scene, Signal } from '../../model/document/scene';
-import { changesAt, lightAt, stopOf } from '../../model/physics/signals';
+import { changesAt, hasSignals, lightAt, stopOf } from '../../model/physics/signals';
 import { laneWords } from '../moves/snap';
 import type { MapItem } from '../session/map-item';
 import { capitalised } from '../../texts/language';
@@ -73,7 +73,7 @@ export function itemWords(scene: Scene, item: MapItem, time: number): string {
     case 'stop-sign':
       return TEXTS.stopLine(place);
     case 'crosswalk':
-      return TEXTS.crosswalk(scene.signals.length > 0);
+      return TEXTS.crosswalk(hasSignals(scene, item.index));
     case 'lane':
       return laneSaid(scene.map.lanes.get(item.lane)!, place);
   }

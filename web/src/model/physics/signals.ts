@@ -1,8 +1,8 @@
 // Traffic signals of a scene: the light at a time, and the place of the stop line.
-import { pointAt, type Vec } from '../base/geometry';
+import { makeLine, pointAt, project, type Vec } from '../base/geometry';
 import { STEP_S } from '../base/motion';
 import type { Lane } from '../document/lanemap';
-import type { Signal } from '../document/scene';
+import type { Scene, Signal } from '../document/scene';
 
 export type Light = 'stop' | 'caution' | 'go' | 'unknown';
 
@@ -32,4 +32,17 @@ export function stopOf({ stop }: Signal, lane: Lane | undefined): Vec | null {
   if (stop || !lane) return stop;
   const { x, y } = pointAt(lane.line, 0);
   return [x, y];
+}
+
+/** A crosswalk belongs to the signals whose stop line is within this distance of its edge, metres. */
+const OF_CROSSWALK_M = 12;
+
+/** Do signals control the crosswalk? */
+export function hasSignals({ map, signals }: Scene, crosswalk: number): boolean {
+  const corners = map.crosswalks[crosswalk];
+  const edge = makeLine([...corners, corners[0]]);
+  return signals.some((signal) => {
+    const stop = stopOf(signal, map.lanes.get(signal.lane));
+    return stop !== null && project(edge, ...stop).d <= OF_CROSSWALK_M;
+  });
 }
