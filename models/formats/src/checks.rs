@@ -39,6 +39,8 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("parquet", |bytes| recording("parquet", bytes)),
     ("av2", |bytes| recording("av2", bytes)),
     ("av2-pair", |bytes| pair("av2", bytes)),
+    ("openscenario", |bytes| recording("openscenario", bytes)),
+    ("nuscenes", |bytes| recording("nuscenes", bytes)),
     ("sniff", sniff),
 ];
 

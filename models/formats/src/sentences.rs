@@ -81,8 +81,8 @@ scene::messages! {
         "unread-by-place",
         [count] "{count} element is not read: {places}",
         "{count} elements are not read: {places}";
-    unread_places(count: usize, places: &str, more: usize) =
-        "unread-places", "{count} elements are not read: {places} and {more} more";
+    unread_places(all: usize, places: &str, more: usize) =
+        "unread-places", "{all} elements are not read: {places} and {more} more";
     elements_unread(count: usize) =
         "elements-unread",
         [count] "{count} element has no place in a scene and is left out",

@@ -183,7 +183,7 @@ fn bad_files() -> Vec<Case> {
         ("deep nesting", format!("<net>{}", "<a>".repeat(100_000)).into(), None, file, "deeper than 32"),
         ("many attributes", format!("<net{attributes}/>").into(), None, file, "more than 128 attributes"),
         ("no lanes", b"<net/>".into(), None, no, "has no lane"),
-        ("30,000 lanes", format!("<net>{many_lanes}</net>").into(), None, "map-too-large", "netconvert"),
+        ("30,000 lanes", format!("<net>{many_lanes}</net>").into(), None, "map-too-large", "--around"),
         ("lanes to the moon", format!("<net>{long_lanes}</net>").into(), None, "map-too-large", "points"),
         (
             "gzip bomb",

@@ -54,7 +54,7 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} element is not read: ${v.places}`,
         other: `${v.count} elements are not read: ${v.places}`,
       }),
-    'unread-places': (v: Values) => `${v.count} elements are not read: ${v.places} and ${v.more} more`,
+    'unread-places': (v: Values) => `${v.all} elements are not read: ${v.places} and ${v.more} more`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} element has no place in a scene and is left out`,

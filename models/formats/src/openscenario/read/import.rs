@@ -57,7 +57,7 @@ fn read(file: &dyn Source, options: &ImportOptions) -> Result<Recording, ReadErr
         return Err(ReadError::other_content(refusals::file_has_no(what::ROAD_USER)));
     };
     let mut reader =
-        ScenarioReader { files: &files, options, catalogs, ..ScenarioReader::new(&files, options) };
+        OpenScenarioReader { files: &files, options, catalogs, ..OpenScenarioReader::new(&files, options) };
     reader.read(text)?;
     reader.finish()
 }
@@ -95,7 +95,7 @@ fn catalog(text: &[u8], to: &mut Catalogs) -> Result<bool, ReadError> {
 /// Moves of an act, each with its own time, until the start of the act is known.
 type ActMoves = Vec<(String, Option<f64>, Move)>;
 
-struct ScenarioReader<'a> {
+struct OpenScenarioReader<'a> {
     files: &'a ScenarioFiles,
     options: &'a ImportOptions,
     catalogs: Catalogs,
@@ -121,7 +121,7 @@ struct ScenarioReader<'a> {
     frame: Option<Frame>,
 }
 
-impl<'a> ScenarioReader<'a> {
+impl<'a> OpenScenarioReader<'a> {
     fn new(files: &'a ScenarioFiles, options: &'a ImportOptions) -> Self {
         Self {
             files,

@@ -56,7 +56,7 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} Element wird nicht gelesen: ${v.places}`,
         other: `${v.count} Elemente werden nicht gelesen: ${v.places}`,
       }),
-    'unread-places': (v: Values) => `${v.count} Elemente werden nicht gelesen: ${v.places} und ${v.more} weitere`,
+    'unread-places': (v: Values) => `${v.all} Elemente werden nicht gelesen: ${v.places} und ${v.more} weitere`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Element hat in einer Szene keinen Platz und entfällt`,
