@@ -247,6 +247,6 @@ def test_a_part_of_a_map_is_opened(tmp_path: Path) -> None:
     path = tmp_path / "a.net.xml"
     path.write_text(f"<net>{lane.format('near', 0)}{lane.format('far', 500)}</net>")
     part = dragtraffic.open(path, around=(400, 0, 150))
-    assert len(part.map["lanes"]) == 1
+    assert len(part.document["map"]["lanes"]) == 1
     with pytest.raises(dragtraffic.DragTrafficError):
         dragtraffic.open(path, around=(400, 0, 1))

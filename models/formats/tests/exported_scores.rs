@@ -245,6 +245,10 @@ proptest! {
                 continue;
             }
             let (back, _) = format.import(&exported.bytes, &options).remove(0).unwrap();
+            // Its speeds follow from positions, and drawn states have others; `openscenario_in.rs` compares positions.
+            if id == "openscenario" {
+                continue;
+            }
             let drivable = Drivable::new(&scene.map);
             let steps = ScoreInput::of_scene(&scene, &drivable).steps;
             let scored = |scene_seen: &Scene| scored(scene_seen, &scene.time, &steps, &codes);

@@ -1,6 +1,6 @@
 //! An index of recordings: what each road user that moves does in them, as a table that queries choose scenes by.
 
-use crate::case::facts::{self, CaseFacts};
+use crate::case::facts::{self, CaseFacts, RecordedFacts};
 use formats::columnar::{self, Column, ColumnValues};
 use scene::score::Drivable;
 use scene::{STEP_S, Scene};
@@ -17,7 +17,7 @@ pub struct IndexedScene {
     road_users: u64,
     signals: u64,
     duration_s: f64,
-    moving: Vec<(String, CaseFacts)>,
+    moving: Vec<RecordedFacts>,
 }
 
 impl IndexedScene {
@@ -39,7 +39,7 @@ impl IndexedScene {
         let text = |value: &str| ColumnValues::Text(vec![Some(value.to_owned()); rows]);
         let whole = |value: u64| ColumnValues::Whole(vec![i64::try_from(value).ok(); rows]);
         let column = |name, values| Column { name, required: true, values };
-        let ids = self.moving.iter().map(|(id, _)| Some(id.clone())).collect();
+        let ids = self.moving.iter().map(|of| Some(of.id.clone())).collect();
         let mut columns = vec![
             column("file", text(&self.file)),
             column("index", whole(self.index)),
@@ -50,7 +50,7 @@ impl IndexedScene {
             column("duration_s", ColumnValues::Number(vec![Some(self.duration_s); rows])),
             column("actor", ColumnValues::Text(ids)),
         ];
-        columns.extend(CaseFacts::table(self.moving.iter().map(|(_, facts)| facts)));
+        columns.extend(CaseFacts::table(self.moving.iter().map(|of| &of.facts)));
         columns
     }
 }

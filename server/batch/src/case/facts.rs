@@ -123,8 +123,16 @@ impl CaseFacts {
     }
 }
 
-/// The facts of a scene as it is recorded: each road user that moves, by its id.
-pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<(String, CaseFacts)> {
+/// The facts of a recorded road user.
+pub struct RecordedFacts {
+    /// Its id.
+    pub id: String,
+    /// What it does.
+    pub facts: CaseFacts,
+}
+
+/// The facts of a scene as it is recorded: those of each road user that moves.
+pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<RecordedFacts> {
     let logs = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other).map(Actor::of_kept);
     let input = ScoreInput { actors: logs.collect(), ..ScoreInput::of_sample(scene, None, drivable) };
     let search = MeetingSearch::new(&input);
@@ -133,7 +141,7 @@ pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<
     let all = (0..input.actors.len()).filter(moves);
     let named = |of: usize| {
         let (facts, _) = CaseFacts::of(&input, &search, of)?;
-        Some((input.actors.get(of)?.id.to_owned(), facts))
+        Some(RecordedFacts { id: input.actors.get(of)?.id.to_owned(), facts })
     };
     all.filter_map(named).collect()
 }

@@ -7,7 +7,7 @@ use super::record::BatchRecord;
 use crate::cli::progress::Progress;
 use crate::cli::values::whole;
 use crate::cli::{Common, Failure, output, parallel};
-use batch::case::facts::{self, CaseFacts};
+use batch::case::facts::{self, RecordedFacts};
 use batch::coverage::document::CoverageDocument;
 use batch::coverage::table::CoverageTable;
 use batch::figures::{FigureFilter, Figures};
@@ -123,7 +123,7 @@ fn recorded(
     let scenes = record.scenes.iter().filter(|entry| entry.problem.is_none());
     let scenes: Vec<_> = scenes.filter(|entry| once.insert(&entry.sha256)).collect();
     let progress = Progress::new("scenes", scenes.len() as u64, common.quiet);
-    let look = |entry: &&_| -> Result<(Vec<(String, CaseFacts)>, Option<PageScene>), Failure> {
+    let look = |entry: &&_| -> Result<(Vec<RecordedFacts>, Option<PageScene>), Failure> {
         let scene = folder.read_scene(entry)?;
         let page = drawn.contains(entry.sha256.as_str()).then(|| PageScene::of(&entry.name, &scene.map));
         Ok((facts::recorded(&scene, &Drivable::new(&scene.map)), page))
@@ -133,7 +133,7 @@ fn recorded(
         progress.step();
         match found {
             Ok((found, page)) => {
-                found.iter().for_each(|(_, facts)| table.add_recorded(facts));
+                found.iter().for_each(|of| table.add_recorded(&of.facts));
                 if let Some(page) = page {
                     bytes += page.map.len();
                     let fits = bytes <= page::MOST_MAP_BYTES;
