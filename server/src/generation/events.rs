@@ -106,19 +106,27 @@ impl JsonSchema for StreamEvent {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let schemas = [
+        let own = [
             generator.subschema_for::<Envelope<'static, AcceptedBody>>(),
             generator.subschema_for::<Envelope<'static, DraftBody>>(),
             generator.subschema_for::<Envelope<'static, FinalBody>>(),
             generator.subschema_for::<Envelope<'static, ErrorBody>>(),
             generator.subschema_for::<Envelope<'static, SupersededBody>>(),
-            generator.subschema_for::<Heartbeat>(),
         ];
-        json_schema!({
-            "description": "One event of the stream. Exactly one of final, error and superseded ends it.",
-            "oneOf": schemas,
-        })
+        let about = "One event of the stream. Exactly one of final, error and superseded ends it.";
+        choice(generator, about, own)
     }
+}
+
+/// The schema of one event of a stream: one of its own, or a sign of life.
+pub(super) fn choice<const N: usize>(
+    generator: &mut SchemaGenerator,
+    about: &str,
+    own: [Schema; N],
+) -> Schema {
+    let heartbeat = generator.subschema_for::<Heartbeat>();
+    let all: Vec<Schema> = own.into_iter().chain([heartbeat]).collect();
+    json_schema!({"description": about, "oneOf": all})
 }
 
 macro_rules! names {

@@ -50,7 +50,7 @@ pub fn submit(
     })
 }
 
-/// Queues a search.
+/// Queues a search, with the expected time to work out its map.
 ///
 /// # Errors
 /// `shutting-down`, `exists` or `busy`.
@@ -59,9 +59,9 @@ pub fn submit_search(
     operations: Operations,
     limits: &Limits,
     caller: Caller,
-    search: SceneSearch,
+    (search, preparation): (SceneSearch, Duration),
 ) -> Result<EventReader, Problem> {
-    let cost = TRY_COST * u32::try_from(search.tries()).unwrap_or(u32::MAX);
+    let cost = preparation + TRY_COST * u32::try_from(search.tries()).unwrap_or(u32::MAX);
     let asked = JobRequest { kind: JobKind::Search, cost, caller };
     let time = Duration::from_secs(limits.generate_s).mul_f64(SHARE_OF_TIME);
     queue(pool, limits, "/v1/search", asked, move |feed, others| {

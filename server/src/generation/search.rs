@@ -1,6 +1,6 @@
 //! One search: each try is an event as it comes, the last event has all of them.
 
-use super::events::{Envelope, ErrorBody, EventBody, Heartbeat};
+use super::events::{Envelope, ErrorBody, EventBody, choice};
 use super::feed::Feed;
 use super::outbox::JobEnd;
 use crate::base::clock;
@@ -10,7 +10,7 @@ use api::Operations;
 use batch::row::UnitOutcome;
 use batch::search::call::{SearchEnd, SearchTry};
 use batch::search::one_scene::SceneSearch;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -112,16 +112,12 @@ impl JsonSchema for SearchEvent {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let schemas = [
+        let own = [
             generator.subschema_for::<Envelope<'static, SearchAcceptedBody>>(),
             generator.subschema_for::<Envelope<'static, SearchTriedBody>>(),
             generator.subschema_for::<Envelope<'static, SearchFinalBody>>(),
             generator.subschema_for::<Envelope<'static, ErrorBody>>(),
-            generator.subschema_for::<Heartbeat>(),
         ];
-        json_schema!({
-            "description": "One event of a search. Exactly one of final and error ends it.",
-            "oneOf": schemas,
-        })
+        choice(generator, "One event of a search. Exactly one of final and error ends it.", own)
     }
 }

@@ -93,15 +93,8 @@ pub async fn line(carrier: Option<Extension<Carrier>>, request: Request) -> Resu
 
 /// Caller named by the body.
 fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
-    for (pointer, id) in [("/job", &body.job), ("/client", &body.client)] {
-        if id.as_ref().is_some_and(|id| !is_id(id)) {
-            return Err(Problem::field(
-                pointer,
-                Code::InvalidField,
-                "1 to 64 of A-Z a-z 0-9 _ and - expected",
-            ));
-        }
-    }
+    own_id("/job", body.job.as_deref())?;
+    own_id("/client", body.client.as_deref())?;
     let client = match (&body.client, body.revision) {
         (Some(client), Some(revision)) => Some((client.clone(), revision)),
         (None, None) => None,
@@ -111,4 +104,12 @@ fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
         }
     };
     Ok(Caller { job: body.job.clone(), client, background: body.background, ..Caller::default() })
+}
+
+/// Refuses an id of the client's own that is none.
+pub(super) fn own_id(pointer: &str, id: Option<&str>) -> Result<(), Problem> {
+    if id.is_none_or(is_id) {
+        return Ok(());
+    }
+    Err(Problem::field(pointer, Code::InvalidField, "1 to 64 of A-Z a-z 0-9 _ and - expected"))
 }

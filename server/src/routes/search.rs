@@ -1,7 +1,7 @@
 //! `/v1/search`: tries in one scene, towards a condition on what happens.
 
+use super::generate::own_id;
 use crate::app::App;
-use crate::base::id::is_id;
 use crate::base::problem::Refusal;
 use crate::generation;
 use crate::generation::stream::{self, StreamPace};
@@ -9,7 +9,7 @@ use crate::http::accept::ReplyFormat;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
 use crate::work::Caller;
-use api::{AboutScene, Code, Problem};
+use api::AboutScene;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
 use batch::search::call::SearchBody;
@@ -41,19 +41,22 @@ pub async fn search(
 ) -> Result<Response, Refusal> {
     let form = ReplyFormat::negotiate(request.headers())?;
     let Json(mut body) = Json::<SearchBody>::from_request(request, &app).await?;
-    if body.job.as_ref().is_some_and(|id| !is_id(id)) {
-        let detail = "1 to 64 of A-Z a-z 0-9 _ and - expected";
-        return Err(Problem::field("/job", Code::InvalidField, detail).into());
-    }
+    own_id("/job", body.job.as_deref())?;
     let caller = Caller { job: body.job.take(), ..connection.into() };
     app.pool.expects(&caller)?;
     let scene = body.take_scene().open(&app.catalog.of(connection.party)).await?.scene;
-    app.map_preparation(&scene.map).await?;
+    let preparation = app.map_preparation(&scene.map).await?;
     let search = SceneSearch::new(&body, Arc::clone(&scene), app.patient.generator.hashes())?;
     let pace = StreamPace {
         heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
         together: Duration::ZERO,
     };
-    let reader = generation::submit_search(&app.pool, app.patient.clone(), &app.limits, caller, search)?;
+    let reader = generation::submit_search(
+        &app.pool,
+        app.patient.clone(),
+        &app.limits,
+        caller,
+        (search, preparation),
+    )?;
     Ok(stream::reply(reader, form, pace).await)
 }

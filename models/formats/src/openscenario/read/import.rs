@@ -56,8 +56,7 @@ fn read(file: &dyn Source, options: &ImportOptions) -> Result<Recording, ReadErr
     let Some((_, text)) = scenario else {
         return Err(ReadError::other_content(refusals::file_has_no(what::ROAD_USER)));
     };
-    let mut reader =
-        OpenScenarioReader { files: &files, options, catalogs, ..OpenScenarioReader::new(&files, options) };
+    let mut reader = OpenScenarioReader::new(&files, options, catalogs);
     reader.read(text)?;
     reader.finish()
 }
@@ -122,11 +121,11 @@ struct OpenScenarioReader<'a> {
 }
 
 impl<'a> OpenScenarioReader<'a> {
-    fn new(files: &'a ScenarioFiles, options: &'a ImportOptions) -> Self {
+    fn new(files: &'a ScenarioFiles, options: &'a ImportOptions, catalogs: Catalogs) -> Self {
         Self {
             files,
             options,
-            catalogs: Catalogs::new(),
+            catalogs,
             unread: Unread::default(),
             said: Said::default(),
             scope: Scope::default(),
@@ -208,13 +207,8 @@ impl<'a> OpenScenarioReader<'a> {
             ("Act", "ManeuverGroup") => {
                 let story = self.story.clone();
                 story.fill(&mut node)?;
-                let mut stage = MotionReader {
-                    places: &self.places,
-                    catalogs: &self.catalogs,
-                    unread: &mut self.unread,
-                    poses: &mut self.told,
-                    moves: std::mem::take(&mut self.act),
-                };
+                let moves = std::mem::take(&mut self.act);
+                let mut stage = self.motion(moves);
                 stage.group(&node, &story, place)?;
                 self.act = stage.moves;
             }
@@ -232,6 +226,17 @@ impl<'a> OpenScenarioReader<'a> {
             _ => self.unread.push(&deepest(place, &node)),
         }
         Ok(())
+    }
+
+    /// What reads motion, with the moves so far.
+    fn motion(&mut self, moves: ActMoves) -> MotionReader<'_> {
+        MotionReader {
+            places: &self.places,
+            catalogs: &self.catalogs,
+            unread: &mut self.unread,
+            poses: &mut self.told,
+            moves,
+        }
     }
 
     fn header(&mut self, header: &XmlNode) {
@@ -301,8 +306,7 @@ impl<'a> OpenScenarioReader<'a> {
                     let entry = attribute(child, "entryName");
                     self.unread.push(&format!("{place}/CatalogReference[{entry}]"));
                     // A road user whose catalog is elsewhere is there all the same, as a usual vehicle.
-                    let usual = XmlNode::default();
-                    let mut vehicle = usual.clone();
+                    let mut vehicle = XmlNode::default();
                     vehicle.element.name = "Vehicle".into();
                     found = found.or(Entity::of(&name, &vehicle)?);
                 }
@@ -340,15 +344,9 @@ impl<'a> OpenScenarioReader<'a> {
                 self.unread.push(&deepest(&way, inner));
                 continue;
             };
-            let mut stage = MotionReader {
-                places: &self.places,
-                catalogs: &self.catalogs,
-                unread: &mut self.unread,
-                poses: &mut self.told,
-                moves: Vec::new(),
-            };
             let way = format!("{way}/RoutingAction/FollowTrajectoryAction");
-            if let Some(poses) = stage.trajectory(follow, 0.0, &self.scope, &way)? {
+            let scope = self.scope.clone();
+            if let Some(poses) = self.motion(Vec::new()).trajectory(follow, 0.0, &scope, &way)? {
                 self.follow(&name, poses)?;
             }
         }
