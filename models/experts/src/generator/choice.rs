@@ -6,8 +6,7 @@ use crate::tuning::ChoiceTuning;
 use crate::tuning::fixed::choice::{LEAST_SPREAD_M, MOST_MOMENTS};
 use scene::HORIZON_STEPS;
 use scene::motion::Trajectory;
-use scene::score::{CLOSE_M, SweptBoxes, Thresholds, comes_within, dangerous_moments, overlap};
-use std::collections::HashMap;
+use scene::score::{CLOSE_M, SweptBounds, SweptBoxes, Thresholds, comes_within, dangerous_moments, overlap};
 use std::sync::Arc;
 
 const MOST_SWEEPS: usize = 12;
@@ -59,7 +58,7 @@ impl Choice<'_> {
     /// Index of the chosen option of each road user. Ties go to the lower index.
     pub(super) fn solve(&self) -> Vec<usize> {
         let own = self.own_costs();
-        let mut pairs = Pairs { agents: &self.agents, tuning: self.tuning, known: HashMap::new() };
+        let mut pairs = Pairs::new(&self.agents, self.tuning);
         let mut chosen: Vec<usize> = own.iter().map(|costs| least(costs.iter().copied())).collect();
         let near = self.near();
         for _ in 0..MOST_SWEEPS {
@@ -159,9 +158,14 @@ impl Choice<'_> {
         let n = self.agents.len();
         // From this distance on two that cross cost something.
         let margin_m = Thresholds::default().gap_m.max(CLOSE_M);
+        let bounds: Vec<SweptBounds> = self
+            .agents
+            .iter()
+            .map(|options| SweptBounds::about(options.iter().map(JointOption::boxes)))
+            .collect();
         let mut near = vec![Vec::new(); n];
         for i in 0..n {
-            for j in i + 1..n {
+            for j in (i + 1..n).filter(|j| bounds[i].may_come_within(&bounds[*j], margin_m)) {
                 let meet = self.agents[i]
                     .iter()
                     .any(|a| self.agents[j].iter().any(|b| comes_within(a.boxes(), b.boxes(), margin_m)));
@@ -179,20 +183,30 @@ impl Choice<'_> {
 struct Pairs<'a> {
     agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,
-    known: HashMap<(usize, usize, usize, usize), f64>,
+    /// For two road users, the first before the second: a cost for each option of the first and then of the second.
+    /// Empty until they are compared; not a number until the options are.
+    known: Vec<Vec<f64>>,
 }
 
-impl Pairs<'_> {
+impl<'a> Pairs<'a> {
+    fn new(agents: &'a [Vec<JointOption>], tuning: &'a ChoiceTuning) -> Self {
+        Self { agents, tuning, known: vec![Vec::new(); agents.len() * agents.len()] }
+    }
+
     fn cost(&mut self, i: usize, a: usize, j: usize, b: usize) -> f64 {
-        let key = if i < j { (i, a, j, b) } else { (j, b, i, a) };
-        let (agents, tuning) = (self.agents, self.tuning);
-        *self.known.entry(key).or_insert_with(|| {
-            let (one, other) = (&agents[key.0][key.1], &agents[key.2][key.3]);
-            if one.kept && other.kept {
-                return 0.0;
-            }
-            price(one.boxes(), other.boxes(), tuning)
-        })
+        let (i, a, j, b) = if i < j { (i, a, j, b) } else { (j, b, i, a) };
+        let (first, second) = (&self.agents[i], &self.agents[j]);
+        let known = &mut self.known[i * self.agents.len() + j];
+        if known.is_empty() {
+            known.resize(first.len() * second.len(), f64::NAN);
+        }
+        let cost = &mut known[a * second.len() + b];
+        if cost.is_nan() {
+            let (one, other) = (&first[a], &second[b]);
+            let kept = one.kept && other.kept;
+            *cost = if kept { 0.0 } else { price(one.boxes(), other.boxes(), self.tuning) };
+        }
+        *cost
     }
 }
 

@@ -16,7 +16,9 @@ pub type Vec2 = Vector2<f64>;
 /// Wraps an angle to [-pi, pi). The one place where angles are wrapped.
 pub fn wrap_angle(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
-    let wrapped = (angle_rad + PI).rem_euclid(TAU) - PI;
+    let turned = angle_rad + PI;
+    // Most angles are in range: the remainder, which is slow, would be the angle itself.
+    let wrapped = if (0.0..TAU).contains(&turned) { turned } else { turned.rem_euclid(TAU) } - PI;
     // rem_euclid may round up to TAU itself for tiny negative input.
     if wrapped >= PI { wrapped - TAU } else { wrapped }
 }

@@ -14,7 +14,7 @@ pub use trace::{SAME_WAY_RAD, SharedGround, Trace, crossing};
 
 use crate::score::goal::goal_error;
 use crate::score::lane_rules::end_step;
-use crate::score::pairs::{Meeting, Mover};
+use crate::score::pairs::{Meeting, Mover, MoverBounds};
 use crate::score::recorded::{self, MotionRule};
 use crate::score::report::{RedLight, Stretch};
 use crate::score::road::{RoadScore, score_road};
@@ -22,7 +22,9 @@ use crate::score::signals::{SignalStopLine, crossed_at_red, stop_lines};
 use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
 use crate::via::passings;
 use crate::{AgentType, LaneMap, Passing, STEP_S, Signal, State, Via};
+use std::cell::LazyCell;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// A wheel that touches the kerb is no event: metres past the edge.
 const PAST_EDGE_M: f64 = 0.15;
@@ -45,7 +47,9 @@ pub struct Judge<'a> {
 /// Another agent with the motion that may be met.
 pub struct Other<'a> {
     actor: Actor<'a>,
-    mover: Mover,
+    bounds: MoverBounds,
+    /// Made for the first motion that comes near.
+    mover: OnceLock<Mover>,
 }
 
 impl Other<'_> {
@@ -80,8 +84,8 @@ impl<'a> Judge<'a> {
 
     /// Prepares another agent for many comparisons.
     pub fn other(&self, actor: Actor<'a>) -> Other<'a> {
-        let mover = Mover::new(&actor, self.input.steps.clone());
-        Other { actor, mover }
+        let bounds = MoverBounds::new(&actor, self.input.steps.clone());
+        Other { actor, bounds, mover: OnceLock::new() }
     }
 
     /// Faults of a motion that do not involve another agent: road, lights, brakes, steering, goal. Faults
@@ -142,9 +146,15 @@ impl<'a> Judge<'a> {
     where
         'a: 'o,
     {
-        let mover = Mover::new(actor, self.input.steps.clone());
+        let mover_of = |actor: &Actor<'_>| Mover::new(actor, self.input.steps.clone());
+        let bounds = MoverBounds::new(actor, self.input.steps.clone());
+        let mover = LazyCell::new(|| mover_of(actor));
         let meets = |other: &Other<'_>| {
-            let met = Meeting::between(&self.input, (actor, &mover), (&other.actor, &other.mover))?;
+            if !Meeting::is_possible(&self.input, &bounds, &other.bounds) {
+                return None;
+            }
+            let theirs = other.mover.get_or_init(|| mover_of(&other.actor));
+            let met = Meeting::between(&self.input, (actor, &mover), (&other.actor, theirs))?;
             let (kind, time_s, extent) = match met {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)

@@ -145,7 +145,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
         return None;
     }
     // Straight ahead of it, or where it will be within the headway.
-    let facing = moment.forward;
+    let facing = me.forward(moment);
     let (along, aside) = (between.dot(&facing), cross(facing, between));
     let bumper = along - 0.5 * (me.size.length_m + other.size.length_m);
     let beside = 0.5 * (me.size.width_m + other.size.width_m);

@@ -7,6 +7,7 @@
 use crate::geometry::direction;
 use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::{AgentId, AgentType, STEP_S, Size, State, Vec2, wrap_angle};
+use std::sync::OnceLock;
 
 /// Steps between two moments.
 pub(super) const STRIDE: usize = 2;
@@ -31,8 +32,8 @@ const GOES_ON_STEP_M: f64 = 1.0;
 pub(super) struct Moment {
     pub(super) center: Vec2,
     pub(super) heading_rad: f64,
-    /// Unit vector along it.
-    pub(super) forward: Vec2,
+    /// Its place among the moments.
+    at: usize,
     pub(super) speed_mps: f64,
     /// Way from the first moment, metres.
     pub(super) way_m: f64,
@@ -46,6 +47,8 @@ pub struct Trace {
     pub(super) size: Size,
     /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
     pub(super) moments: Vec<Option<Moment>>,
+    /// By moment, the unit vector along its heading; computed on first use, since most traces meet none.
+    forwards: OnceLock<Box<[Vec2]>>,
     /// Where it would go on from its last moment, for one that waits at its end.
     goes_on: Vec<Moment>,
     low: Vec2,
@@ -70,6 +73,7 @@ impl Trace {
             agent_type,
             size: *size,
             moments: Vec::with_capacity(steps.div_ceil(STRIDE)),
+            forwards: OnceLock::new(),
             goes_on: Vec::new(),
             low: Vec2::repeat(f64::INFINITY),
             high: Vec2::repeat(f64::NEG_INFINITY),
@@ -89,7 +93,7 @@ impl Trace {
                 Moment {
                     center: position,
                     heading_rad: state.heading_rad,
-                    forward: direction(state.heading_rad),
+                    at: trace.moments.len(),
                     speed_mps: state.speed_mps(),
                     way_m: trace.way_m,
                 }
@@ -105,13 +109,14 @@ impl Trace {
         if let Some(last) = self.moments.iter().rev().flatten().next().copied()
             && last.speed_mps < WAITING_MPS
         {
+            let forward = direction(last.heading_rad);
             let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
             let on = |i: usize| {
-                let center = last.center + last.forward * (GOES_ON_STEP_M * i as f64);
+                let center = last.center + forward * (GOES_ON_STEP_M * i as f64);
                 Moment { center, ..last }
             };
             self.goes_on = (1..=count).map(on).collect();
-            let end = last.center + last.forward * GOES_ON_M;
+            let end = last.center + forward * GOES_ON_M;
             (self.low, self.high) = (self.low.inf(&end), self.high.sup(&end));
         }
         self
@@ -168,10 +173,15 @@ impl Trace {
         false
     }
 
-    /// The box at a moment, computed on first use: most are never needed.
+    /// Unit vector along the heading of one of its moments.
+    pub(super) fn forward(&self, moment: &Moment) -> Vec2 {
+        let of = |moment: &Option<Moment>| moment.map_or(Vec2::zeros(), |m| direction(m.heading_rad));
+        self.forwards.get_or_init(|| self.moments.iter().map(of).collect())[moment.at]
+    }
+
     fn outline(&self, moment: &Moment) -> OrientedBox {
         let half_m = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
-        OrientedBox::facing(moment.center, half_m, moment.heading_rad, moment.forward)
+        OrientedBox::facing(moment.center, half_m, moment.heading_rad, self.forward(moment))
     }
 
     /// The boxes of two at these moments overlap.

@@ -115,7 +115,8 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
     let mut out = Vec::with_capacity(at.len());
     let last = at.last().copied().unwrap_or(0);
     let (mut x, mut y, mut heading, mut speed) = (-offset, 0.0, 0.0_f64, v0);
-    let (mut dx, mut dy, mut dh) = ([0.0; CONTROLS], [0.0; CONTROLS], [0.0; CONTROLS]);
+    // Acceleration knots, then curvature knots. Loops of a known length over each take half the time.
+    let (mut dx, mut dy, mut dh) = ([[0.0; KNOTS]; 2], [[0.0; KNOTS]; 2], [[0.0; KNOTS]; 2]);
     let mut dv = [0.0; KNOTS];
     let mut next = 0;
     for i in 0..last.min(HORIZON_STEPS) {
@@ -128,30 +129,28 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
         let mean = 0.5 * (speed + s.speed_next);
         let grip_slope =
             if s.bound == CurvatureBound::Grip && mean > 1e-3 { -2.0 * s.curvature / mean } else { 0.0 };
-        // Knots after the present one cannot have acted yet, so their columns are still zero.
-        let reach = (j + 2).min(KNOTS);
-        for c in 0..reach {
+        let mut weights = [0.0; KNOTS];
+        (weights[j], weights[j + 1]) = (w0, w1);
+        for c in 0..KNOTS {
             let before = dv[c];
-            let psi = if c == j { w0 } else { f64::from(u8::from(c == j + 1)) * w1 };
-            let after = if s.speed_free { before + STEP_S * psi } else { 0.0 };
+            let after = if s.speed_free { before + STEP_S * weights[c] } else { 0.0 };
             dv[c] = after;
             let dmean = 0.5 * (before + after);
             let dds = gear * STEP_S * dmean;
             let dturn = s.curvature * dds + s.ds * grip_slope * dmean;
             let dchord = ratio * dds + bend * dturn;
-            let dmid = dh[c] + 0.5 * dturn;
-            dx[c] += cos * dchord - chord * sin * dmid;
-            dy[c] += sin * dchord + chord * cos * dmid;
-            dh[c] += dturn;
+            let dmid = dh[0][c] + 0.5 * dturn;
+            dx[0][c] += cos * dchord - chord * sin * dmid;
+            dy[0][c] += sin * dchord + chord * cos * dmid;
+            dh[0][c] += dturn;
         }
-        for c in 0..reach {
-            let psi = if c == j { w0 } else { f64::from(u8::from(c == j + 1)) * w1 };
-            let dturn = if s.bound == CurvatureBound::Free { s.ds * psi } else { 0.0 };
-            let k = KNOTS + c;
-            let dmid = dh[k] + 0.5 * dturn;
-            dx[k] += cos * bend * dturn - chord * sin * dmid;
-            dy[k] += sin * bend * dturn + chord * cos * dmid;
-            dh[k] += dturn;
+        let turns_by = if s.bound == CurvatureBound::Free { s.ds } else { 0.0 };
+        for c in 0..KNOTS {
+            let dturn = turns_by * weights[c];
+            let dmid = dh[1][c] + 0.5 * dturn;
+            dx[1][c] += cos * bend * dturn - chord * sin * dmid;
+            dy[1][c] += sin * bend * dturn + chord * cos * dmid;
+            dh[1][c] += dturn;
         }
         x += chord * cos;
         y += chord * sin;
@@ -173,13 +172,17 @@ fn at_centre(
     offset: f64,
     [x, y, heading, speed]: [f64; 4],
     curvature: f64,
-    [dx, dy, dh]: [&[f64; CONTROLS]; 3],
+    slopes: [&[[f64; KNOTS]; 2]; 3],
     dv: &[f64; KNOTS],
 ) -> Sensitivity {
     let (sin, cos) = heading.sin_cos();
     // Speed of the centre over that of the reference point; its own change is a second-order effect.
     let swing = (1.0 + (offset * curvature).powi(2)).sqrt();
-    let mut jacobian = [*dx, *dy, *dh, [0.0; CONTROLS]];
+    let mut jacobian = [[0.0; CONTROLS]; 4];
+    for (row, slopes) in jacobian.iter_mut().zip(slopes) {
+        row.copy_from_slice(slopes.as_flattened());
+    }
+    let dh = jacobian[2];
     for c in 0..CONTROLS {
         jacobian[0][c] -= offset * sin * dh[c];
         jacobian[1][c] += offset * cos * dh[c];

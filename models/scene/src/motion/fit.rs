@@ -198,10 +198,8 @@ fn refine_positions(
         let (mut normal, mut right) = (penalty, -(penalty * u));
         let held = |i: usize| i % KNOTS < free;
         for (row, r) in rows {
-            let row = SVector::<f64, CONTROLS>::from_column_slice(row);
-            right += row * r;
-            // Its lower half is all that the factors are made of.
-            normal.syger(1.0, &row, &row, 1.0);
+            right.iter_mut().zip(row).for_each(|(sum, value)| *sum += value * r);
+            add_outer(&mut normal, row);
         }
         for i in (0..CONTROLS).filter(|i| held(*i)) {
             normal.row_mut(i).fill(0.0);
@@ -220,6 +218,16 @@ fn refine_positions(
         }
     }
     best.1
+}
+
+/// Adds the product of a row with itself. Only the lower half of the sum is complete: all that its factors are made of.
+fn add_outer(sum: &mut Square<CONTROLS>, row: &[f64; CONTROLS]) {
+    let columns = sum.as_mut_slice().as_chunks_mut::<CONTROLS>().0;
+    for j in 0..CONTROLS {
+        for i in j..CONTROLS {
+            columns[j][i] += row[j] * row[i];
+        }
+    }
 }
 
 fn fit_walk(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Knots {

@@ -182,6 +182,11 @@ impl Drivable {
         beside_m <= beside_lane_m || on_road()
     }
 
+    /// How far a point is from the nearest lane's middle, metres; `None` where that is farther than `reach_m`.
+    pub fn lane_away_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
+        self.centers.nearest(point, reach_m).map(|found| found.2)
+    }
+
     /// How far a point is from the lanes, metres, where the roads of the map have ended: no lane, edge or area within
     /// `reach_m`, nor would the nearest lane be if it went on straight. `None` elsewhere.
     pub fn off_map_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {

@@ -4,7 +4,7 @@ use super::input::{Actor, ScoreInput};
 use super::report::{Stretch, stretches};
 use super::road::{PARKED_M, drives};
 use crate::geometry::direction;
-use crate::{AgentType, STEP_S};
+use crate::{AgentType, STEP_S, State, Vec2};
 
 /// A shorter time above the limit is none, seconds.
 pub(super) const SPEEDING_S: f64 = 1.0;
@@ -93,11 +93,19 @@ pub(crate) fn off_map(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
     if !rides || input.drivable.is_unknown() {
         return Vec::new();
     }
-    let away = |step| {
-        let away_m = input.drivable.off_map_m(actor.state(step)?.position(), input.thresholds.off_map_m)?;
-        Some((step, away_m))
-    };
-    let flagged: Vec<(usize, f64)> = input.steps.clone().filter_map(away).collect();
+    let reach_m = input.thresholds.off_map_m;
+    let mut flagged: Vec<(usize, f64)> = Vec::new();
+    // A place near a lane, and how far from it all places are near that lane too.
+    let mut near: Option<(Vec2, f64)> = None;
+    for step in input.steps.clone() {
+        let Some(place) = actor.state(step).map(State::position) else { continue };
+        if near.is_some_and(|(centre, radius_m)| (place - centre).norm() < radius_m) {
+            continue;
+        }
+        near = input.drivable.lane_away_m(place, reach_m).map(|away_m| (place, reach_m - away_m));
+        let away_m = if near.is_none() { input.drivable.off_map_m(place, reach_m) } else { None };
+        flagged.extend(away_m.map(|away_m| (step, away_m)));
+    }
     stretches(actor, &flagged)
 }
 

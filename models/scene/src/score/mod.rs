@@ -27,7 +27,7 @@ pub(crate) mod walking;
 pub use baseline_score::BaselineScore;
 pub use drivable::Drivable;
 pub use input::{Actor, Exclude, PairChoice, ScoreInput, Threshold, Thresholds};
-pub use overlap::{CLOSE_M, Overlap, SweptBoxes, comes_within, dangerous_moments, overlap};
+pub use overlap::{CLOSE_M, Overlap, SweptBounds, SweptBoxes, comes_within, dangerous_moments, overlap};
 pub use report::{AgentScore, SceneScore, Score};
 
 use pairs::PairScores;

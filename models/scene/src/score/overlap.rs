@@ -6,6 +6,7 @@ use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, overlaps}
 use crate::geometry::{Vec2, rotate, wrap_angle};
 use crate::{Size, State};
 use std::f64::consts::FRAC_PI_6;
+use std::sync::OnceLock;
 
 /// "Close" boxes come nearer than this, metres.
 pub const CLOSE_M: f64 = 0.5;
@@ -35,6 +36,14 @@ impl Bounds {
         })
     }
 
+    fn diagonal_m(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
+    fn joined(&self, other: &Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
     fn near(&self, other: &Self, margin_m: f64) -> bool {
         self.low.x < other.high.x + margin_m
             && other.low.x < self.high.x + margin_m
@@ -43,13 +52,45 @@ impl Bounds {
     }
 }
 
-/// The boxes of one motion at common moments (every third step in the choice of futures), with
-/// bounding rectangles of the whole and of every eight.
+/// Bounding rectangles of the boxes of one or several motions: of all moments, and of every eight.
+#[derive(Clone, Debug)]
+pub struct SweptBounds {
+    whole: Bounds,
+    chunks: Vec<Bounds>,
+}
+
+impl SweptBounds {
+    /// About all of these motions.
+    pub fn about<'a>(motions: impl IntoIterator<Item = &'a SweptBoxes>) -> Self {
+        let mut all = Self { whole: Bounds::EMPTY, chunks: Vec::new() };
+        for Self { whole, chunks } in motions.into_iter().map(|motion| &motion.bounds) {
+            all.whole = all.whole.joined(whole);
+            all.chunks.resize(all.chunks.len().max(chunks.len()), Bounds::EMPTY);
+            all.chunks.iter_mut().zip(chunks).for_each(|(all, one)| *all = all.joined(one));
+        }
+        all
+    }
+
+    /// False where no two of the motions come nearer than this, metres.
+    pub fn may_come_within(&self, other: &Self, margin_m: f64) -> bool {
+        self.near_chunks(other, margin_m).next().is_some()
+    }
+
+    /// The eights of moments in which the rectangles are nearer than this, metres.
+    fn near_chunks(&self, other: &Self, margin_m: f64) -> impl Iterator<Item = usize> {
+        let possible = self.whole.near(&other.whole, margin_m);
+        let chunks = self.chunks.iter().zip(&other.chunks).take_while(move |_| possible).enumerate();
+        chunks.filter(move |(_, (a, b))| a.near(b, margin_m)).map(|(chunk, _)| chunk)
+    }
+}
+
+/// The boxes of one motion at common moments (every third step in the choice of futures).
 #[derive(Clone, Debug)]
 pub struct SweptBoxes {
     boxes: Vec<Option<OrientedBox>>,
-    whole: Bounds,
-    chunks: Vec<Bounds>,
+    bounds: SweptBounds,
+    /// One a moment, computed for the first comparison that needs them.
+    motions: OnceLock<Box<[Option<BoxMotion>]>>,
     /// Diagonal of the first box's upright rectangle, metres.
     extent_m: f64,
     /// Greatest speed between two moments of [`MOMENT_S`], m/s.
@@ -60,14 +101,14 @@ impl SweptBoxes {
     /// From one box a moment; `None` where the road user is not there.
     pub fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
         let whole = Bounds::of(&boxes);
-        let chunks = boxes.chunks(CHUNK).map(Bounds::of).collect();
+        let bounds = SweptBounds { whole, chunks: boxes.chunks(CHUNK).map(Bounds::of).collect() };
         let extent_m = boxes.iter().flatten().next().map_or(0.0, |b| 2.0 * b.upright_half_extents().norm());
         let moved = |w: &[Option<OrientedBox>]| match w {
             [Some(from), Some(to)] => (to.center() - from.center()).norm(),
             _ => 0.0,
         };
         let top_mps = boxes.windows(2).map(moved).fold(0.0, f64::max) / MOMENT_S;
-        Self { boxes, whole, chunks, extent_m, top_mps }
+        Self { boxes, bounds, motions: OnceLock::new(), extent_m, top_mps }
     }
 
     /// From states at those moments.
@@ -107,6 +148,27 @@ const WALKER_M: f64 = 0.6;
 /// Looks into the next moments, seconds.
 const LOOKS_S: [f64; 5] = [0.3, 0.6, 0.9, 1.2, 1.5];
 
+/// How a box moves at a moment.
+#[derive(Clone, Copy, Debug)]
+struct BoxMotion {
+    /// Metres per second.
+    velocity: Vec2,
+    turn_radps: f64,
+}
+
+impl BoxMotion {
+    /// By moment, from the moment before; `None` where the road user is absent at one of the two.
+    fn each(boxes: &[Option<OrientedBox>]) -> Box<[Option<Self>]> {
+        let between = |w: &[Option<OrientedBox>]| {
+            let (before, now) = w[0].as_ref().zip(w[1].as_ref())?;
+            let velocity = (now.center() - before.center()) / MOMENT_S;
+            let turn_radps = wrap_angle(now.heading_rad() - before.heading_rad()) / MOMENT_S;
+            Some(Self { velocity, turn_radps })
+        };
+        std::iter::once(None).chain(boxes.windows(2).map(between)).collect()
+    }
+}
+
 /// A box that moves on as it does.
 struct Going<'a> {
     outline: &'a OrientedBox,
@@ -115,12 +177,10 @@ struct Going<'a> {
 }
 
 impl<'a> Going<'a> {
-    fn at(boxes: &'a [Option<OrientedBox>], moment: usize) -> Option<Self> {
-        let before = boxes.get(moment.checked_sub(1)?)?.as_ref()?;
-        let outline = boxes.get(moment)?.as_ref()?;
-        let velocity = (outline.center() - before.center()) / MOMENT_S;
-        let turn_radps = wrap_angle(outline.heading_rad() - before.heading_rad()) / MOMENT_S;
-        Some(Self { outline, velocity, turn_radps })
+    fn at(motion: &'a SweptBoxes, moment: usize) -> Option<Self> {
+        let each = motion.motions.get_or_init(|| BoxMotion::each(&motion.boxes));
+        let BoxMotion { velocity, turn_radps } = (*each.get(moment)?)?;
+        Some(Self { outline: motion.at(moment)?, velocity, turn_radps })
     }
 
     fn later(&self, time_s: f64) -> OrientedBox {
@@ -173,32 +233,28 @@ impl<'a> Going<'a> {
 pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
-    let stays = |m: &SweptBoxes| (m.whole.high - m.whole.low).norm() < m.extent_m + PARKED_M;
-    let parked = stays(a) || stays(b);
+    let stays = |m: &SweptBoxes| m.bounds.whole.diagonal_m() < m.extent_m + PARKED_M;
+    let (parked, both_walk) = (stays(a) || stays(b), walks(a) && walks(b));
     let limits = Thresholds::default();
     let margin_m = if parked { BRUSH_M } else { limits.ttc_s * (a.top_mps + b.top_mps) };
-    let possible = !(walks(a) && walks(b)) && a.whole.near(&b.whole, margin_m);
-    let chunks = a.chunks.iter().zip(&b.chunks).enumerate().filter(move |_| possible);
-    let near = chunks.filter(move |(_, (in_a, in_b))| in_a.near(in_b, margin_m));
-    let moments = near.flat_map(|(chunk, _)| chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len()));
+    let moments = near_moments(a, b, margin_m).take_while(move |_| !both_walk);
     moments.filter(move |&i| {
-        let pair = Going::at(&a.boxes, i).zip(Going::at(&b.boxes, i));
+        let pair = Going::at(a, i).zip(Going::at(b, i));
         pair.is_some_and(|(a, b)| if parked { a.brushes(&b, &limits) } else { a.threatens(&b, &limits) })
     })
 }
 
+/// The moments of those eights in which two motions may be nearer than this, metres.
+fn near_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes, margin_m: f64) -> impl Iterator<Item = usize> + 'a {
+    let end = a.len().min(b.len());
+    let chunks = a.bounds.near_chunks(&b.bounds, margin_m);
+    chunks.flat_map(move |chunk| chunk * CHUNK..((chunk + 1) * CHUNK).min(end))
+}
+
 /// Two motions come nearer than this at some moment, metres.
 pub fn comes_within(a: &SweptBoxes, b: &SweptBoxes, margin_m: f64) -> bool {
-    if !a.whole.near(&b.whole, margin_m) {
-        return false;
-    }
-    a.chunks.iter().zip(&b.chunks).enumerate().any(|(chunk, (in_a, in_b))| {
-        let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
-        let near = |(p, q): (&Option<OrientedBox>, &Option<OrientedBox>)| {
-            p.as_ref().zip(q.as_ref()).is_some_and(|(p, q)| overlaps(p, q, margin_m))
-        };
-        in_a.near(in_b, margin_m) && a.boxes[moments.clone()].iter().zip(&b.boxes[moments]).any(near)
-    })
+    let near = |i: usize| a.at(i).zip(b.at(i)).is_some_and(|(p, q)| overlaps(p, q, margin_m));
+    near_moments(a, b, margin_m).any(near)
 }
 
 /// Overlap of two motions at their common moments. Motions with separate bounding rectangles cost four
@@ -216,21 +272,11 @@ pub fn comes_within(a: &SweptBoxes, b: &SweptBoxes, margin_m: f64) -> bool {
 /// ```
 pub fn overlap(a: &SweptBoxes, b: &SweptBoxes) -> Overlap {
     let mut found = Overlap::default();
-    if !a.whole.near(&b.whole, CLOSE_M) {
-        return found;
-    }
-    for (chunk, (in_a, in_b)) in a.chunks.iter().zip(&b.chunks).enumerate() {
-        if !in_a.near(in_b, CLOSE_M) {
-            continue;
+    for (p, q) in near_moments(a, b, CLOSE_M).filter_map(|i| a.at(i).zip(b.at(i))) {
+        if overlaps(p, q, 0.0) {
+            return Overlap { overlaps: true, close: true };
         }
-        let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
-        for (p, q) in a.boxes[moments.clone()].iter().zip(&b.boxes[moments]) {
-            let (Some(p), Some(q)) = (p, q) else { continue };
-            if overlaps(p, q, 0.0) {
-                return Overlap { overlaps: true, close: true };
-            }
-            found.close = found.close || overlaps(p, q, CLOSE_M);
-        }
+        found.close = found.close || overlaps(p, q, CLOSE_M);
     }
     found
 }

@@ -57,7 +57,7 @@ pub(super) fn encroachment(a: &Mover, b: &Mover) -> Option<Encroachment> {
 }
 
 fn places_meet(a: &Mover, b: &Mover) -> bool {
-    let (Some((ca, ha)), Some((cb, hb))) = (a.places, b.places) else { return false };
+    let (Some((ca, ha)), Some((cb, hb))) = (a.bounds.places, b.bounds.places) else { return false };
     let apart = (ca - cb).abs() - ha - hb;
     apart.x < 0.0 && apart.y < 0.0
 }

@@ -5,6 +5,7 @@ use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, Stretch};
 use super::{kinematic, lane_rules, road, signals, walking};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 /// An event this much before or after that of the log is the same one, seconds.
 const SAME_S: f64 = 1.0;
@@ -29,13 +30,13 @@ fn as_recorded<'a>(actor: &Actor<'a>) -> Option<Actor<'a>> {
     Some(Actor { track: Cow::Borrowed(log), generated: false, ..actor.clone() })
 }
 
-/// Marks stretches of `actor` that the same look at its recording finds too.
-fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, look: impl Fn(&Actor<'_>) -> Vec<Stretch>) {
+/// Marks stretches of `actor` that its recording has too; `log` finds those of the recording.
+fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, log: impl FnOnce(&Actor<'_>) -> Vec<Stretch>) {
     if found.is_empty() {
         return;
     }
     let log =
-        if actor.generated { as_recorded(actor).map(|a| look(&a)).unwrap_or_default() } else { Vec::new() };
+        if actor.generated { as_recorded(actor).map(|a| log(&a)).unwrap_or_default() } else { Vec::new() };
     for stretch in found {
         let same = |l: &Stretch| {
             let at_once = stretch.time_s <= l.until_s + SAME_S && stretch.until_s >= l.time_s - SAME_S;
@@ -48,9 +49,11 @@ fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, look: impl Fn(&Act
 
 /// Marks stretches off the road and against the traffic.
 pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut road::RoadScore) {
-    mark(actor, &mut found.off_road, SAME_OFF_ROAD_M, |a| road::score_road(input, a).off_road);
-    mark(actor, &mut found.over_median, SAME_OFF_ROAD_M, |a| road::score_road(input, a).over_median);
-    mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| road::score_road(input, a).wrong_way);
+    let log = OnceCell::new();
+    let of = |recorded: &Actor<'_>| log.get_or_init(|| road::score_road(input, recorded));
+    mark(actor, &mut found.off_road, SAME_OFF_ROAD_M, |a| of(a).off_road.clone());
+    mark(actor, &mut found.over_median, SAME_OFF_ROAD_M, |a| of(a).over_median.clone());
+    mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| of(a).wrong_way.clone());
 }
 
 /// A rule that one road user keeps or breaks whatever the others do, with a list of its own in the score.

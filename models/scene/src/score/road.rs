@@ -5,6 +5,7 @@ use super::input::{Actor, ScoreInput};
 use super::lane_rules::end_step;
 use super::report::{Stretch, share, stretches, time_of};
 use crate::geometry::direction;
+use crate::geometry::obb::OrientedBox;
 use crate::{AgentType, STEP_S, Subtype, Vec2};
 
 /// A vehicle that stays within this of its first place is parked, metres.
@@ -47,9 +48,16 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     // One that comes to rest against the traffic ends against it.
     let end = end_step(input, actor);
     let mut travelled_m = 0.0;
+    let mut before: Option<(OrientedBox, Option<f64>)> = None;
     for step in input.steps.clone() {
         let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
-        if let Some(outside_m) = ground.box_outside_m(&outline) {
+        // Most that stand do so for many steps.
+        let outside_m = match before {
+            Some((same, outside_m)) if same == outline => outside_m,
+            _ => ground.box_outside_m(&outline),
+        };
+        before = Some((outline, outside_m));
+        if let Some(outside_m) = outside_m {
             score.road_steps += 1;
             farthest = Some(farthest.unwrap_or(0.0).max(outside_m));
             if outside_m > limits.offroad_m {

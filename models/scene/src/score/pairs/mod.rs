@@ -14,8 +14,7 @@ use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, over
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 pub use log::{SAME_GAP_M, SAME_S};
 pub use measures::Measures;
-pub(super) use mover::Rectangle;
-pub(crate) use mover::{Mover, MoverState};
+pub(crate) use mover::{Mover, MoverBounds, MoverState};
 pub(super) use near::{BRUSH_M, PARKED_M};
 use near::{Gap, Nearest, Side, near_miss};
 pub(super) use tally::PairTally;
@@ -159,6 +158,11 @@ impl Meeting {
         Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
     }
 
+    /// Two motions with these bounds come near enough for one.
+    pub(crate) fn is_possible(input: &ScoreInput<'_>, a: &MoverBounds, b: &MoverBounds) -> bool {
+        !a.stay_apart(b, input.thresholds.near_gap_m())
+    }
+
     /// The interaction of two motions regardless of who generated them, without events that the log shows.
     /// `input` gives thresholds and exclusions.
     pub(crate) fn between(
@@ -168,7 +172,7 @@ impl Meeting {
     ) -> Option<Self> {
         // Only collisions and near misses are needed, so the bounds skip the search for least gap and time.
         let known = PairBounds { gap_m: input.thresholds.near_gap_m(), ttc_s: input.thresholds.ttc_s };
-        if stay_apart(mover_a, mover_b, known.gap_m) {
+        if !Self::is_possible(input, &mover_a.bounds, &mover_b.bounds) {
             return None;
         }
         let pair = look_at(input, mover_a, mover_b, known);
@@ -176,19 +180,6 @@ impl Meeting {
         let known = is_excluded(input, a, b) || log::is_in_log(input, a, b, &pair);
         (!known).then_some(met)
     }
-}
-
-/// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
-/// their places stay farther apart than the least gaps already known.
-fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
-    let clear = |p: Option<Rectangle>, q: Option<Rectangle>| match (p, q) {
-        (Some((cp, hp)), Some((cq, hq))) => {
-            let apart = (cp - cq).abs() - hp - hq;
-            Vec2::new(apart.x.max(0.0), apart.y.max(0.0)).norm()
-        }
-        _ => f64::INFINITY,
-    };
-    clear(a.reach, b.reach) > 0.0 && clear(a.places, b.places) > known_m
 }
 
 /// The log itself shows this pair overlapping, or a truck and its trailer.

@@ -4,7 +4,7 @@ use crate::geometry::obb::OrientedBox;
 use crate::geometry::ttc::LOOK_AHEAD_S;
 use crate::geometry::{Vec2, wrap_angle};
 use crate::score::input::Actor;
-use crate::{AgentType, STEP_S};
+use crate::{AgentType, STEP_S, State};
 use std::ops::Range;
 
 /// Steps to each side over which a turn is measured.
@@ -21,13 +21,43 @@ pub(crate) struct Mover {
     pub(super) max_displacement_m: f64,
     /// Greatest speed, m/s.
     pub(super) top_mps: f64,
-    /// Holds its boxes at all steps.
-    pub places: Option<Rectangle>,
-    /// Holds all it can touch within the look-ahead at constant velocity.
-    pub(super) reach: Option<Rectangle>,
+    pub bounds: MoverBounds,
     pub agent_type: AgentType,
     /// The motion was made, not recorded.
     pub generated: bool,
+}
+
+/// Where a road user is over the scored steps, and what it can touch: known without its boxes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MoverBounds {
+    /// Holds its boxes at all steps.
+    pub(crate) places: Option<Rectangle>,
+    /// Holds all it can touch within the look-ahead at constant velocity.
+    reach: Option<Rectangle>,
+}
+
+impl MoverBounds {
+    /// Of the motion that is scored, over these scene steps.
+    pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
+        let radius_m = OrientedBox::of_state(&State::default(), &actor.size).radius_m();
+        let states = || steps.clone().filter_map(|step| actor.state(step));
+        let places = rectangle(radius_m, states().map(|state| (state.position(), Vec2::zeros())));
+        let reach = states().map(|state| (state.position(), state.velocity() * LOOK_AHEAD_S));
+        Self { places, reach: rectangle(radius_m, reach) }
+    }
+
+    /// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
+    /// their places stay farther apart than the least gaps already known, metres.
+    pub(crate) fn stay_apart(&self, other: &Self, known_m: f64) -> bool {
+        let clear = |p: Option<Rectangle>, q: Option<Rectangle>| match (p, q) {
+            (Some((cp, hp)), Some((cq, hq))) => {
+                let apart = (cp - cq).abs() - hp - hq;
+                Vec2::new(apart.x.max(0.0), apart.y.max(0.0)).norm()
+            }
+            _ => f64::INFINITY,
+        };
+        clear(self.reach, other.reach) > 0.0 && clear(self.places, other.places) > known_m
+    }
 }
 
 /// Centre and half extents of an upright rectangle, metres.
@@ -46,30 +76,35 @@ pub(crate) struct MoverState {
 impl Mover {
     /// Of the motion that is scored, over these scene steps.
     pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
-        let moment = |step| {
-            let state = actor.state(step)?;
-            let outline = OrientedBox::of_state(state, &actor.size);
-            Some(MoverState {
-                outline,
-                velocity: state.velocity(),
-                speed_mps: state.speed_mps(),
-                displacement_m: None,
-            })
-        };
-        let mut moments: Vec<Option<MoverState>> = steps.clone().map(moment).collect();
-        for step in 1..moments.len() {
-            if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
-                from.displacement_m = Some(displacement(from, to));
+        let mut moments: Vec<Option<MoverState>> = Vec::with_capacity(steps.len());
+        let (mut max_displacement_m, mut top_mps) = (0.0_f64, 0.0_f64);
+        let mut before: Option<(usize, MoverState)> = None;
+        for (i, step) in steps.clone().enumerate() {
+            let moment = actor.state(step).map(|state| {
+                let known = before.filter(|(_, b)| b.outline.heading_rad() == state.heading_rad);
+                let outline = match known {
+                    Some((_, before)) => before.outline.about(state.position()),
+                    None => OrientedBox::of_state(state, &actor.size),
+                };
+                let (velocity, speed_mps) = (state.velocity(), state.speed_mps());
+                MoverState { outline, velocity, speed_mps, displacement_m: None }
+            });
+            if let Some(moment) = moment {
+                if let Some((last, from)) = &before {
+                    let moved_m = displacement(from, &moment);
+                    max_displacement_m = max_displacement_m.max(moved_m);
+                    if let Some(from) = moments[*last].as_mut().filter(|_| last + 1 == i) {
+                        from.displacement_m = Some(moved_m);
+                    }
+                }
+                top_mps = top_mps.max(moment.speed_mps);
+                before = Some((i, moment));
             }
+            moments.push(moment);
         }
-        let seen: Vec<&MoverState> = moments.iter().flatten().collect();
-        let max_displacement_m = seen.windows(2).map(|w| displacement(w[0], w[1])).fold(0.0, f64::max);
-        let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
-        let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
-        let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
-        let travel_m = actor.travel_m(steps);
+        let (travel_m, bounds) = (actor.travel_m(steps.clone()), MoverBounds::new(actor, steps));
         let (agent_type, generated) = (actor.agent_type, actor.generated);
-        Self { moments, travel_m, max_displacement_m, top_mps, places, reach, agent_type, generated }
+        Self { moments, travel_m, max_displacement_m, top_mps, bounds, agent_type, generated }
     }
 
     /// Turn rate at a step, rad/s, from the headings 0.2 s before and after. Zero for pedestrians, which turn
@@ -106,12 +141,12 @@ fn displacement(from: &MoverState, to: &MoverState) -> f64 {
     (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }
 
-/// Upright rectangle about boxes, each with its bounding circle moved from here to there.
-fn rectangle(moved: impl Iterator<Item = (OrientedBox, Vec2)>) -> Option<Rectangle> {
+/// Upright rectangle about circles with this radius, each moved from here to there.
+fn rectangle(radius_m: f64, moved: impl Iterator<Item = (Vec2, Vec2)>) -> Option<Rectangle> {
     let mut low = Vec2::repeat(f64::INFINITY);
     let mut high = -low;
-    for (outline, shift) in moved {
-        let (p, r) = (outline.center(), Vec2::repeat(outline.radius_m()));
+    let r = Vec2::repeat(radius_m);
+    for (p, shift) in moved {
         low = low.inf(&(p.inf(&(p + shift)) - r));
         high = high.sup(&(p.sup(&(p + shift)) + r));
     }

@@ -1,8 +1,6 @@
 //! Results of the pairs so far: the least values of each road user, and the events.
 
-use super::{
-    Measures, Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at, stay_apart,
-};
+use super::{Measures, Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at};
 use crate::STEP_S;
 use crate::geometry::Vec2;
 use crate::geometry::ttc::LOOK_AHEAD_S;
@@ -125,7 +123,8 @@ impl PairTally {
     fn add(&mut self, input: &ScoreInput<'_>, movers: &[&Mover], pair: (usize, usize), note: bool) {
         let (i, j) = pair;
         let known = self.known(pair);
-        if stay_apart(movers[i], movers[j], known.gap_m.max(input.thresholds.near_gap_m())) {
+        let known_m = known.gap_m.max(input.thresholds.near_gap_m());
+        if movers[i].bounds.stay_apart(&movers[j].bounds, known_m) {
             return;
         }
         let (a, b) = (&input.actors[i], &input.actors[j]);
