@@ -1,13 +1,14 @@
 //! Changes of lane and turns round.
 
-use super::{MinedEvent, MinedTag};
+use super::{MinedEvent, MinedTag, time_s};
 use scene::geometry::direction;
-use scene::judge::manoeuvre::{ALONG_LANE_RAD, ON_LANE_M};
+use scene::judge::manoeuvre::{ALONG_LANE_RAD, ON_LANE_M, ROUND_RAD};
 use scene::judge::{Manoeuvre, manoeuvre};
 use scene::routes::LaneGraph;
 use scene::score::{Actor, ScoreInput};
-use scene::{AgentType, HORIZON_STEPS, STEP_S, State, wrap_angle};
+use scene::{AgentType, HORIZON_STEPS, State, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 /// Steps between the places whose lane is looked up.
 const STRIDE: usize = 5;
@@ -25,6 +26,12 @@ const IN_LANE_M: f64 = 1.6;
 const ALIKE_RAD: f64 = 0.5;
 /// A cut-in leaves it less time, seconds.
 const CUT_IN_S: f64 = 1.5;
+/// A way is looked at in pieces of at least this, metres.
+const APART_M: f64 = 1.0;
+/// A longer piece is a jump of the recording, metres.
+const JUMP_M: f64 = 8.0;
+/// Turning by more is no turn round but an error of the recording or a circle, radians.
+const MOST_ROUND_RAD: f64 = 4.5;
 /// Steps after the change at which the gap to the one behind is measured, as the vehicle is in its new lane.
 const SETTLED: usize = SURE * STRIDE;
 
@@ -115,7 +122,8 @@ pub(super) fn follower<'a>(
     behind.filter(|(_, headway_s)| *headway_s < CUT_IN_S).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The turns round of a vehicle or cyclist: one for each row of windows in which it turns round.
+/// The turns round of a vehicle or cyclist by its places, one for each row of windows in which it turns round: boxes that
+/// stand may flip.
 pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<MinedEvent> {
     let mut found: Vec<MinedEvent> = Vec::new();
     if !matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist) {
@@ -123,32 +131,48 @@ pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Mine
     }
     let mut until = 0;
     for first in input.steps.clone().step_by(HORIZON_STEPS / 2) {
-        let window = first..(first + HORIZON_STEPS + 1).min(input.steps.end);
-        let states: Vec<(usize, State)> =
-            window.filter_map(|step| Some((step, *actor.state(step)?))).collect();
-        let only: Vec<State> = states.iter().map(|(_, state)| *state).collect();
-        if manoeuvre(&only, actor.agent_type, None) != Some(Manoeuvre::TurnRound) {
+        let end = (first + HORIZON_STEPS + 1).min(input.steps.end);
+        let turned = turned(actor, first..end);
+        let turn_rad: f64 = turned.last().map_or(0.0, |(_, turn_rad)| *turn_rad);
+        let half = turned.iter().find(|(_, so_far)| so_far.abs() > 0.5 * turn_rad.abs());
+        let Some(((step, _), state)) = half.and_then(|half| Some((half, actor.state(half.0)?))) else {
             continue;
-        }
-        let Some((start, before)) = states.first() else { continue };
-        let half = states
-            .iter()
-            .find(|(_, state)| wrap_angle(state.heading_rad - before.heading_rad).abs() > FRAC_PI_2);
-        let Some((step, state)) = half else { continue };
-        if *start >= until {
-            let turn_rad =
-                only.windows(2).map(|pair| wrap_angle(pair[1].heading_rad - pair[0].heading_rad)).sum();
+        };
+        if turn_rad.abs() > ROUND_RAD && turn_rad.abs() < MOST_ROUND_RAD && first >= until {
             found.push(MinedEvent {
                 tag: MinedTag::UTurn,
                 actor: actor.id.to_owned(),
                 other: None,
-                time_s: *step as f64 * STEP_S,
+                time_s: time_s(*step),
                 x_m: state.x_m,
                 y_m: state.y_m,
                 value: Some(turn_rad),
             });
-            until = states.last().map_or(0, |(step, _)| *step);
+            until = end;
         }
     }
     found
+}
+
+/// How far the way of a road user has turned at steps of a window, radians. Jumps and turns on the spot count as standing.
+fn turned(actor: &Actor<'_>, window: Range<usize>) -> Vec<(usize, f64)> {
+    let (mut all, mut turn_rad): (Vec<(usize, f64)>, f64) = (Vec::new(), 0.0);
+    let (mut place, mut way): (Option<Vec2>, Option<f64>) = (None, None);
+    for step in window {
+        let Some(state) = actor.state(step) else { continue };
+        let moved = place.map_or(Vec2::zeros(), |place| state.position() - place);
+        if place.is_some() && moved.norm() < APART_M {
+            continue;
+        }
+        place = Some(state.position());
+        // Driving back is no turn.
+        let goes_ahead = moved.dot(&direction(state.heading_rad)) > 0.7 * moved.norm();
+        if goes_ahead && moved.norm() < JUMP_M {
+            let now = moved.y.atan2(moved.x);
+            turn_rad += way.map_or(0.0, |way| wrap_angle(now - way));
+            way = Some(now);
+            all.push((step, turn_rad));
+        }
+    }
+    all
 }

@@ -3,13 +3,13 @@
 
 mod hidden;
 mod lanes;
+mod seen;
 pub mod table;
 #[cfg(test)]
 mod tests;
 
 use crate::case::facts::recorded_input;
 use lanes::LaneChange;
-use scene::judge::HARSH_S;
 use scene::routes::LaneGraph;
 use scene::score::meeting::{HardestPair, MeetingSearch, PairRelation};
 use scene::score::report::{EncounterKind, Stretch};
@@ -19,13 +19,15 @@ use std::collections::BTreeSet;
 
 /// A crossing is close below this post-encroachment time, seconds.
 const CLOSE_S: f64 = 1.5;
+/// Against the traffic for less is a turn across it, metres.
+const WRONG_WAY_M: f64 = 4.0;
 
 /// What a scene is tagged with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MinedTag {
     /// Two boxes overlap, as the score counts it.
     Collision,
-    /// Near miss of the score.
+    /// Near miss of the score that braking could still avoid.
     NearMiss,
     /// Two cross with a post-encroachment time below 1.5 s.
     CloseCrossing,
@@ -37,9 +39,9 @@ pub enum MinedTag {
     UTurn,
     /// A pedestrian crosses the way of a vehicle from behind another one.
     HiddenWalker,
-    /// Harsh braking of the score.
+    /// Harsh braking of the score that the places show too.
     HardBraking,
-    /// Harsh steering of the score.
+    /// Harsh steering of the score of one that drives.
     HardSteering,
     /// A stop line is crossed at red.
     RedLight,
@@ -143,14 +145,20 @@ pub fn mine(scene: &Scene, graph: &LaneGraph, drivable: &Drivable) -> Vec<MinedE
     events
 }
 
+/// The time of a step, seconds.
+fn time_s(step: usize) -> f64 {
+    step as f64 / (1.0 / STEP_S).round()
+}
+
 /// What the score lists.
 fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
     let found = score(input).scene;
     for encounter in &found.encounters {
+        let measures = &encounter.measures;
         let (tag, value) = match encounter.kind {
-            EncounterKind::Collision => (MinedTag::Collision, encounter.measures.gap_m.map(|gap_m| -gap_m)),
-            EncounterKind::NearMiss => (MinedTag::NearMiss, encounter.measures.ttc_s),
-            EncounterKind::Overlap => continue,
+            EncounterKind::Collision => (MinedTag::Collision, measures.gap_m.map(|gap_m| -gap_m)),
+            EncounterKind::NearMiss if seen::is_avoidable(measures) => (MinedTag::NearMiss, measures.ttc_s),
+            EncounterKind::NearMiss | EncounterKind::Overlap => continue,
         };
         events.push(MinedEvent {
             tag,
@@ -162,7 +170,13 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
             value,
         });
     }
-    let lasts = |stretch: &&Stretch| stretch.until_s - stretch.time_s >= HARSH_S - 1e-6;
+    let actor = |id: &str| input.actors.iter().find(|actor| actor.id == id);
+    let counts = |tag: MinedTag, stretch: &Stretch| match tag {
+        MinedTag::HardBraking => actor(&stretch.agent).is_some_and(|of| seen::brakes(of, stretch)),
+        MinedTag::HardSteering => actor(&stretch.agent).is_some_and(|of| seen::steers(of, stretch)),
+        MinedTag::WrongWay => stretch.worst.is_some_and(|driven_m| driven_m >= WRONG_WAY_M),
+        _ => true,
+    };
     let lists = [
         (MinedTag::HardBraking, &found.harsh_braking),
         (MinedTag::HardSteering, &found.harsh_steering),
@@ -172,7 +186,7 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
         (MinedTag::Speeding, &found.speeding),
     ];
     for (tag, stretches) in lists {
-        events.extend(stretches.iter().filter(lasts).map(|stretch| MinedEvent {
+        events.extend(stretches.iter().filter(|stretch| counts(tag, stretch)).map(|stretch| MinedEvent {
             tag,
             actor: stretch.agent.clone(),
             other: None,
@@ -184,8 +198,7 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
     }
     for red in &found.red_lights {
         let step = (red.time_s / STEP_S).round() as usize;
-        let actor = input.actors.iter().find(|actor| actor.id == red.agent);
-        let place = actor.and_then(|actor| actor.state(step)).map(State::position);
+        let place = actor(&red.agent).and_then(|actor| actor.state(step)).map(State::position);
         let Some(place) = place else { continue };
         events.push(MinedEvent {
             tag: MinedTag::RedLight,
@@ -218,7 +231,7 @@ fn of_crossings(input: &ScoreInput<'_>, pairs: &[Option<HardestPair>], events: &
             tag,
             actor: actor.id.to_owned(),
             other: Some(other.id.to_owned()),
-            time_s: pair.step as f64 * STEP_S,
+            time_s: time_s(pair.step),
             x_m: pair.place.x,
             y_m: pair.place.y,
             value: Some(value),
@@ -239,7 +252,7 @@ fn of_change(input: &ScoreInput<'_>, actor: &Actor<'_>, change: &LaneChange, eve
         tag,
         actor: actor.id.to_owned(),
         other: other.map(str::to_owned),
-        time_s: change.step as f64 * STEP_S,
+        time_s: time_s(change.step),
         x_m: state.x_m,
         y_m: state.y_m,
         value: Some(value),
