@@ -13,7 +13,8 @@ pub struct CatalogueScene {
     /// Why it is no scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub problem: Option<UnitProblem>,
-    /// For each situation the road users that get its conditions; null for a situation that names none.
+    /// For each situation the road users that get its conditions, or the places of its pattern; null for a situation that
+    /// names none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub actors: Vec<Option<Vec<String>>>,
 }

@@ -4,6 +4,8 @@ use crate::case::facts::CaseFacts;
 use crate::case::motion::CaseMotion;
 use crate::catalogue::{CatalogueScene, UnitProblem};
 use crate::figures::{FigureFilter, Figures};
+use crate::pattern::place::PatternPlace;
+use crate::pattern::search::PatternSearch;
 use crate::plan::BatchPlan;
 use crate::row::{BatchRow, UnitOutcome};
 use crate::unit::BatchUnit;
@@ -23,8 +25,12 @@ use std::sync::Arc;
 #[derive(Default)]
 struct UnitRoles {
     actor: Option<String>,
-    casting: Option<Casting>,
+    other: Option<String>,
+    /// One sentence about a casting.
+    what: Option<String>,
     conditions: BTreeMap<String, ConditionsDoc>,
+    /// The scene with the road users of a pattern.
+    put: Option<Arc<Scene>>,
 }
 
 /// The generation of a unit.
@@ -89,8 +95,9 @@ impl<'a> UnitEngine<'a> {
     /// Is there something to generate? Else the row stays as it is.
     pub fn has_work(&self, unit: &BatchUnit) -> bool {
         let is_scene = self.scenes.get(unit.scene).is_some_and(|entry| entry.problem.is_none());
-        let names_agents = self.plan.situations.get(unit.situation).is_some_and(|of| !of.agents.is_empty());
-        is_scene && (!names_agents || unit.actor.is_some())
+        let situation = self.plan.situations.get(unit.situation);
+        let names_actor = situation.is_some_and(|of| !of.agents.is_empty() || of.pattern.is_some());
+        is_scene && (!names_actor || unit.actor.is_some())
     }
 
     /// Generates a unit in its scene; `None` where nobody fits.
@@ -107,11 +114,13 @@ impl<'a> UnitEngine<'a> {
         let mut request: GenerateRequest = self.plan.generate.request(unit.seed);
         request.conditions = Members(roles.conditions.clone());
         match &roles.actor {
-            Some(actor) => request.agents = Some(AgentChoice::Ids(vec![actor.clone()])),
+            Some(actor) if roles.put.is_none() => {
+                request.agents = Some(AgentChoice::Ids(vec![actor.clone()]))
+            }
             // All are generated, and nobody is left to react.
-            None => request.react = ReactChoice::Whether(false),
+            _ => request.react = ReactChoice::Whether(false),
         }
-        let about = Subject::passing(Arc::clone(scene));
+        let about = Subject::passing(Arc::clone(roles.put.as_ref().unwrap_or(scene)));
         let answer = self.operations.generate(&request, &about, cancel.clone())?.answer()?;
         Ok(Some(UnitAnswer { roles, answer }))
     }
@@ -126,17 +135,28 @@ impl<'a> UnitEngine<'a> {
                 template.cast(scene, &graph, options.start_step(), options.horizon_s, unit.seed, &fixed)?;
             let conditions = ConditionsDoc::from_conditions(&casting.conditions);
             let conditions = BTreeMap::from([(casting.actor.clone(), conditions)]);
-            return Some(UnitRoles {
-                actor: Some(casting.actor.clone()),
-                casting: Some(casting),
-                conditions,
-            });
+            let Casting { actor, other, words, .. } = casting;
+            return Some(UnitRoles { actor: Some(actor), other, what: Some(words), conditions, put: None });
+        }
+        if let Some(pattern) = situation.pattern() {
+            let graph = self.operations.generator.maps().graph(&scene.map);
+            let place = PatternSearch::new(pattern, scene, &graph).find(unit.actor.as_ref()?)?;
+            let agents =
+                place.cast(pattern, &situation.parameters_of(&unit.drawn), options.start_step()).ok()?;
+            let ids: Vec<String> = agents.iter().map(|agent| agent.id.clone()).collect();
+            let conditions =
+                agents.iter().map(|of| (of.id.clone(), ConditionsDoc::from_conditions(&of.conditions)));
+            let what = Some(format!("{} at {}", pattern.name, place.id));
+            let conditions = conditions.collect();
+            let put = PatternPlace::scene(scene, scene.name.clone(), agents, options.start_step());
+            let (actor, other) = (ids.first().cloned(), ids.get(1).cloned());
+            return Some(UnitRoles { actor, other, what, conditions, put: Some(Arc::new(put)) });
         }
         let Some(actor) = &unit.actor else { return Some(UnitRoles::default()) };
         let own = scene.agent(actor).map_or_else(Conditions::default, |agent| agent.conditions.clone());
         let conditions = situation.applied(ConditionsDoc::from_conditions(&own), &unit.drawn);
         let conditions = BTreeMap::from([(actor.clone(), conditions)]);
-        Some(UnitRoles { actor: Some(actor.clone()), casting: None, conditions })
+        Some(UnitRoles { actor: Some(actor.clone()), conditions, ..UnitRoles::default() })
     }
 
     /// Writes what came of a generation into the row of its unit.
@@ -156,12 +176,13 @@ impl<'a> UnitEngine<'a> {
         let sample = answer.samples.first();
         let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
         row.code = Some(answer.code.clone());
-        row.goal = Some(goal_word(actor.and_then(|id| answer.answer.resolved.get(id))).to_owned());
+        let goals = roles.conditions.keys().map(|id| goal_word(answer.answer.resolved.get(id)));
+        // Of several road users with goals, one that misses its own decides.
+        let goal = goals.max_by_key(|word| GOAL_WORDS.iter().position(|known| known == word));
+        row.goal = Some(goal.unwrap_or(GOAL_WORDS[0]).to_owned());
         row.reacting = Some(reacting as u64);
         row.actor = roles.actor.clone();
-        if let Some(casting) = roles.casting {
-            (row.other, row.what) = (casting.other, Some(casting.words));
-        }
+        (row.other, row.what) = (roles.other, roles.what);
         let motion = self.happened(&mut row, &answer);
         row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
         row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
@@ -192,11 +213,14 @@ pub fn has_goal(resolved: &Resolved) -> bool {
     is_unplaced || asked(goal.x_m) || asked(goal.speed_mps) || asked(goal.heading_rad)
 }
 
+/// What [`goal_word`] gives.
+const GOAL_WORDS: [&str; 3] = ["none", "met", "missed"];
+
 /// Whether the goal of a road user is met, in one word, for tables.
 pub fn goal_word(resolved: Option<&Resolved>) -> &'static str {
     match resolved.filter(|resolved| has_goal(resolved)).map(|resolved| &resolved.reach) {
-        Some(ReachReport::Reached { .. }) => "met",
-        Some(ReachReport::Unreachable { .. }) => "missed",
-        None => "none",
+        None => GOAL_WORDS[0],
+        Some(ReachReport::Reached { .. }) => GOAL_WORDS[1],
+        Some(ReachReport::Unreachable { .. }) => GOAL_WORDS[2],
     }
 }

@@ -3,6 +3,8 @@
 use crate::names::hint;
 use api::Problem;
 use formats::ReadError;
+use formats::native;
+use serde::de::DeserializeOwned;
 use std::fmt;
 
 /// One fault of a plan.
@@ -32,6 +34,17 @@ impl PlanFault {
         let under = |pointer: &str| format!("{under}.{}", dotted(pointer));
         errors.iter().map(|error| Self::new(under(&error.pointer), error.detail.clone())).collect()
     }
+}
+
+/// Reads a document in TOML.
+///
+/// # Errors
+/// Its faults, each with its path; an unknown member has the name that was probably meant.
+pub(crate) fn document<T: DeserializeOwned>(text: &str) -> Result<T, Vec<PlanFault>> {
+    let whole = |detail: String| vec![PlanFault::new("", detail)];
+    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| whole(error.to_string()))?;
+    let json = serde_json::to_vec(&table).map_err(|error| whole(error.to_string()))?;
+    native::from_json(&json).map_err(PlanFault::of_read)
 }
 
 impl fmt::Display for PlanFault {

@@ -1,5 +1,6 @@
 //! Plans of many generations, as values: what is varied, the units of work that follow, their names, and the chunks
-//! and shards that they are worked on in; what happens in results, and what they cover. Nothing here opens a file.
+//! and shards that they are worked on in; what happens in results, and what they cover;
+//! patterns of the road, and events in recordings. Nothing here opens a file.
 //!
 //! ```
 //! use batch::plan::BatchPlan;
@@ -23,8 +24,10 @@ pub mod figures;
 pub mod index;
 mod latin_hypercube;
 pub mod map;
+pub mod mine;
 pub mod names;
 mod order;
+pub mod pattern;
 pub mod plan;
 pub mod row;
 pub mod sampling;

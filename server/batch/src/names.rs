@@ -16,6 +16,12 @@ pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String 
     nearest(name, known).map_or_else(String::new, |meant| format!(" (did you mean {meant}?)"))
 }
 
+/// Is it 1 to `most` letters, digits, - and _?
+pub(crate) fn is_name(name: &str, most: usize) -> bool {
+    let legal = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    (1..=most).contains(&name.len()) && name.chars().all(legal)
+}
+
 /// Letters that differ, where they are few enough for a slip.
 fn distance(a: &str, b: &str) -> Option<usize> {
     let b: Vec<char> = b.chars().take(MOST_LETTERS).collect();

@@ -1,9 +1,12 @@
 //! The plan of a batch: what a user writes.
 
 use crate::draws;
-use crate::fault::PlanFault;
+use crate::fault::{PlanFault, document};
 use crate::figures::FigureFilter;
 use crate::map::BatchMap;
+use crate::pattern::choice::PatternChoice;
+use crate::pattern::document::RoadPattern;
+use crate::pattern::search::PatternSearch;
 use crate::sampling::{BatchSampling, SamplingMethod};
 use crate::situation::BatchSituation;
 use crate::who::{self, AgentSelector};
@@ -11,10 +14,12 @@ use api::GenerateRequest;
 use api::generate::request::ReactChoice;
 use formats::native::{self, MAX_SAFE_INTEGER};
 use scene::Scene;
+use scene::routes::LaneGraph;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -199,10 +204,32 @@ impl BatchPlan {
     /// # Errors
     /// Its faults, each with its path; an unknown member has the name that was probably meant.
     pub fn parse(text: &str) -> Result<Self, Vec<PlanFault>> {
-        let whole = |detail: String| vec![PlanFault::new("", detail)];
-        let table: toml::Table = text.parse().map_err(|error: toml::de::Error| whole(error.to_string()))?;
-        let json = serde_json::to_vec(&table).map_err(|error| whole(error.to_string()))?;
-        Self::read(&json)
+        Self::parse_with(text, &|_| Err("a file is not read here".into()))
+    }
+
+    /// The same, with the files of patterns, whose text `file` gives.
+    ///
+    /// # Errors
+    /// Its faults and those of the patterns, each with its path.
+    pub fn parse_with(
+        text: &str,
+        file: &dyn Fn(&str) -> Result<String, String>,
+    ) -> Result<Self, Vec<PlanFault>> {
+        let mut plan: Self = document(text)?;
+        let mut faults = Vec::new();
+        for (i, situation) in plan.situations.iter_mut().enumerate().take(MOST_SITUATIONS) {
+            let Some(name) = situation.pattern.as_ref().and_then(PatternChoice::file) else { continue };
+            let under = format!("situations[{i}].pattern");
+            let of_file = |fault: PlanFault| PlanFault::new(&under, format!("{name}: {fault}"));
+            let read = file(name).map_err(|reason| vec![PlanFault::new(&under, reason)]);
+            match read.and_then(|text| {
+                RoadPattern::parse(&text).map_err(|all| all.into_iter().map(of_file).collect())
+            }) {
+                Ok(pattern) => situation.pattern = Some(PatternChoice::Given(Box::new(pattern))),
+                Err(all) => faults.extend(all),
+            }
+        }
+        if faults.is_empty() { plan.checked() } else { Err(faults) }
     }
 
     /// Reads a plan from JSON, its form in the results.
@@ -210,18 +237,29 @@ impl BatchPlan {
     /// # Errors
     /// Its faults, each with its path.
     pub fn read(json: &[u8]) -> Result<Self, Vec<PlanFault>> {
-        let mut plan: Self = native::from_json(json).map_err(PlanFault::of_read)?;
-        if plan.situations.is_empty() {
-            plan.situations.push(BatchSituation::default());
-        }
-        let faults = plan.faults();
-        if faults.is_empty() { Ok(plan) } else { Err(faults) }
+        let plan: Self = native::from_json(json).map_err(PlanFault::of_read)?;
+        plan.checked()
     }
 
-    /// For each situation the road users of a scene that get its conditions; `None` for one that names none.
+    fn checked(mut self) -> Result<Self, Vec<PlanFault>> {
+        if self.situations.is_empty() {
+            self.situations.push(BatchSituation::default());
+        }
+        let faults = self.faults();
+        if faults.is_empty() { Ok(self) } else { Err(faults) }
+    }
+
+    /// For each situation the road users of a scene that get its conditions, or the places where its pattern fits; `None`
+    /// for one that names none.
     pub fn actors(&self, scene: &Scene) -> Vec<Option<Vec<String>>> {
         let start_step = self.generate.start_step();
+        let graph = OnceCell::new();
         let of = |situation: &BatchSituation| {
+            if let Some(pattern) = situation.pattern() {
+                let search =
+                    PatternSearch::new(pattern, scene, graph.get_or_init(|| LaneGraph::new(&scene.map)));
+                return Some(search.all().into_iter().map(|place| place.id).collect());
+            }
             // The plan was checked when it was read.
             let selectors: Vec<AgentSelector> =
                 situation.agents.iter().filter_map(|text| text.parse().ok()).collect();

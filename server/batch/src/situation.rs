@@ -2,7 +2,9 @@
 
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
-use crate::names::hint;
+use crate::names::{hint, is_name};
+use crate::pattern::choice::PatternChoice;
+use crate::pattern::document::RoadPattern;
 use crate::who::AgentSelector;
 use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc};
 use scene::scenarios::Template;
@@ -22,14 +24,19 @@ const MOST_NAME: usize = 60;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BatchSituation {
-    /// Name in the results: letters, digits, - and _. Default: the template's, or `free`.
+    /// Name in the results: letters, digits, - and _. Default: that of the template or the pattern, or `free`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Test situation that the scene is searched for. The actor is picked from the scene; the seed decides which.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "templates")]
     pub template: Option<String>,
-    /// Figures of the template by name; those absent are drawn by the seed.
+    /// Pattern of the road that the maps of the scenes are searched for: a name of `dragtraffic match --list`, a file, or
+    /// the pattern itself. Its road users are put at each place where it fits; those of the scene are left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<PatternChoice>,
+    /// Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
+    /// have their standard values.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Distribution>,
     /// Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
@@ -147,7 +154,13 @@ pub struct Dimension<'a> {
 impl BatchSituation {
     /// What it is called in the results.
     pub fn name(&self) -> &str {
-        self.name.as_deref().or(self.template.as_deref()).unwrap_or(FREE)
+        let pattern = || self.pattern().map(|pattern| pattern.name.as_str());
+        self.name.as_deref().or(self.template.as_deref()).or_else(pattern).unwrap_or(FREE)
+    }
+
+    /// Its pattern.
+    pub fn pattern(&self) -> Option<&RoadPattern> {
+        self.pattern.as_ref().and_then(|choice| choice.pattern().ok())
     }
 
     /// Its template.
@@ -241,6 +254,7 @@ impl BatchSituation {
     pub(crate) fn check(&self, path: &str, faults: &mut Vec<PlanFault>) {
         self.check_name(path, faults);
         self.check_template(path, faults);
+        self.check_pattern(path, faults);
         for (i, text) in self.agents.iter().enumerate() {
             if let Err(reason) = text.parse::<AgentSelector>() {
                 faults.push(PlanFault::new(format!("{path}.agents[{i}]"), reason));
@@ -254,6 +268,8 @@ impl BatchSituation {
                 "template",
                 "a template picks the road user and its goal; agents and conditions exclude it",
             );
+        } else if self.pattern.is_some() && (asks || !self.agents.is_empty() || self.template.is_some()) {
+            fault("pattern", "a pattern has its own road users; agents, conditions and template exclude it");
         } else if asks && self.agents.is_empty() {
             fault(
                 "agents",
@@ -289,28 +305,43 @@ impl BatchSituation {
     }
 
     fn check_name(&self, path: &str, faults: &mut Vec<PlanFault>) {
-        let named = |name: &String| {
-            (1..=MOST_NAME).contains(&name.len())
-                && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
-        };
-        if self.name.as_ref().is_some_and(|name| !named(name)) {
+        if self.name.as_ref().is_some_and(|name| !is_name(name, MOST_NAME)) {
             let detail = format!("1 to {MOST_NAME} letters, digits, - and _ expected");
             faults.push(PlanFault::new(format!("{path}.name"), detail));
         }
     }
 
-    fn check_template(&self, path: &str, faults: &mut Vec<PlanFault>) {
-        let unknown = |name: &str, known: &[&'static str]| {
-            format!(
-                "\"{name}\" is unknown{}; there are {}",
-                hint(name, known.iter().copied()),
-                known.join(", ")
-            )
+    fn check_pattern(&self, path: &str, faults: &mut Vec<PlanFault>) {
+        let Some(choice) = &self.pattern else { return };
+        let under = format!("{path}.pattern");
+        let pattern = match choice.pattern() {
+            Ok(pattern) => pattern,
+            Err(reason) => {
+                faults.push(PlanFault::new(under, reason));
+                return;
+            }
         };
+        pattern.check(&under, faults);
+        for (name, distribution) in &self.parameters {
+            let path = format!("{path}.parameters.{name}");
+            match pattern.parameters.get(name) {
+                Some(parameter) => distribution.check(&path, parameter.range, faults),
+                None => {
+                    let known: Vec<&str> = pattern.parameters.keys().map(String::as_str).collect();
+                    faults.push(PlanFault::new(path, unknown(name, &known)));
+                }
+            }
+        }
+    }
+
+    fn check_template(&self, path: &str, faults: &mut Vec<PlanFault>) {
         let template = self.template();
         if let (Some(name), None) = (&self.template, template) {
             let known: Vec<&str> = Template::ALL.iter().map(|template| template.name()).collect();
             faults.push(PlanFault::new(format!("{path}.template"), unknown(name, &known)));
+            return;
+        }
+        if self.pattern.is_some() {
             return;
         }
         let figures = template.map_or(&[][..], Template::figures);
@@ -319,7 +350,7 @@ impl BatchSituation {
             match figures.iter().find(|figure| figure.name == name) {
                 Some(figure) => distribution.check(&path, figure.allowed, faults),
                 None if template.is_none() => {
-                    faults.push(PlanFault::new(path, "parameters belong to a template"));
+                    faults.push(PlanFault::new(path, "parameters belong to a template or a pattern"));
                 }
                 None => {
                     let known: Vec<&str> = figures.iter().map(|figure| figure.name).collect();
@@ -328,6 +359,11 @@ impl BatchSituation {
             }
         }
     }
+}
+
+/// What is said about a name that is none of the known ones.
+fn unknown(name: &str, known: &[&str]) -> String {
+    format!("\"{name}\" is unknown{}; there are {}", hint(name, known.iter().copied()), known.join(", "))
 }
 
 impl GoalRelationRanges {

@@ -22,7 +22,8 @@ pub struct BatchUnit {
     pub scene: usize,
     /// Index of the situation in the plan.
     pub situation: usize,
-    /// The road user that gets the conditions, where the situation names road users and the scene has one.
+    /// The road user that gets the conditions, where the situation names road users and the scene has one; or the place
+    /// of a pattern.
     pub actor: Option<String>,
     /// Number of the draw.
     pub draw: u64,
@@ -128,6 +129,7 @@ impl<'a> UnitList<'a> {
             &drawn,
             seed,
         ));
+        let id = situation.pattern().map_or(id, |pattern| ContentHash::of(&(id, pattern)));
         let actor = actor.map(str::to_owned);
         Some(BatchUnit { id, scene: place.scene, situation: place.situation, actor, draw, drawn, seed })
     }

@@ -29,6 +29,8 @@ enum SchemaOf {
     Scene,
     /// Plan of a batch.
     Batch,
+    /// Pattern of the road with road users.
+    Pattern,
 }
 
 /// Flags of `schema`.
@@ -49,6 +51,7 @@ pub fn schema(args: SchemaArgs) -> Result<(), Failure> {
     let (schema, command) = match args.document {
         SchemaOf::Scene => (formats::native::schema(), "schema"),
         SchemaOf::Batch => (batch::plan::schema(), "schema batch"),
+        SchemaOf::Pattern => (batch::pattern::document::schema(), "schema pattern"),
     };
     let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
     text.push('\n');

@@ -32,7 +32,9 @@ mod interrupt;
 mod lab;
 mod listen;
 mod map;
+mod matching;
 mod mcp;
+mod mine;
 mod output;
 mod parallel;
 mod place;
@@ -91,6 +93,12 @@ enum Command {
     /// List what moving road users do in recorded scenes, as a table to choose scenes by.
     #[command(after_help = examples!("dragtraffic index logs/ -o index.parquet", "dragtraffic index 'logs/**/*.tfrecord*' -o index.parquet --force"))]
     Index(index::IndexArgs),
+    /// Tag what happens in recorded scenes: near misses, cut-ins, hard braking, red lights and the like.
+    #[command(after_help = examples!("dragtraffic mine logs/ -o events.parquet", "dragtraffic mine 'logs/**/*.tfrecord*' --json"))]
+    Mine(mine::MineArgs),
+    /// Look for the places of maps where a pattern fits, and make a scene for each.
+    #[command(name = "match", after_help = examples!("dragtraffic match CCFtap town.json -o turns/", "dragtraffic match all maps/ --json"))]
+    Match(matching::MatchArgs),
     /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
     #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
     Map(map::MapArgs),
@@ -127,7 +135,7 @@ enum Command {
     /// Print the OpenAPI document, or compare it with a file.
     #[command(after_help = examples!("dragtraffic openapi > assets/openapi.json", "dragtraffic openapi --check assets/openapi.json"))]
     Openapi(document::CheckArgs),
-    /// Print the JSON Schema of the scene document or of the plan of a batch, or compare it with a file.
+    /// Print the JSON Schema of the scene document, of the plan of a batch or of a pattern, or compare it with a file.
     #[command(after_help = examples!("dragtraffic schema > scene.schema.json", "dragtraffic schema batch --check assets/schema/batch.v1.schema.json"))]
     Schema(document::SchemaArgs),
     /// Print motion limits, ranges of conditions and defaults of requests, or compare them with a file.
@@ -286,6 +294,8 @@ impl Command {
             Self::Batch(args) => batch::run(args, common),
             Self::Replay(args) => batch::replay(&args, common),
             Self::Index(args) => index::index(&args, common),
+            Self::Mine(args) => mine::run(&args, common),
+            Self::Match(args) => matching::run(&args, common),
             Self::Map(args) => map::run(args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),

@@ -26,6 +26,15 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     result.map_err(|error| Failure::new(Exit::Input, format!("{}: {error}", path.display())))
 }
 
+/// Reads a text; - is standard input.
+///
+/// # Errors
+/// Exit 3.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    String::from_utf8(read(path)?)
+        .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))
+}
+
 /// Writes to stdout. A reader that has closed its end is no failure.
 ///
 /// # Errors

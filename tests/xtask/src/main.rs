@@ -67,6 +67,7 @@ const CHECKS: &[Check] = &[
     ("openapi", || drift(&["openapi"], "assets/openapi.json")),
     ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
     ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),
+    ("pattern-schema", || drift(&["schema", "pattern"], "assets/schema/pattern.v1.schema.json")),
     ("domain", || drift(&["domain"], "assets/domain.json")),
     ("shear", || tools::check("shear", &[])),
     ("deny", || tools::check("deny", &["check", "licenses", "bans", "sources"])),

@@ -131,10 +131,18 @@ pub struct RecordedFacts {
     pub facts: CaseFacts,
 }
 
+/// A scene as it is recorded, to be scored.
+pub(crate) fn recorded_input<'a>(
+    scene: &'a scene::Scene,
+    drivable: &'a scene::score::Drivable,
+) -> ScoreInput<'a> {
+    let logs = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other).map(Actor::of_kept);
+    ScoreInput { actors: logs.collect(), ..ScoreInput::of_sample(scene, None, drivable) }
+}
+
 /// The facts of a scene as it is recorded: those of each road user that moves.
 pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<RecordedFacts> {
-    let logs = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other).map(Actor::of_kept);
-    let input = ScoreInput { actors: logs.collect(), ..ScoreInput::of_sample(scene, None, drivable) };
+    let input = recorded_input(scene, drivable);
     let search = MeetingSearch::new(&input);
     let moves =
         |of: &usize| input.actors.get(*of).is_some_and(|a| a.travel_m(input.steps.clone()) >= MOVES_M);

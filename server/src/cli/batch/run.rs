@@ -108,8 +108,8 @@ fn read_plan(path: &Path) -> Result<BatchPlan, Failure> {
         let lines: Vec<String> = faults.iter().map(|fault| format!("{}: {fault}", path.display())).collect();
         Failure::input(lines.join("\n  "))
     };
-    let bytes = output::read(path)?;
-    let text = String::from_utf8(bytes)
-        .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))?;
-    BatchPlan::parse(&text).map_err(refused)
+    let text = output::read_text(path)?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    let file = |name: &str| output::read_text(&base.join(name)).map_err(|failure| failure.message);
+    BatchPlan::parse_with(&text, &file).map_err(refused)
 }

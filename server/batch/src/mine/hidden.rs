@@ -1,0 +1,51 @@
+//! Pedestrians that a vehicle cannot see.
+
+use scene::geometry::direction;
+use scene::score::meeting::HardestPair;
+use scene::score::{Actor, ScoreInput};
+use scene::{AgentType, STEP_S, State, Vec2};
+
+/// Looked at before the two are nearest, seconds.
+const BEFORE_S: f64 = 4.0;
+/// Hidden for less does not count, seconds.
+const LEAST_S: f64 = 0.5;
+/// The two cross within this of each other, seconds.
+const MEETS_S: f64 = 4.0;
+/// A pedestrian farther away is not looked for, metres.
+const FAR_M: f64 = 50.0;
+/// The driver sits this far behind the middle of the vehicle's front, as a share of its length.
+const DRIVER: f64 = 0.15;
+/// A vehicle that looks drives at least so fast, m/s.
+const DRIVES_MPS: f64 = 2.0;
+
+/// How long a pedestrian of a crossing pair is hidden from the vehicle by another road user, in the seconds before the
+/// two are nearest.
+pub(super) fn hidden_s(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    other: &Actor<'_>,
+    pair: &HardestPair,
+) -> Option<f64> {
+    let (walker, vehicle) = match (actor.agent_type, other.agent_type) {
+        (AgentType::Pedestrian, AgentType::Vehicle) => (actor, other),
+        (AgentType::Vehicle, AgentType::Pedestrian) => (other, actor),
+        _ => return None,
+    };
+    pair.measures.pet_s.filter(|pet_s| *pet_s <= MEETS_S)?;
+    let first = pair.step.saturating_sub((BEFORE_S / STEP_S) as usize).max(input.steps.start);
+    let is_hidden = |step: &usize| {
+        let (Some(own), Some(seen)) = (vehicle.state(*step), walker.state(*step)) else { return false };
+        let eye = own.position() + direction(own.heading_rad) * (DRIVER * vehicle.size.length_m);
+        let moves = own.speed_mps() >= DRIVES_MPS && (seen.position() - eye).norm() <= FAR_M;
+        moves && input.actors.iter().any(|by| hides(by, *step, [vehicle, walker], eye, seen))
+    };
+    let steps = (first..=pair.step).filter(is_hidden).count();
+    Some(steps as f64 * STEP_S).filter(|hidden_s| *hidden_s >= LEAST_S - 1e-6)
+}
+
+/// A vehicle stands in the line of sight.
+fn hides(by: &Actor<'_>, step: usize, pair: [&Actor<'_>; 2], eye: Vec2, seen: &State) -> bool {
+    by.agent_type == AgentType::Vehicle
+        && pair.iter().all(|of| of.id != by.id)
+        && by.outline(step).is_some_and(|outline| outline.meets_segment(eye, seen.position()))
+}
