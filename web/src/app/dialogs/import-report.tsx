@@ -172,12 +172,12 @@ function Wrong({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
       {v.without || v.excerpt || v.again ? (
         <div class="ways">
           {v.without ? (
-            <button type="button" class="btn pri" data-first="" onClick={() => void importing.takeRest(v)}>
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.reader?.takeRest(v)}>
               {TEXTS.importWithout(v.without.join(', '))}
             </button>
           ) : null}
           {v.again ? (
-            <button type="button" class="btn pri" data-first="" onClick={() => void importing.tryAgain(v)}>
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.reader?.tryAgain(v)}>
               {TEXTS.tryAgain}
             </button>
           ) : null}

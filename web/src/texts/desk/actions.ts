@@ -6,6 +6,7 @@ export const TEXTS = table('actions', {
   thisOneCanBe: 'This road user cannot be edited.',
   itIsLockedCtrl: 'Locked. Ctrl L unlocks.',
   selectRoadUsers: 'Select road users first.',
+  driveByKeyboard: 'Drive by keyboard',
   findACase: 'Find a case',
   selectOneOrTwo: 'Select one or two road users first.',
   search: 'Search',

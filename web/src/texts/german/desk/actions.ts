@@ -7,6 +7,7 @@ export const german: Said<typeof TEXTS> = {
   thisOneCanBe: 'Dieser Verkehrsteilnehmer lässt sich nicht ändern.',
   itIsLockedCtrl: 'Gesperrt. Strg L entsperrt.',
   selectRoadUsers: 'Erst Verkehrsteilnehmer auswählen.',
+  driveByKeyboard: 'Mit der Tastatur steuern',
   findACase: 'Fall suchen',
   selectOneOrTwo: 'Erst einen oder zwei Verkehrsteilnehmer auswählen.',
   search: 'Suchen',
