@@ -73,6 +73,7 @@ function makeParts(o: Opening): Context {
     focusText,
     openMenu: () => openMenu(c),
     chooseFiles: fileChooser((files) => void importing.files(files)),
+    choosePart: fileChooser(([file]) => void (file && importing.part(file))),
     focusField,
     focusGroup,
     focusAgent,

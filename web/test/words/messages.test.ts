@@ -54,6 +54,7 @@ const PATTERNS: Readonly<Record<string, readonly (readonly [pattern: RegExp, rea
   'edit/tools/importing/file-import.ts': [
     [/scenario_|log_map_|xml|json/, 'names of files that data sets and tools use'],
   ],
+  'edit/tools/importing/map-outline.ts': [[/node|geometry|lane/, 'elements of map files']],
   'edit/tools/layouts/arms-overlay.ts': [[/arm/, 'ids of lanes']],
   'edit/tools/outward/table-columns.ts': [
     [/id\||time|x\||y\||yaw|speed|type|len|width|frame/, 'column names of tables'],

@@ -183,6 +183,7 @@ export const TEXTS = table('actions', {
   newSceneOnThis: 'New scene on this map',
   newSceneOnPlain: 'New empty scene',
   importFiles: 'Import files',
+  importPartOfMap: 'Import a part of a map',
   importALog: 'Import a log',
   saveACopy: 'Save a copy',
   saveAs: 'Save as …',

@@ -1,7 +1,7 @@
 // Reads files from outside: sent to the server one by one, with a verdict for each. It loads with the first file.
 import type { SceneJson } from '../../../model/document/scene-json';
 import { Refused, type Client } from '../../../net/client';
-import { importFile, type FileCompanions } from '../../../net/imports';
+import { importFile, type FileCompanions, type MapCircle } from '../../../net/imports';
 import type { ImportReply, Problem } from '../../../net/types';
 import type { Editor } from '../../session/editor';
 import type { FileVerdict, ImportedScene } from './file-verdict';
@@ -9,6 +9,11 @@ import { foreignKind, kindByName, type ForeignKind } from './file-kinds';
 import type { Library } from '../../document/library';
 import { countAll, type SceneList } from '../../document/scene-list';
 import { TEXTS } from '../../../texts/files/importing';
+
+/** Refusals of a map that is too large. */
+const TOO_LARGE: readonly Problem['code'][] = ['map-too-large', 'decoded-too-large'];
+/** Files of maps of which a part can be read. */
+const ofMap = (name: string): boolean => /\.(xodr|osm|xml)(\.gz)?$/i.test(name);
 
 const READING_MS = 120_000;
 /** Larger files are not examined here. */
@@ -87,6 +92,18 @@ export class FileImport {
     if (table) await this.#replace(v, () => this.#send(v.file, table, [], { columns }));
   }
 
+  /** Shows a map file for the choice of its part. */
+  choosePart(file: File): void {
+    const verdict = { file: file.name, kind: kindByName(file.name), ok: false, scenes: [] };
+    this.report.show([{ ...verdict, map: { file, around: null }, wrong: TEXTS.choosePart }]);
+  }
+
+  /** Reads a part of a map. */
+  async readPart(v: FileVerdict, around: MapCircle): Promise<void> {
+    const { map } = v;
+    if (map) await this.#replace(v, () => this.#send(v.file, map.file, [], { around }));
+  }
+
   /** Sends the same file again. */
   async tryAgain(v: FileVerdict): Promise<void> {
     if (v.again) await this.#replace(v, () => this.#one(v.again!));
@@ -120,12 +137,18 @@ export class FileImport {
       return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
-      return this.#refused(name, file, e.problem, without);
+      return this.#refused(name, file, e.problem, without, beside.around ?? null);
     }
   }
 
   /** The fault with its place in the file; stores the rest where it can be imported. */
-  async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
+  async #refused(
+    name: string,
+    file: Blob,
+    p: Problem,
+    without: readonly string[],
+    around: MapCircle | null,
+  ): Promise<FileVerdict> {
     const foreign = p.code === 'format-unknown' ? await foreignKind(file) : null;
     if (foreign) return foreignVerdict(name, foreign.kind);
     const { columnsIn, explain } = await import('./refused-file');
@@ -137,6 +160,8 @@ export class FileImport {
       this.#tables.set(verdict, file);
       return verdict;
     }
+    if (around || (TOO_LARGE.includes(p.code) && ofMap(name)))
+      return { ...plain, map: { file, around }, todo: TEXTS.choosePart };
     const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
     const { lookInto } = await import('./broken-file');
     const { excerpt, part, mended } = lookInto(text, p);

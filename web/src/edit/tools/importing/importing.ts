@@ -26,16 +26,26 @@ export class Importing {
   }
 
   async files(files: readonly File[]): Promise<void> {
+    if (await this.#begun()) await this.#reader!.files(files);
+  }
+
+  /** Offers to import a part of a map file. */
+  async part(file: File): Promise<void> {
+    if (await this.#begun()) this.#reader!.choosePart(file);
+  }
+
+  /** False when its script did not load. */
+  async #begun(): Promise<boolean> {
     try {
       const { FileImport } = await import('./file-import');
       const { editor, library, list, client } = this;
       this.#reader = new FileImport({ editor, library, list, client }, this.#report());
+      return true;
     } catch (e) {
       if (!(e instanceof TypeError)) throw e;
       this.editor.notices.show({ text: TEXTS.importDidNotLoad });
-      return;
+      return false;
     }
-    await this.#reader.files(files);
   }
 
   /** Reads files of the report in another way; null when it was closed. */

@@ -183,6 +183,7 @@ export const german: Said<typeof TEXTS> = {
   newSceneOnThis: 'Neue Szene auf dieser Karte',
   newSceneOnPlain: 'Neue leere Szene',
   importFiles: 'Dateien importieren',
+  importPartOfMap: 'Einen Teil einer Karte importieren',
   importALog: 'Aufzeichnung importieren',
   saveACopy: 'Kopie sichern',
   saveAs: 'Sichern als …',
