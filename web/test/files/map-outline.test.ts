@@ -26,7 +26,11 @@ describe('the outline of a map', () => {
     expect(from).toEqual([10, -20]);
     expect(to[0]).toBeCloseTo(10, 9);
     expect(to[1]).toBeCloseTo(10, 9);
-    const nodes = `<osm><node id="1" version="1" lat="48.1" lon="11.5"/><node id='2' lat="48.2" lon="11.6"><tag/></node></osm>`;
+    const [one, two] = [
+      '<node id="1" version="1" lat="48.1" lon="11.5"/>',
+      '<node id="2" lat="48.2" lon="11.6"><tag/>',
+    ];
+    const nodes = `<osm>${one}${two}</node></osm>`;
     const osm = (await outlineOf(new Blob([nodes])))!;
     expect(osm.degrees).toBe(true);
     expect(osm.box).toEqual({ x0: 11.5, y0: 48.1, x1: 11.6, y1: 48.2 });

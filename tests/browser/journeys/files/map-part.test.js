@@ -15,8 +15,9 @@ const grid = (n) => {
       const [x, y] = [100 * i, 100 * j];
       streets.push(lane(`h${i}_${j}`, x + 5, y, x + 95, y), lane(`v${i}_${j}`, x, y + 5, x, y + 95));
     }
-  const whole = `convBoundary="0,0,${100 * n},${100 * n}"`;
-  return `<net version="1.16"><location netOffset="0.00,0.00" ${whole} origBoundary="0,0,1,1" projParameter="!"/>${streets.join('\n')}</net>`;
+  const box = `convBoundary="0,0,${100 * n},${100 * n}" origBoundary="0,0,1,1"`;
+  const location = `<location netOffset="0.00,0.00" ${box} projParameter="!"/>`;
+  return `<net version="1.16">${location}${streets.join('\n')}</net>`;
 };
 
 const PART = '.mappart';

@@ -99,7 +99,7 @@ export class Picture {
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
-      void [e.reading.live.isOn.value, e.reading.live.frames.value];
+      void [e.reading.live.isOn.value, e.reading.live.frames.value, e.view.triedSignals.value];
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
@@ -174,7 +174,8 @@ export class Picture {
     if (!scene) return;
     const dragging = e.drag.info.value !== null;
     if (e.view.layers.value.conflicts) paintZones(g, v, this.conflicts(scene));
-    if (e.view.layers.value.signals) paintSignals(g, v, scene, e.playhead.time.value);
+    if (e.view.layers.value.signals)
+      paintSignals(g, v, { ...scene, signals: e.view.triedSignals.value ?? scene.signals }, e.playhead.time.value);
     const live = e.reading.live.isOn.value;
     const selected = new Set(live ? [] : e.selected.value);
     const shown: [Agent, Pose][] = [];
