@@ -1,3 +1,4 @@
+import type { ClientRequest } from 'node:http';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
@@ -9,7 +10,11 @@ import { shortKeys } from './tools/short-keys.ts';
 const SERVER: ProxyOptions = {
   target: process.env.DRAGTRAFFIC_URL ?? 'http://127.0.0.1:8080',
   changeOrigin: true,
-  configure: (proxy) => proxy.on('proxyReq', (request) => request.removeHeader('origin')),
+  ws: true,
+  configure: (proxy) => {
+    for (const sent of ['proxyReq', 'proxyReqWs'] as const)
+      proxy.on(sent, (request: ClientRequest) => request.removeHeader('origin'));
+  },
 };
 
 /** Texts of the build lie there compressed too: the server sends them as they are. */

@@ -461,6 +461,16 @@ export const STATES = [
     { hide: ['.share input'] },
   ],
   [
+    'drive',
+    async (e) => {
+      const [car] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+      await e.choose(car.id);
+      await e.key('Shift+E');
+      await e.page.waitForSelector('.drivebar');
+      await e.settled();
+    },
+  ],
+  [
     '34-phone',
     async (e) => {
       const f = new Fingers(e);

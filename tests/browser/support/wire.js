@@ -197,11 +197,17 @@ export class Wire {
   /** The same for questions over a persistent connection: a message each, and pieces of answers by its number. */
   #overLines(thread) {
     const open = new Map();
+    /** Connections for other things than questions. */
+    const others = new Set();
     const end = (id, timestamp) => {
       Object.assign(open.get(id), { ended: timestamp, read: true });
       open.delete(id);
     };
+    thread.on('Network.webSocketCreated', ({ requestId, url }) => {
+      if (new URL(url).pathname !== '/v1/generate') others.add(requestId);
+    });
     thread.on('Network.webSocketFrameSent', ({ requestId, timestamp, response: { payloadData } }) => {
+      if (others.has(requestId)) return;
       const said = JSON.parse(payloadData);
       const id = `${requestId}/${said.ask ?? said.end}`;
       if (said.body) {
@@ -212,7 +218,7 @@ export class Wire {
       } else if (open.has(id)) end(id, timestamp);
     });
     thread.on('Network.webSocketFrameReceived', ({ requestId, timestamp, response: { opcode, payloadData } }) => {
-      if (opcode !== 1) return;
+      if (opcode !== 1 || others.has(requestId)) return;
       this.bytes += Buffer.byteLength(payloadData);
       const line = payloadData.indexOf('\n');
       const told = JSON.parse(payloadData.slice(0, line));

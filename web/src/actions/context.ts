@@ -45,6 +45,8 @@ export interface Context extends Opening, Tools {
   /** The browser's clipboard: copies are text, so that another tab can paste them. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;
+  /** Offers to import a part of a map file. */
+  choosePart(): void;
   /** Brings road users into view, if they are not. */
   reveal(ids: readonly string[]): void;
   /** Puts the cursor into the name or the note of the selected road user. */

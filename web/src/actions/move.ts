@@ -128,6 +128,21 @@ export const movement = inGroup('move', [
   faster('slower-far', TEXTS.muchSlower, 'Shift+-', -10),
   move('snap', TEXTS.toTheNearest, 'N', 'positionAnd', moves.snapToNearest, { icon: 'fit' }),
   {
+    id: 'drive',
+    label: TEXTS.driveByKeyboard,
+    keys: ['Shift+E'],
+    icon: 'car',
+    help: 'drivesTheSelected',
+    when: hasFree,
+    checked: (c) => c.driving.isOn.value,
+    run: (c) => {
+      c.rounds.close();
+      c.variants.comparing.end();
+      c.searching.open.peek()?.close();
+      void c.driving.begin();
+    },
+  },
+  {
     id: 'switch-part',
     label: TEXTS.startOrGoal,
     keys: ['X'],

@@ -148,6 +148,13 @@ export const scene = inGroup('scene', [
     run: (c) => c.ui.openDialog('import'),
   },
   {
+    id: 'choose-part',
+    label: TEXTS.importPartOfMap,
+    icon: 'file',
+    help: 'circleOfAMap',
+    run: (c) => c.choosePart(),
+  },
+  {
     id: 'import-log',
     label: TEXTS.importALog,
     keys: ['O'],

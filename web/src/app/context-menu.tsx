@@ -30,6 +30,7 @@ const MENUS: Record<MenuOn, readonly MenuEntry[]> = {
     null,
     'set-goal',
     'goal-from-log',
+    'drive',
     'add-via',
     'clear-goal',
     'reset-agent',

@@ -20,6 +20,7 @@ import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
 import { measureCards } from './hud/cards-over';
 import { followView, gliding } from './hud/view-tick';
+import { followDriven } from './follow-drive';
 import { fitScene, followSelected, keepInView, lookAtMade, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { keepInSight } from './sheet/in-sight';
@@ -72,6 +73,7 @@ function makeParts(o: Opening): Context {
     focusText,
     openMenu: () => openMenu(c),
     chooseFiles: fileChooser((files) => void importing.files(files)),
+    choosePart: fileChooser(([file]) => void (file && importing.part(file))),
     focusField,
     focusGroup,
     focusAgent,
@@ -92,7 +94,9 @@ function connect(c: Context): void {
   stage.framed.listen((now) => {
     gestures.frame(now);
     playback.frame(now);
+    c.driving.frame(now);
     followSelected(c);
+    followDriven(c);
   });
   // For screen readers and for scripts: the shown state is not final yet.
   effect(() => {

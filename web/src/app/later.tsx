@@ -64,6 +64,10 @@ const PARTS = {
     () => import('./hud/place-panel'),
     (m) => m.PlacePanel,
   ),
+  drive: of(
+    () => import('./hud/drive-bar'),
+    (m) => m.DriveBar,
+  ),
   phases: of(
     () => import('./timeline/phase-strip'),
     (m) => m.PhaseStrip,

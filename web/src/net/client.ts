@@ -3,7 +3,6 @@ import { problemOf } from './problem';
 import { ROOT } from './root';
 import { inWords } from './refusal';
 import type {
-  ImportReply,
   MapReply,
   Parameters,
   PlaceReply,
@@ -32,14 +31,6 @@ const etagOf = (reply: Response): string | null => reply.headers.get('etag')?.re
 
 /** Gateway errors and "shutting down" mean the generator is unreachable; "busy" is an answer, and temporary. */
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
-
-/** Companions of a file. */
-export interface FileCompanions {
-  /** Its network or map. */
-  readonly net?: Blob;
-  /** Meaning of a table's columns. */
-  readonly columns?: Record<string, unknown>;
-}
 
 export class Client {
   constructor(
@@ -133,30 +124,6 @@ export class Client {
 
   async remove(id: string, etag: string): Promise<void> {
     await this.request(`/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE', headers: { 'If-Match': etag } });
-  }
-
-  async importFile(name: string, body: Blob, { net, columns }: FileCompanions = {}): Promise<ImportReply> {
-    const isJson = /\.json$/i.test(name);
-    const form = new FormData();
-    form.append('file', body, name);
-    if (net) form.append('net', net);
-    if (columns) form.append('columns', new Blob([JSON.stringify(columns)], { type: 'application/json' }));
-    const type = isJson ? 'application/json' : 'application/octet-stream';
-    const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, {
-      method: 'POST',
-      ...(net || columns ? { body: form } : { body, headers: { 'Content-Type': type } }),
-    });
-    return (await reply.json()) as ImportReply;
-  }
-
-  /** Reads a scene like a file; nothing is stored. */
-  async tryImport(scene: SceneJson): Promise<ImportReply> {
-    const reply = await this.request('/v1/import?dry_run=true&format=dragtraffic', {
-      method: 'POST',
-      body: JSON.stringify(scene),
-      headers: { 'Content-Type': 'application/json' },
-    });
-    return (await reply.json()) as ImportReply;
   }
 
   async score(body: unknown, signal?: AbortSignal): Promise<ScoreReply> {

@@ -88,13 +88,18 @@ export class SocketTransport {
   }
 
   #hear(message: string): void {
-    const end = message.indexOf('\n');
-    const told = JSON.parse(message.slice(0, end)) as Told;
-    const rest = message.slice(end + 1);
-    const head = headOf(told, rest);
+    const { ask, head, rest, last } = readMessage(message);
     const events = head?.problem ? [] : eventsOf(rest);
-    this.#questions.hear(told.ask, head, events.length ? [events] : [], told.last === true);
+    this.#questions.hear(ask, head, events.length ? [events] : [], last);
   }
+}
+
+/** A message of the server: the number of its question, the head where it is the first one, a piece of the answer. */
+export function readMessage(message: string): { ask: number; head: Head | null; rest: string; last: boolean } {
+  const end = message.indexOf('\n');
+  const told = JSON.parse(message.slice(0, end)) as Told;
+  const rest = message.slice(end + 1);
+  return { ask: told.ask, head: headOf(told, rest), rest, last: told.last === true };
 }
 
 /** A refusal arrives complete. */
@@ -104,10 +109,10 @@ function headOf({ status, retry_after_s, scene }: Told, rest: string): Head | nu
   return { status, retryAfter_s: retry_after_s ?? null, held: scene, problem };
 }
 
-/** A connection to the server that a script came from. */
-export function connection(script: string): WebSocket | null {
+/** A connection for a path of the server that a script came from. */
+export function connection(path: string, script: string): WebSocket | null {
   if (typeof WebSocket === 'undefined') return null;
-  const address = new URL(`${ROOT}/v1/generate`, script);
+  const address = new URL(ROOT + path, script);
   address.protocol = address.protocol.replace('http', 'ws');
   return new WebSocket(address);
 }

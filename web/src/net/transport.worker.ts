@@ -18,7 +18,7 @@ type Failed = { readonly failed: string };
 const LAST = new Set<GenerateEvent['event']>(['final', 'error', 'superseded']);
 
 const line = new SocketTransport({ send: (path, init) => fetch(ROOT + path, init) }, () =>
-  connection(self.location.href),
+  connection('/v1/generate', self.location.href),
 );
 const open = new Map<number, AbortController>();
 const tell = (said: FromWorker): void => self.postMessage(said);

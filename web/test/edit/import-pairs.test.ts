@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { inPairs } from '../../src/edit/tools/importing/importing';
+import { inPairs } from '../../src/edit/tools/importing/file-import';
 
 const file = (name: string): File => new File(['x'], name);
 

@@ -15,7 +15,7 @@ it('opens the scene of a file before the list of scenes arrives', async () => {
       refresh: () => new Promise<void>((resolve) => (listed = resolve)).then(() => void steps.push('listed')),
     } as unknown as Parts[2],
     {
-      importFile: async () => ({ scenes: [{ id: 'a1', name: 'A', counts: {}, warnings: [] }], skipped: [] }),
+      request: async () => Response.json({ scenes: [{ id: 'a1', name: 'A', counts: {}, warnings: [] }], skipped: [] }),
     } as unknown as Parts[3],
   );
   const read = importing.files([new File(['{}'], 'scene.json')]);

@@ -15,7 +15,7 @@ import { openingCentre } from '../../src/model/physics/scene-centre';
 import { readEvents } from '../../src/model/words/event-words';
 import { emptyMotion } from '../../src/model/document/futures';
 import type { SceneJson } from '../../src/model/document/scene-json';
-import { lineOf, linesAround, offsetOf } from '../../src/model/document/json-place';
+import { lineOf, linesAround, offsetOf } from '../../src/edit/tools/importing/json-place';
 import { pack, unpack } from '../../src/model/document/pack';
 import { readScene } from '../../src/model/document/scene-reader';
 import { withAgents } from '../../src/model/document/scene';

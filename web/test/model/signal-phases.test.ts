@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { setSignals } from '../../src/model/document/commands';
 import { applyDiff, diffOf } from '../../src/model/document/scene-diff';
 import { sceneKey, type Scene } from '../../src/model/document/scene';
-import { signalsJson } from '../../src/model/document/scene-writer';
+import { timedJson } from '../../src/model/document/scene-writer';
 import {
   addedEdge,
   groupOf,
@@ -68,7 +68,7 @@ describe('phases of a signal', () => {
     const other = setSignals(scene, withStates(scene.signals, ['a', 'b'], movedEdge(CYCLE, 1, 21, 90))).apply(scene);
     expect(new Set([scene, after, other].map(sceneKey)).size).toBe(3);
     const raw = { signals: scene.signals.map(({ lane, states }) => ({ lane, stop_m: [1, 2, 3], states })) };
-    const json = signalsJson(raw as never, after).signals!;
+    const json = timedJson(raw as never, after).signals!;
     expect(json.map((s) => s.states[1]?.[0])).toEqual([20, 20, undefined]);
     expect(json[0].stop_m).toEqual([1, 2, 3]);
     const diff = structuredClone(diffOf(scene, after));

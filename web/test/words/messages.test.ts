@@ -51,13 +51,17 @@ const PATTERNS: Readonly<Record<string, readonly (readonly [pattern: RegExp, rea
   'actions/keys.ts': [[/Digit|Key/, 'codes of keys, from the browser']],
   'app/dialogs/shortcuts.tsx': [[/^\/\^[a-z]+-|\(next\|previous\)|\(slower\|faster\)/, 'ids of actions']],
   'app/later.tsx': [[/https/, 'the address of a script']],
-  'edit/tools/importing/importing.ts': [[/scenario_|log_map_|xml|json/, 'names of files that data sets and tools use']],
+  'edit/tools/importing/file-import.ts': [
+    [/scenario_|log_map_|xml|json/, 'names of files that data sets and tools use'],
+  ],
+  'edit/tools/importing/map-outline.ts': [[/node|geometry|lane/, 'elements of map files']],
   'edit/tools/layouts/arms-overlay.ts': [[/arm/, 'ids of lanes']],
   'edit/tools/outward/table-columns.ts': [
     [/id\||time|x\||y\||yaw|speed|type|len|width|frame/, 'column names of tables'],
   ],
   'model/document/layouts.ts': [[/arm/, 'ids of lanes']],
   'net/client.ts': [[/gzip|sha256|json|filename/, 'headers of HTTP and names of files']],
+  'net/imports.ts': [[/json/, 'the ending of a file']],
   'net/root.ts': [[/assets/, 'a path of the page']],
 };
 

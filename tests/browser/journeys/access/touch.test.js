@@ -76,6 +76,29 @@ async function press(e, id) {
 }
 
 journeys('fingers', (stage) => {
+  it('takes a signal that is nearer to the finger than a car', { timeout: 60_000 }, async () => {
+    const { e, f } = await open(stage);
+    const { agents, map, signals } = await e.get('/v1/scenes/demo-crossing');
+    const lanes = new Set(map.lanes.map((l) => l.id));
+    /** A finger on the stop line is beside a car, too. */
+    const isBesideCar = ([x, y]) =>
+      agents.some(({ type, track: { first_step, x_m, y_m } }) => {
+        const far = first_step ? Infinity : Math.hypot(x_m[0] - x, y_m[0] - y);
+        return type === 'vehicle' && far > 2.8 && far < 6;
+      });
+    let taken = 0;
+    for (const { lane, stop_m } of signals.filter((s) => s.stop_m && isBesideCar(s.stop_m))) {
+      const at = lanes.has(lane) && (await e.at(...stop_m));
+      if (!at || !(await e.open(at, 12))) continue;
+      await f.tap(at);
+      await e.until(() => /^Signal/.test(document.querySelector('.toast')?.textContent ?? ''));
+      assert.equal(await e.page.locator('.fu').count(), 0, 'no car is selected');
+      await e.letGo();
+      taken++;
+    }
+    assert.ok(taken > 0, 'a car waits at a stop line in sight');
+  });
+
   it('a tap selects, a finger drags the flag under a loupe, two fingers undo', { timeout: 60_000 }, async () => {
     const { e, f } = await open(stage);
     const car = await select({ e, f });

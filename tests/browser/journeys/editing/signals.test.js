@@ -2,6 +2,7 @@
 // has its limit and its users, a crosswalk who goes first.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
+import { pixelsOf } from '../../support/pixels.js';
 import { journeys } from '../../support/journey.js';
 
 const PANEL = 'aside.insp';
@@ -28,9 +29,27 @@ journeys('signals, lanes and crosswalks', (stage) => {
     const [box, plot] = [await edge.boundingBox(), await e.page.locator('.plot').boundingBox()];
     const perSecond = (plot.width - 74) / 9;
     const asked = e.wire.asked.length;
+    // At 4 s the stop line is green before, and amber as soon as the edge is dragged past that time.
+    for (let i = 0; i < 40; i++) await e.key('.');
+    await e.settled();
+    const [sx, sy] = await e.at(...stop_m);
+    const amber = async () => {
+      const clip = { x: sx - 14, y: sy - 14, width: 28, height: 28 };
+      const pixels = await pixelsOf(e.page, await e.page.screenshot({ clip }));
+      return pixels.evaluate(({ data }) => {
+        let n = 0;
+        for (let i = 0; i < data.length; i += 4)
+          if (data[i] > 150 && data[i] > data[i + 2] + 90 && data[i + 1] > 90) n++;
+        return n;
+      });
+    };
+    const before = await amber();
     const from = [box.x + box.width / 2, box.y + box.height / 2];
     await e.drag(from, [from[0] - ((await time()) - 3) * perSecond, from[1]], { moves: 4 });
     assert.equal(await time(), 3);
+    await e.frames(3);
+    const dragged = await amber();
+    assert.ok(dragged > before + 20, `${dragged} amber pixels of the stop line, ${before} before`);
     assert.equal(e.wire.asked.length, asked, 'nothing is asked in the drag');
     await e.release();
     const { body } = e.wire.last();

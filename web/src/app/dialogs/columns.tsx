@@ -24,7 +24,7 @@ export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly st
       class="columns"
       onSubmit={(e) => {
         e.preventDefault();
-        if (!off) void importing.readColumns(verdict, toldColumns(answers.value));
+        if (!off) void importing.reader?.readColumns(verdict, toldColumns(answers.value));
       }}
     >
       {ASKED.map((a) => (

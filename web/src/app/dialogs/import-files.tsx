@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { inKinds } from '../../edit/tools/outward/formats';
 import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { TEXTS } from '../../texts/files/imports';
@@ -67,6 +68,8 @@ export function ImportFiles() {
       </div>
       <div class="dfoot">
         <span class="mut">{TEXTS.gzipToo}</span>
+        <span class="grow" />
+        <ActionButton id="choose-part" icon="" class="line" />
       </div>
     </Modal>
   );

@@ -8,6 +8,7 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { Columns } from './columns';
+import MapPart from './map-part';
 import { TEXTS } from '../../texts/files/imports';
 
 /** Further rows are shown on demand. */
@@ -42,7 +43,7 @@ export function ImportReport() {
   const verdicts = importing.verdicts.value ?? [];
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
-  const wrong = bad.some((v) => !v.columns);
+  const wrong = bad.some((v) => !v.columns && !v.map);
   return (
     <Modal label={TEXTS.import} class="import" close={close}>
       <div class="dhead">
@@ -65,8 +66,8 @@ export function ImportReport() {
 
 /** `4 files: 2 imported, 1 readable in part, 1 not readable` */
 function titleOf(verdicts: readonly FileVerdict[]): string {
-  const part = verdicts.filter((v) => !v.ok && (v.without || v.columns)).length;
-  const asked = verdicts.filter((v) => v.columns).length;
+  const part = verdicts.filter((v) => !v.ok && (v.without || v.columns || v.map)).length;
+  const asked = verdicts.filter((v) => v.columns || v.map).length;
   const bad = verdicts.filter((v) => !v.ok).length - part;
   const good = verdicts.length - bad - part;
   const all = verdicts.length;
@@ -75,7 +76,7 @@ function titleOf(verdicts: readonly FileVerdict[]): string {
       const n = verdicts[0].scenes.length;
       return TEXTS.scenesImported(n);
     }
-    if (asked) return TEXTS.oneQuestionAbout;
+    if (asked) return verdicts[0].map ? TEXTS.partOfMap : TEXTS.oneQuestionAbout;
     return part ? TEXTS.aPartOfThisFile : TEXTS.thisFileCould;
   }
   const counts = [
@@ -95,7 +96,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
     close();
     c.chooseFiles();
   };
-  const mendable = bad.some((v) => v.without ?? v.columns ?? v.again);
+  const mendable = bad.some((v) => v.without ?? v.columns ?? v.map ?? v.again);
   return (
     <div class="dfoot">
       <span class="mut">{TEXTS.yourFilesWere}</span>
@@ -142,6 +143,8 @@ function FileRow({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) 
           <span class="tag ok">{done}</span>
         ) : v.columns ? (
           <span class="tag near">{TEXTS.assignColumns}</span>
+        ) : v.map ? (
+          <span class="tag near">{TEXTS.partTag}</span>
         ) : v.without ? (
           <span class="tag near">{TEXTS.inPartTag}</span>
         ) : (
@@ -169,15 +172,16 @@ function Wrong({ verdict: v, open }: { verdict: FileVerdict; open: boolean }) {
     <div class="wrong">
       <Words verdict={v} />
       {v.columns ? <Columns verdict={v} of={v.columns} /> : null}
+      {v.map ? <MapPart key={v.file} verdict={v} map={v.map} /> : null}
       {v.without || v.excerpt || v.again ? (
         <div class="ways">
           {v.without ? (
-            <button type="button" class="btn pri" data-first="" onClick={() => void importing.takeRest(v)}>
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.reader?.takeRest(v)}>
               {TEXTS.importWithout(v.without.join(', '))}
             </button>
           ) : null}
           {v.again ? (
-            <button type="button" class="btn pri" data-first="" onClick={() => void importing.tryAgain(v)}>
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.reader?.tryAgain(v)}>
               {TEXTS.tryAgain}
             </button>
           ) : null}

@@ -36,6 +36,7 @@ const POINTER_LINES: Partial<Record<Group, readonly ShortcutLine[]>> = {
     { label: TEXTS.noSnapping, keys: ['Alt'], how: TEXTS.drag },
     { label: TEXTS.alongTheLane, keys: ['Shift'], how: TEXTS.drag },
     { label: TEXTS.startAndGoal, keys: ['Ctrl'], how: TEXTS.drag },
+    { label: TEXTS.whileDriving, keys: ['W', 'S', 'A', 'D'] },
   ],
 };
 

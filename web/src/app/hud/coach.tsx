@@ -23,6 +23,7 @@ export function Coach() {
       // A read-only scene has no drag.
       editor.document.lock.value === null &&
       !editor.drag.active.value &&
+      !editor.reading.live.isOn.value &&
       !editor.notices.toast.value &&
       !filling.wish.value &&
       !layouts.isOpen.value &&

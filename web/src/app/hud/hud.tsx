@@ -29,6 +29,7 @@ export function Hud() {
   const c = useApp();
   const { editor, form, ui, placement } = c;
   const shift = ui.drawer.value ? 'shift' : '';
+  const driving = useComputed(() => c.driving.isOn.value).value;
   const filling = useComputed(() => c.filling.wish.value !== null).value;
   const coached = useComputed(() => ui.coach.value > 0).value;
   const placing = useComputed(() => {
@@ -53,7 +54,15 @@ export function Hud() {
         </div>
         <ScaleBar />
       </div>
-      {editor.drag.active.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
+      {driving ? (
+        <Later part="drive" />
+      ) : editor.drag.active.value ? (
+        <DragHelp />
+      ) : placing ? (
+        <PlaceHelp spread={placing} />
+      ) : (
+        <ZoomBar />
+      )}
       <Compass />
       {placing ? <Later part="place" /> : null}
       {filling ? <Later part="fill" /> : null}

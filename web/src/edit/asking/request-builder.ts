@@ -10,7 +10,7 @@ import {
   conditionOf,
   generatedJson,
   isEmptyCondition,
-  signalsJson,
+  timedJson,
   thresholdsOf,
   withStill,
 } from '../../model/document/scene-writer';
@@ -138,7 +138,7 @@ export class RequestBuilder {
     const agents = someStill(scene) ? withStill(scene, cast, moving) : cast;
     return {
       ...raw,
-      ...signalsJson(raw, scene),
+      ...timedJson(raw, scene),
       map,
       agents,
       generated: generatedJson(

@@ -4,7 +4,7 @@ import type { MotionSet } from '../../model/document/futures';
 import type { Committed } from '../../model/document/history';
 import { castKeyOfJson } from '../../model/document/scene-reader';
 import { sceneKey, type Scene } from '../../model/document/scene';
-import { castJson, generatedJson, signalsJson, variantSample, writeScene } from '../../model/document/scene-writer';
+import { castJson, generatedJson, timedJson, variantSample, writeScene } from '../../model/document/scene-writer';
 import type { SignalStates } from '../../model/physics/signal-phases';
 import type { SceneRef } from '../../net/generator';
 import type { Session } from './session';
@@ -36,8 +36,9 @@ export class SceneFile {
   /** Variants whose motions are stored with the scene. */
   variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
-  /** Road users and signals of the version that the server holds. */
+  /** Road users, recordings and signals of the version that the server holds. */
   #castKey: string | null = null;
+  #drive = '';
   #signals = '';
 
   constructor(private readonly session: Session) {}
@@ -56,9 +57,10 @@ export class SceneFile {
     return hash ? { ref: hash } : this.map!;
   }
 
-  /** Does the server hold a scene of these road users and signals under the id of this one? */
+  /** Does the server hold a scene of these road users, recordings and signals under the id of this one? */
   holds(scene: Scene): boolean {
-    return this.stored && this.#castKey === scene.castKey && this.#signals === statesOf(scene.signals);
+    if (!this.stored || this.#castKey !== scene.castKey || this.#drive !== scene.drive) return false;
+    return this.#signals === statesOf(scene.signals);
   }
 
   /**
@@ -66,6 +68,7 @@ export class SceneFile {
    */
   noteStored(json: SceneJson): void {
     this.#castKey = castKeyOfJson(json);
+    this.#drive = json.x_editor?.drive ?? '';
     this.#signals = statesOf(json.signals ?? []);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
@@ -75,7 +78,7 @@ export class SceneFile {
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
     const raw = this.raw!;
-    const of = { agents: castJson(scene), map: this.sentMap(), ...signalsJson(raw, scene) };
+    const of = { agents: castJson(scene), map: this.sentMap(), ...timedJson(raw, scene) };
     return { scene: { ...raw, ...of, generated: null } };
   }
 

@@ -59,11 +59,14 @@ export class Sharing {
   async openFrom(hash: string): Promise<boolean> {
     if (!isShareLink(hash)) return false;
     this.#error.value = null;
-    const { LinkError, readLink } = await import('./share-link');
+    const [{ LinkError, readLink }, { tryImport }] = await Promise.all([
+      import('./share-link'),
+      import('../../net/imports'),
+    ]);
     try {
       const { scene, at } = await readLink(hash);
       // The server reads it like a file, with the same limits.
-      const reply = await this.client.tryImport(scene);
+      const reply = await tryImport(this.client, scene);
       const read = reply.scenes[0]?.scene as SceneJson | undefined;
       if (!read || isMapRef(read.map)) throw new LinkError(TEXTS.thereIsNoWhole);
       const copy = (): void => void this.#copy(read.name ?? TEXTS.sharedScene);

@@ -13,6 +13,7 @@ import type { Grip, HandleName } from '../session/drag';
 import { NOTHING, type FrameHandle, type Hit, type ToolHandle } from './chart';
 import { pinsApart } from '../moves/pins';
 import type { RoadSign } from '../overlay/verdicts';
+import { signalAway } from './on-the-map';
 import { frameAround, poseShown } from '../overlay/frame';
 import { onPennant, ringRadius, type Pennant } from '../../draw/marks';
 
@@ -24,6 +25,9 @@ export const inRect = (r: Rect, x: number, y: number): boolean =>
 
 /** A finger takes objects within this many pixels. */
 const FINGER_PX = 24;
+
+/** The same for a signal's stop line: more would leave no room for its lane. */
+export const SIGNAL_PX = 16;
 
 /** A flag is grabbed within this many pixels around it. */
 const AROUND_FLAG_PX = 4;
@@ -187,10 +191,15 @@ function boxAway(v: View, a: Agent, p: OnLine, x: number, y: number): number {
   return Math.hypot(Math.max(0, ahead), Math.max(0, aside));
 }
 
-/** The road user whose box is nearest to a finger on the empty picture. */
+/**
+ * The road user whose box is nearest to a finger on the empty picture; null where a signal is nearer, which it can take
+ * while nothing is selected.
+ */
 function nearestTo(c: HitContext, x: number, y: number): string | null {
   let best: string | null = null;
-  let least = FINGER_PX;
+  const scene = c.editor.scene.value;
+  const signal = scene && !c.editor.selected.value.length ? signalAway(scene, c.view.from(x, y)) * c.view.z : Infinity;
+  let least = signal <= SIGNAL_PX ? signal : FINGER_PX;
   for (const a of c.editor.scene.value?.agents.values() ?? []) {
     const p = poseShown(c.editor, a);
     const away = p ? boxAway(c.view, a, p, x, y) : Infinity;

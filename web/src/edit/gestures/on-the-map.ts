@@ -20,12 +20,18 @@ const BESIDE_M = 2.6;
 const laneAt = ({ map }: Scene, [x, y]: Vec) =>
   nearestLanes(map, x, y, null, BESIDE_M, (l) => l.kind === 'road' || l.kind === 'bike').at(0);
 
-/** Null beside all of it. */
-export function itemOnMap(scene: Scene, at: Vec): MapItem | null {
+/** Distance of the nearest signal, metres. */
+export const signalAway = (scene: Scene, at: Vec): number => {
+  const s = nearestSignal(scene, at, Infinity);
+  return away(s && stopOf(s, scene.map.lanes.get(s.lane)), at);
+};
+
+/** Null beside all of it. A finger takes a signal within `finger` metres, too. */
+export function itemOnMap(scene: Scene, at: Vec, finger = 0): MapItem | null {
   const { map } = scene;
   const [x, y] = at;
   const index = map.crosswalks.findIndex((p) => insidePolygon(x, y, p));
-  const reach = index < 0 ? NEAR_M : NEAR_ON_CROSSWALK_M;
+  const reach = Math.max(finger, index < 0 ? NEAR_M : NEAR_ON_CROSSWALK_M);
   const signal = nearestSignal(scene, at, reach);
   if (signal) return { kind: 'signal', lane: signal.lane, at: stopOf(signal, map.lanes.get(signal.lane))! };
   const sign = map.stopSigns.find((place) => away(place, at) < reach);

@@ -10,6 +10,7 @@ import type { Chart, FrameHandle, Press, State, Tool } from './chart';
 import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle, type Move } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
+import { SIGNAL_PX } from './hit';
 import { HandleMove } from './handle-move';
 import { itemOnMap, itemWords } from './on-the-map';
 import { Panning } from './panning';
@@ -132,7 +133,8 @@ function putVia({ editor, surface }: Chart, a: Agent, press: Press, future: numb
 /** With nothing selected a click picks what is there: the panel has it. A finger covers that panel, and gets words. */
 function pickOnMap({ editor, surface }: Chart, press: Press): void {
   const scene = editor.scene.peek();
-  const item = scene && itemOnMap(scene, surface.view.from(press.x, press.y));
+  const item =
+    scene && itemOnMap(scene, surface.view.from(press.x, press.y), press.touch ? SIGNAL_PX / surface.view.z : 0);
   editor.pickOnMap(item);
   if (!item) return;
   const words = itemWords(scene, item, editor.playhead.time.peek());

@@ -18,11 +18,19 @@ import { TEXTS } from '../../texts/editing/picture';
 /** Distance of the tag's place from the edge of the picture, and its height. */
 const EDGE_PX = 30;
 const EDGE_TAG_PX = 26;
-const EDGE_TRIES = [
-  [-32, -13],
-  [-32, -43],
-  [-32, 17],
-] as const;
+/** Places of the tag: off the path, which goes on to the flag; on it only for want of room. */
+const EDGE_TRIES = {
+  across: [
+    [-32, -43],
+    [-32, 17],
+    [-32, -13],
+  ],
+  up: [
+    [16, -13],
+    [-80, -13],
+    [-32, -13],
+  ],
+} as const;
 
 /** Is the foot of a flag or its pennant in the uncovered part of the picture? */
 function isFlagClear(v: View, { x, y }: Pose): boolean {
@@ -167,11 +175,13 @@ export class GoalOverlay {
     const { left, right, top, bottom } = v.inset;
     const middle = [(v.w + left - right) / 2, (v.h + top - bottom) / 2] as const;
     const from = now && v.isClear(now.x, now.y, EDGE_PX) ? v.to(now.x, now.y) : middle;
-    const [x, y] = v.exit(from, v.to(goal.x, goal.y), EDGE_PX);
+    const to = v.to(goal.x, goal.y);
+    const [x, y] = v.exit(from, to, EDGE_PX);
+    const tries = EDGE_TRIES[Math.abs(to[0] - from[0]) > Math.abs(to[1] - from[1]) ? 'across' : 'up'];
     const start = startPose(a) ?? goal;
     const text = metres(Math.hypot(goal.x - start.x, goal.y - start.y), 0);
     const look = goal.set ? { bg: c.goal, fg: c.surface } : { fg: c['goal-text'], border: c.goal };
-    this.edgeTag = pill(g, this.labels, x, y, text, { ...look, icon: 'flag', height: EDGE_TAG_PX, tries: EDGE_TRIES });
+    this.edgeTag = pill(g, this.labels, x, y, text, { ...look, icon: 'flag', height: EDGE_TAG_PX, tries });
   }
 
   private paintNearest(g: Pen, v: View, a: Agent, nearest: OutOfReach['nearest']): void {

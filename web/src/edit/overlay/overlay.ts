@@ -207,6 +207,11 @@ export class Overlay {
     if (e.view.layers.value.log) this.paintLog(g, v, a, now);
     this.hovered.paint(g, v, a);
     if (!atStart && start) paintGhost(g, v, a, start, c['ink-2'], null, [], 1.25);
+    if (now) {
+      const [l] = sizeOnScreen(a, v.z);
+      const [x, y] = v.to(now.x, now.y);
+      this.labels.block(x - l / 2 - 4, y - 14, l + 8, 28);
+    }
     if (goal) {
       this.goal.paintGoal(g, v, a, goal);
       this.goal.paintEdgeTag(g, v, a, now, goal);
@@ -215,9 +220,6 @@ export class Overlay {
       stamp(g, v, a, now, true);
       g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
       paintRing(g, v, a, now, c.select);
-      const [l] = sizeOnScreen(a, v.z);
-      const [x, y] = v.to(now.x, now.y);
-      this.labels.block(x - l / 2 - 4, y - 14, l + 8, 28);
     }
     if (atStart && start && canMove(a)) {
       const h = paintHandles(g, this.labels, v, a, start, {

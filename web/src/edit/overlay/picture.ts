@@ -99,6 +99,10 @@ export class Picture {
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
+      void [e.reading.live.isOn.value, e.reading.live.frames.value, e.view.triedSignals.value];
+      stage.invalidate('agents', 'overlay');
+    });
+    effect(() => {
       void e.answers.draft.value;
       stage.soon('overlay');
     });
@@ -140,6 +144,8 @@ export class Picture {
   /** Pose of a road user at the playhead; blends from the old answer to the new one within 320 ms. */
   poseNow(a: Agent): Pose | null {
     const { editor: e } = this;
+    const { live } = e.reading;
+    if (live.isOn.value) return live.poseOf(a.id);
     const t = e.playhead.time.value;
     if (t < 0.05) return startPose(a) ?? poseAt(a.log, t);
     const p = poseAt(e.reading.motionFor(a), t);
@@ -168,8 +174,10 @@ export class Picture {
     if (!scene) return;
     const dragging = e.drag.info.value !== null;
     if (e.view.layers.value.conflicts) paintZones(g, v, this.conflicts(scene));
-    if (e.view.layers.value.signals) paintSignals(g, v, scene, e.playhead.time.value);
-    const selected = new Set(e.selected.value);
+    if (e.view.layers.value.signals)
+      paintSignals(g, v, { ...scene, signals: e.view.triedSignals.value ?? scene.signals }, e.playhead.time.value);
+    const live = e.reading.live.isOn.value;
+    const selected = new Set(live ? [] : e.selected.value);
     const shown: [Agent, Pose][] = [];
     for (const a of scene.agents.values()) {
       if (selected.has(a.id)) continue;
@@ -181,7 +189,7 @@ export class Picture {
       (p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width,
     );
     const ways = e.view.layers.value.futures && (!selected.size || e.reading.cards.shownSet() !== null);
-    if (ways && !e.playhead.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
+    if (ways && !live && !e.playhead.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
     g.globalAlpha = dragging ? 0.62 : 1;
     for (const [a, p] of shown) stamp(g, v, a, p, a.parked && this.drives(a));
     g.globalAlpha = 1;
@@ -205,7 +213,7 @@ export class Picture {
   private paintMarks(g: Pen, v: View, shown: [Agent, Pose][]): void {
     const { editor: e } = this;
     this.pennants = [];
-    if (v.z < 2) return;
+    if (v.z < 2 || e.reading.live.isOn.value) return;
     for (const a of e.scene.value!.agents.values()) {
       if (!a.goal.pos || a.id === e.selection.value) continue;
       const [x, y] = v.to(...a.goal.pos);

@@ -11,6 +11,7 @@ import { eventsOf, readEvents, type TrafficEvent } from '../../model/words/event
 import type { localReach, LocalReach } from '../../model/words/reach-words';
 import type { Answers } from './answers';
 import type { Drag } from './drag';
+import { NOT_LIVE, type LiveMotion } from './live';
 import { Throttle } from './throttle';
 import type { ViewSettings } from './view-settings';
 
@@ -58,6 +59,7 @@ export interface Sources {
 export class Reading {
   readonly #cards = signal(NO_CARDS);
   readonly #reach = signal<typeof localReach | null>(null);
+  readonly #live = signal(NOT_LIVE);
 
   constructor(private readonly of: Sources) {
     const { answers, drag, scene, view } = of;
@@ -74,6 +76,16 @@ export class Reading {
   /** Takes the cards from here from now on. */
   layCards(cards: Cards): void {
     this.#cards.value = cards;
+  }
+
+  /** Motion that happens now; tracked when read in a computation. */
+  get live(): LiveMotion {
+    return this.#live.value;
+  }
+
+  /** Takes motion that happens now from here from now on. */
+  showLive(of: LiveMotion): void {
+    this.#live.value = of;
   }
 
   readonly futures = computed<Futures | null>(() => {

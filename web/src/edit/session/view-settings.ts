@@ -72,6 +72,7 @@ export class ViewSettings {
   readonly #beside = signal<SceneBeside | null>(null);
   readonly #tries = signal<Tries>(NO_TRIES);
   readonly #mapDraft = signal(NO_MAP);
+  readonly #triedSignals = signal<Scene['signals'] | null>(null);
 
   readonly layers: ReadonlySignal<ShownLayers> = this.#layers;
   /** Are the paths before the last change shown beside the new ones? */
@@ -83,6 +84,9 @@ export class ViewSettings {
   readonly beside: ReadonlySignal<SceneBeside | null> = this.#beside;
   /** Paths that a search has tried so far, pale on the picture. */
   readonly tries: ReadonlySignal<Tries> = this.#tries;
+
+  /** Signals with phases that are being dragged, in place of those of the scene. */
+  readonly triedSignals: ReadonlySignal<Scene['signals'] | null> = this.#triedSignals;
 
   /** Tracked when read in a computation. */
   get mapDraft(): MapDraft {
@@ -115,6 +119,10 @@ export class ViewSettings {
 
   showBeside(beside: SceneBeside | null): void {
     this.#beside.value = beside;
+  }
+
+  trySignals(signals: Scene['signals'] | null): void {
+    this.#triedSignals.value = signals;
   }
 
   showTries(tries: Tries): void {

@@ -2,6 +2,7 @@
 // palette entries, shortcut lines, overlay and pointer behaviour follow from that.
 import type { RailEntry } from '../gestures/chart';
 import { CASES } from './cases/feature';
+import { DRIVING } from './driving/feature';
 import type { FeatureParts, Supplies } from './feature';
 import { FILLING } from './filling/feature';
 import { LAYOUTS } from './layouts/feature';
@@ -24,6 +25,7 @@ const FEATURES = [
   VARIANTS,
   CASES,
   RELATIONS,
+  DRIVING,
   MAP_ITEMS,
   REMEDIES,
 ] as const;

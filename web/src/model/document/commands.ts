@@ -176,7 +176,8 @@ interface Recast {
   readonly issued: number;
 }
 
-function recast(name: string, { put, drop, order, issued }: Recast): Command {
+/** Puts road users in place of those with their ids, or adds them, and removes others. */
+export function recast(name: string, { put, drop, order, issued }: Recast): Command {
   return {
     name,
     apply(scene) {
@@ -221,6 +222,8 @@ type ScenePatch = Partial<
     | 'replan'
     | 'duration'
     | 'drawn'
+    | 'drive'
+    | 'steps'
     | 'signals'
     | 'variants'
     | 'variantStates'

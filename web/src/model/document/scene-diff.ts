@@ -40,7 +40,7 @@ function differences<T extends object>(a: T, b: T, skip: readonly string[]): { b
   return { back, forth };
 }
 
-/** Data from the file that no change of the document affects. */
+/** Data from the file that no change of the document affects, except a drive. */
 const RECORDED: readonly string[] = ['log', 'logStart', 'source'];
 
 export function diffOf(before: Scene, after: Scene): SceneDiff {
@@ -86,17 +86,18 @@ function inOrder(agents: ReadonlyMap<string, Agent>, order: readonly string[]): 
   return out;
 }
 
-/** A document without the data of its file: the map and the recordings. */
+/** A document without the data of its file: the map, and the recordings unless they are of a drive. */
 export interface SceneState {
   readonly agents: readonly (Partial<Agent> & { readonly id: string })[];
   readonly fields: Fields;
 }
 
 export function stateOf(scene: Scene): SceneState {
+  const ofFile = scene.drive ? [] : RECORDED;
   const without = <T extends object>(v: T, skip: readonly string[]) =>
     Object.fromEntries(Object.entries(v).filter(([k]) => !skip.includes(k)));
   return {
-    agents: [...scene.agents.values()].map((a) => without(a, RECORDED) as SceneState['agents'][number]),
+    agents: [...scene.agents.values()].map((a) => without(a, ofFile) as SceneState['agents'][number]),
     fields: without(scene, FIXED) as Fields,
   };
 }

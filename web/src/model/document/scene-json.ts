@@ -78,6 +78,8 @@ export interface EditorJson {
   length_s?: number;
   replan_s?: number;
   drawn?: number;
+  /** Digest of the tracks that a drive has recorded. */
+  drive?: string;
   picked?: Record<string, number>;
   /** Drawn speed profiles of picked futures. */
   curves?: Record<string, unknown>;

@@ -84,6 +84,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     diversity: ed.diversity ?? DEFAULTS.diversity,
     others: readOthers(ed.others),
     drawn: ed.drawn ?? 0,
+    drive: typeof ed.drive === 'string' ? ed.drive.slice(0, 32) : '',
     ...readVariants(ed.variants, agents),
     feedback: readFeedback(ed.scene_feedback),
     thresholds: readThresholds(ed.thresholds),

@@ -167,16 +167,18 @@ export const castJson = (scene: Scene): AgentJson[] => [...scene.agents.values()
 /** A complete road user: for files and for copies. */
 export const wholeAgentJson = (a: Agent): AgentJson => ({ ...agentJson(a), conditions: conditionOf(a) });
 
-/** Signals as they were read, with the states of the scene: only these change. */
-export const signalsJson = (raw: SceneJson, scene: Scene): Pick<SceneJson, 'signals'> =>
-  raw.signals
+/** Signals as they were read, with the states of the scene: only these change. Of a drive also its time. */
+export const timedJson = (raw: SceneJson, { drive, signals, steps }: Scene): Pick<SceneJson, 'signals' | 'time'> => ({
+  ...(drive ? { time: { ...raw.time, steps } } : {}),
+  ...(raw.signals
     ? {
         signals: raw.signals.map((s, i) => {
-          const states = scene.signals[i]?.states.map(([first, state]): [number, string] => [first, state]);
+          const states = signals[i]?.states.map(([first, state]): [number, string] => [first, state]);
           return states ? { ...s, states } : s;
         }),
       }
-    : {};
+    : {}),
+});
 
 /** The loaded scene with the user's changes written in; all else is unchanged. */
 export function writeScene(
@@ -189,7 +191,7 @@ export function writeScene(
     ...raw,
     name: scene.name,
     map: map ?? raw.map,
-    ...signalsJson(raw, scene),
+    ...timedJson(raw, scene),
     agents: Array.from(scene.agents.values(), wholeAgentJson),
     generated,
     x_editor: {
@@ -199,6 +201,7 @@ export function writeScene(
       length_s: scene.length,
       replan_s: scene.replan,
       ...(scene.drawn ? { drawn: scene.drawn } : {}),
+      ...(scene.drive ? { drive: scene.drive } : {}),
       ...ofAgents(scene.agents.values()),
       ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
       ...(scene.feedback ? { scene_feedback: scene.feedback } : {}),

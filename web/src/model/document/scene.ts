@@ -147,6 +147,8 @@ export interface Scene {
   readonly others: Others;
   /** Number of times that all were drawn again: each is a step that can be undone. */
   readonly drawn: number;
+  /** Digest of the tracks that a drive has recorded; empty where all are as they were read. */
+  readonly drive: string;
   /** Variants of the scene, in the order they were made. */
   readonly variants: readonly Variant[];
   /** Their content, by id. Stored separately, so that a star is a small step. */
@@ -275,6 +277,7 @@ function keyOf(scene: Scene): string {
     scene.drawn,
   ];
   parts.push(scene.castKey);
+  if (scene.drive) parts.push(scene.drive);
   if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
   for (const s of scene.signals) if (s.edited) parts.push([s.lane, s.states]);
   for (const a of scene.agents.values()) {

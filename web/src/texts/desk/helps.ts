@@ -4,6 +4,9 @@ import { table } from '../table';
 export const HELPS = table('helps', {
   itStaysWhile: 'Stays in the view and the list while other futures are replaced; again: unpin',
   thresholdsOfTheScene: 'Thresholds of gap, time to collision, braking and steering in this scene',
+  drivesTheSelected:
+    'Drives the selected road user with W, A, S, D or the arrow keys while all others react; the motion becomes the recording',
+  circleOfAMap: 'Shows a map file and imports what lies within a circle, for maps that are too large',
   triesSpeeds:
     'Tries speeds, goal times and seeds of a road user until a near miss, hard braking or another chosen event occurs',
   runsUntilEnough: 'Runs until enough cases are found or you stop it; you can keep editing',

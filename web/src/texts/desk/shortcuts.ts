@@ -13,6 +13,7 @@ export const TEXTS = table('shortcuts', {
   rightButtonOr: 'right button or long press',
   noSnapping: 'No snapping',
   alongTheLane: 'Along the lane only',
+  whileDriving: 'While driving: faster, brake, left, right',
   startAndGoal: 'Start and goal together',
   nudge01M: 'Nudge 0.1 m',
   nudge1M: 'Nudge 1 m',

@@ -29,5 +29,6 @@ export const TEXTS = table('generation', {
     plural(n, { one: `${step}. ${n} other changed.${hit}`, other: `${step}. ${n} others changed.${hit}` }),
   collisionAnd: (name: string, name2: string, time: string) => `Collision, ${name} and ${name2}, ${time} seconds.`,
   asBefore: 'as before',
+  importDidNotLoad: 'The import did not load. Try again when the network is back.',
   theSearchDid: 'The search did not load. Try again when the network is back.',
 });

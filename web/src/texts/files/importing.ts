@@ -30,6 +30,7 @@ export const TEXTS = table('importing', {
   thereIsNoScene: 'This file has no scene.',
   byte: (offset: number) => `byte ${offset}`,
   isNotAScene: (file: string) => `“${file}” is not a scene.`,
+  choosePart: 'Choose the part to import.',
   fileTooLarge: 'The file exceeds the limit of the server. Split it or use the command line.',
   updateThisProgram: 'Update this program, or save the scene again with the version you have.',
   fixTheFile: 'Fix the file and try again, or choose another one.',

@@ -14,6 +14,7 @@ export const TEXTS = table('steps', {
   speedCurveOfChanged: (name: string) => `Speed curve of ${name} changed`,
   goalOfCleared: (name: string) => `Goal of ${name} cleared`,
   resetToLog: (name: string) => `${name} reset to the recording`,
+  driven: (name: string, time: string) => `${name} driven for ${time} s`,
   allReset: 'All road users reset to the recording',
   seed: (seed: number) => `Seed ${seed}`,
   diversity: (diversity: number) => `Diversity ${diversity}%`,

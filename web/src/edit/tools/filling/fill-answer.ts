@@ -6,7 +6,7 @@ import { isStill, motionFrom } from '../../../model/base/motion';
 import { comesLater, settle, type Newcomer } from '../../../model/document/newcomer';
 import { canMove, startPose, type Scene } from '../../../model/document/scene';
 import { armTitles } from '../../../model/words/arm-titles';
-import { castJson, signalsJson, wholeAgentJson } from '../../../model/document/scene-writer';
+import { castJson, timedJson, wholeAgentJson } from '../../../model/document/scene-writer';
 import type { Client } from '../../../net/client';
 import type { PlaceReply } from '../../../net/types';
 import { typesOf } from './fill-mix';
@@ -40,7 +40,7 @@ export class FillAnswers {
     const map = file.sentMap();
     const [min_mps, max_mps] = wish.speeds;
     const where = {
-      scene: { ...file.raw!, ...signalsJson(file.raw!, scene), agents: [...there, ...pins], map, generated: null },
+      scene: { ...file.raw!, ...timedJson(file.raw!, scene), agents: [...there, ...pins], map, generated: null },
       ...(wish.region ? { region: { polygon_m: within(scene, wish.region) } } : {}),
     };
     const body = {

@@ -1,5 +1,5 @@
 // Facts about the text of a refused file: the broken line, its object, and the scene without it.
-import { lineOf, linesAround, offsetOf } from '../../../model/document/json-place';
+import { lineOf, linesAround, offsetOf } from './json-place';
 import type { SceneJson } from '../../../model/document/scene-json';
 import type { Problem } from '../../../net/types';
 import { partAt, withoutBroken, type BrokenPart, type Mended } from './mending';

@@ -1,5 +1,6 @@
 // The verdict on an imported file.
 import type { ImportWarning } from '../../../net/types';
+import type { MapCircle } from '../../../net/imports';
 import type { Broken } from './broken-file';
 
 export interface ImportedScene {
@@ -28,6 +29,8 @@ export interface FileVerdict {
   readonly notes?: readonly ImportWarning[];
   /** A table with unknown column names: the user assigns them. */
   readonly columns?: readonly string[];
+  /** A map of which a part can be read, and the part that was asked for. */
+  readonly map?: { readonly file: Blob; readonly around: MapCircle | null };
   /** The server did not answer: a retry may work. */
   readonly again?: File;
 }

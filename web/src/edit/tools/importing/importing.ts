@@ -1,27 +1,16 @@
-// Files from outside: sent to the server one by one, with a verdict for each.
+// Files from outside, and the report on them. Reading loads with the first file: few users need it.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { SceneJson } from '../../../model/document/scene-json';
-import { Refused, type FileCompanions, type Client } from '../../../net/client';
-import type { ImportReply, Problem } from '../../../net/types';
+import type { Client } from '../../../net/client';
 import type { Editor } from '../../session/editor';
-import type { FileVerdict, ImportedScene } from './file-verdict';
-import { foreignKind, kindByName, type ForeignKind } from './file-kinds';
 import type { Library } from '../../document/library';
-import { countAll, type SceneList } from '../../document/scene-list';
-import { TEXTS } from '../../../texts/files/importing';
-
-const READING_MS = 120_000;
-/** Larger files are not examined here. */
-const MOST_TEXT_BYTES = 20 << 20;
-/** Rounds of leaving out broken parts; each may reveal more. */
-const MOST_ROUNDS = 6;
+import type { SceneList } from '../../document/scene-list';
+import type { FileImport } from './file-import';
+import type { FileVerdict } from './file-verdict';
+import { TEXTS } from '../../../texts/editing/generation';
 
 export class Importing {
   readonly #verdicts = signal<readonly FileVerdict[] | null>(null);
-  /** Remaining scenes of broken files, by verdict. */
-  #rests = new Map<FileVerdict, SceneJson>();
-  /** Tables that wait for the meaning of their columns. */
-  #tables = new Map<FileVerdict, Blob>();
+  #reader: FileImport | null = null;
   /** The report to show; null when there is none. */
   readonly verdicts: ReadonlySignal<readonly FileVerdict[] | null> = this.#verdicts;
 
@@ -33,176 +22,45 @@ export class Importing {
   ) {}
 
   close(): void {
-    this.#verdicts.value = null;
-    this.#rests.clear();
-    this.#tables.clear();
+    this.#verdicts.value = this.#reader = null;
   }
 
   async files(files: readonly File[]): Promise<void> {
-    const { notices } = this.editor;
-    const verdicts: FileVerdict[] = [];
-    notices.show(
-      { text: TEXTS.reading(files.length === 1 ? files[0].name : TEXTS.countFiles(files.length)) },
-      READING_MS,
-    );
-    for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
-    const good = verdicts.flatMap((v) => v.scenes);
-    await this.#openFirst(good);
-    notices.hide();
-    if (good.length === 1 && verdicts.every((v) => v.ok)) this.#sayImported(verdicts[0], '', verdicts);
-    else this.#verdicts.value = verdicts;
+    if (await this.#begun()) await this.#reader!.files(files);
   }
 
-  /** Opens the first of them while the list of scenes loads. */
-  async #openFirst(scenes: readonly ImportedScene[]): Promise<void> {
-    const listed = this.list.refresh().catch(() => undefined);
-    if (scenes.length) await this.library.open(scenes[0].id);
-    await listed;
+  /** Offers to import a part of a map file. */
+  async part(file: File): Promise<void> {
+    if (await this.#begun()) this.#reader!.choosePart(file);
   }
 
-  /** One imported scene is shown: a toast is enough, with a link to the assumptions. */
-  #sayImported(v: FileVerdict, without: string, all: readonly FileVerdict[]): void {
-    const text = TEXTS.imported(v.scenes[0]?.name || v.file, without);
-    const n = v.notes?.length ?? 0;
-    const run = (): void => {
-      this.#verdicts.value = all;
-    };
-    const action = n ? { label: TEXTS.assumptions(n), run } : undefined;
-    this.editor.notices.show({ text, action });
-  }
-
-  /** Imports the rest of a file, without its broken parts. */
-  async takeRest(v: FileVerdict): Promise<void> {
-    const rest = this.#rests.get(v);
-    if (!rest) return;
-    const name = v.file;
-    await this.#replace(v, () => this.#send(name, new Blob([JSON.stringify(rest)]), v.without));
-  }
-
-  /** Reads a table with the assigned columns. */
-  async readColumns(v: FileVerdict, columns: Record<string, unknown>): Promise<void> {
-    const table = this.#tables.get(v);
-    if (table) await this.#replace(v, () => this.#send(v.file, table, [], { columns }));
-  }
-
-  /** Sends the same file again. */
-  async tryAgain(v: FileVerdict): Promise<void> {
-    if (v.again) await this.#replace(v, () => this.#one(v.again!));
-  }
-
-  async #replace(v: FileVerdict, make: () => Promise<FileVerdict>): Promise<void> {
-    const now = await make();
-    const rest = (this.#verdicts.peek() ?? []).map((o) => (o === v ? now : o));
-    await this.#openFirst(now.scenes);
-    if (now.ok && rest.every((o) => o.ok)) {
-      this.close();
-      const without = v.without ? TEXTS.without(v.without.join(', ')) : '';
-      this.#sayImported(now, without, rest);
-    } else this.#verdicts.value = rest;
-  }
-
-  async #one(file: File, net?: File): Promise<FileVerdict> {
-    const foreign = await foreignKind(file);
-    if (foreign?.surely) return foreignVerdict(file.name, foreign.kind);
-    return this.#send(file.name, file, [], { net });
-  }
-
-  async #send(
-    name: string,
-    file: Blob,
-    without: readonly string[] = [],
-    beside: FileCompanions = {},
-  ): Promise<FileVerdict> {
+  /** False when its script did not load. */
+  async #begun(): Promise<boolean> {
     try {
-      const v = await verdictOf(name, await this.client.importFile(name, file, beside));
-      return without.length && v.ok ? { ...v, wrong: TEXTS.withoutThese(without.join(', ')) } : v;
+      const { FileImport } = await import('./file-import');
+      const { editor, library, list, client } = this;
+      this.#reader = new FileImport({ editor, library, list, client }, this.#report());
+      return true;
     } catch (e) {
-      if (!(e instanceof Refused)) return awayVerdict(name, file);
-      return this.#refused(name, file, e.problem, without);
+      if (!(e instanceof TypeError)) throw e;
+      this.editor.notices.show({ text: TEXTS.importDidNotLoad });
+      return false;
     }
   }
 
-  /** The fault with its place in the file; stores the rest where it can be imported. */
-  async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
-    const foreign = p.code === 'format-unknown' ? await foreignKind(file) : null;
-    if (foreign) return foreignVerdict(name, foreign.kind);
-    const { columnsIn, explain } = await import('./refused-file');
-    const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
-    const columns = columnsIn(p);
-    if (columns) {
-      const wrong = TEXTS.unknownColumns;
-      const verdict: FileVerdict = { ...plain, columns, wrong, todo: TEXTS.assignColumns };
-      this.#tables.set(verdict, file);
-      return verdict;
-    }
-    const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
-    const { lookInto } = await import('./broken-file');
-    const { excerpt, part, mended } = lookInto(text, p);
-    const found = { ...plain, excerpt, ...(excerpt ? { where: TEXTS.line(name, excerpt.line) } : {}) };
-    const said = part ? { ...found, wrong: `${capital(part.name)}: ${plain.wrong}.` } : found;
-    if (!mended || without.length > MOST_ROUNDS) return said;
-    const verdict: FileVerdict = { ...said, without: [...without, ...mended.without], todo: undefined };
-    this.#rests.set(verdict, mended.scene);
-    return verdict;
+  /** Reads files of the report in another way; null when it was closed. */
+  get reader(): FileImport | null {
+    return this.#reader;
   }
-}
 
-/** A recording and, in the same drop, its map: each pattern pairs with the one beside it. */
-const PAIRS: readonly (readonly [recording: RegExp, map: RegExp])[] = [
-  [/^scenario_.*\.parquet$|\.av2\.parquet$/i, /^log_map_archive_.*\.json$/i],
-  [/\.fcd\.(xml|csv)(\.gz)?$/i, /\.net\.xml(\.gz)?$/i],
-];
-
-/** Files with their companions; one map goes with all its recordings, by name where there are several. */
-export function inPairs(files: readonly File[]): { readonly file: File; readonly net?: File }[] {
-  const stem = (name: string) => name.replace(/^(scenario_|log_map_archive_)/i, '').replace(/\..*$/, '');
-  const netOf = (file: File): File | undefined => {
-    const pair = PAIRS.find(([recording]) => recording.test(file.name));
-    const maps = pair ? files.filter((f) => pair[1].test(f.name)) : [];
-    return maps.find((f) => stem(f.name) === stem(file.name)) ?? (maps.length === 1 ? maps[0] : undefined);
-  };
-  const pairs = files.map((file) => ({ file, net: netOf(file) }));
-  return pairs.filter(({ file }) => !pairs.some(({ net }) => net === file));
-}
-
-const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
-
-function foreignVerdict(file: string, { name, inSentence }: ForeignKind): FileVerdict {
-  const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
-  const wrong = ending ? TEXTS.namedButItIs(ending, inSentence) : TEXTS.isNotASceneIt(file, inSentence);
-  return {
-    file,
-    kind: name,
-    ok: false,
-    scenes: [],
-    wrong,
-    todo: TEXTS.chooseAnotherFile(TEXTS.scenarioRecords),
-  };
-}
-
-const awayVerdict = (file: string, again: Blob): FileVerdict => ({
-  file,
-  kind: kindByName(file),
-  ok: false,
-  scenes: [],
-  wrong: TEXTS.theServerIsNotAnswering,
-  todo: TEXTS.tryAgainWhen,
-  again: again instanceof File ? again : undefined,
-});
-
-async function verdictOf(file: string, reply: ImportReply): Promise<FileVerdict> {
-  const kind = kindByName(file);
-  const scenes = reply.scenes.map(({ id = '', name, counts }) => ({
-    id,
-    name,
-    count: countAll(counts),
-  }));
-  const { skipped } = reply;
-  const warnings = reply.scenes.flatMap((s) => s.warnings);
-  const notes = [...new Map(warnings.map((w) => [w.detail, w])).values()];
-  if (scenes.length && !skipped.length) return { file, kind, ok: true, scenes, notes };
-  const { explain, faultIn } = await import('./refused-file');
-  if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
-  const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);
-  return { file, kind, ok: true, scenes, wrong: `${share}: ${faultIn(file, skipped[0].problem)}` };
+  #report(): ConstructorParameters<typeof FileImport>[1] {
+    const shown = this.#verdicts;
+    return {
+      get verdicts() {
+        return shown.peek() ?? [];
+      },
+      show: (verdicts) => (shown.value = verdicts),
+      close: () => this.close(),
+    };
+  }
 }

@@ -43,30 +43,40 @@ export class SignalEdges implements SessionPart {
   );
 
   opened(): void {
-    this.#dragged.value = null;
+    this.#drop();
   }
 
   followed(): void {
-    this.#dragged.value = null;
+    this.#drop();
   }
 
   /** The edge before phase `i`, at a time in seconds; shown until `release` or `cancel`. */
   drag(i: number, time: number): void {
     if (this.editor.commits.refused()) return;
-    this.#dragged.value = this.#moved(i, time);
+    const states = this.#moved(i, time);
+    this.#dragged.value = states;
+    const signals = this.editor.resting.peek()?.signals ?? [];
+    // The stop lines show it, too.
+    this.editor.view.trySignals(withStates(signals, this.lanes.peek(), states));
   }
 
   release(): void {
     const states = this.#dragged.peek();
-    this.#dragged.value = null;
+    this.#drop();
     if (states) this.#commit(states);
   }
 
   /** True when a drag ended. */
   cancel(): boolean {
     const was = this.#dragged.peek() !== null;
-    this.#dragged.value = null;
+    this.#drop();
     return was;
+  }
+
+  #drop(): void {
+    if (this.#dragged.peek() === null) return;
+    this.#dragged.value = null;
+    this.editor.view.trySignals(null);
   }
 
   /** The edge before phase `i`, as a step. Steps of a repeating key are one. */

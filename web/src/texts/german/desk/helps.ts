@@ -4,6 +4,9 @@ import type { Said } from '../../table';
 export const german: Said<typeof HELPS> = {
   itStaysWhile: 'Bleibt im Bild und in der Liste, während andere Zukünfte ersetzt werden; noch einmal: lösen',
   thresholdsOfTheScene: 'Schwellwerte dieser Szene für Abstand, TTC, Bremsen und Lenken',
+  drivesTheSelected:
+    'Steuert den ausgewählten Verkehrsteilnehmer mit W, A, S, D oder den Pfeiltasten; alle anderen reagieren, und die Bewegung wird zur Aufzeichnung',
+  circleOfAMap: 'Zeigt eine Kartendatei und importiert, was in einem Kreis liegt; für zu große Karten',
   triesSpeeds:
     'Probiert Tempo, Zeit am Ziel und Startwert eines Verkehrsteilnehmers, bis ein Beinahe-Unfall, starkes Bremsen oder ein anderes Ereignis eintritt',
   runsUntilEnough: 'Läuft, bis genug Fälle gefunden sind oder sie angehalten wird; Weiterarbeiten ist möglich',

@@ -14,6 +14,7 @@ export const german: Said<typeof TEXTS> = {
   rightButtonOr: 'rechte Taste oder langes Drücken',
   noSnapping: 'Ohne Einrasten',
   alongTheLane: 'Nur die Spur entlang',
+  whileDriving: 'Beim Steuern: schneller, bremsen, links, rechts',
   startAndGoal: 'Start und Ziel zusammen',
   nudge01M: 'Um 0,1 m schieben',
   nudge1M: 'Um 1 m schieben',

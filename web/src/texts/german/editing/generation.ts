@@ -31,5 +31,6 @@ export const german: Said<typeof TEXTS> = {
     plural(n, { one: `${step}. ${n} weiterer betroffen.${hit}`, other: `${step}. ${n} weitere betroffen.${hit}` }),
   collisionAnd: (name, name2, time) => `Zusammenstoß, ${name} und ${name2}, ${time} Sekunden.`,
   asBefore: 'wie zuvor',
+  importDidNotLoad: 'Der Import wurde nicht geladen. Noch einmal versuchen, sobald das Netz wieder da ist.',
   theSearchDid: 'Die Suche wurde nicht geladen. Noch einmal versuchen, sobald das Netz wieder da ist.',
 };

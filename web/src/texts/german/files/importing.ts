@@ -31,6 +31,7 @@ export const german: Said<typeof TEXTS> = {
   thereIsNoScene: 'In dieser Datei ist keine Szene.',
   byte: (offset) => `Byte ${offset}`,
   isNotAScene: (file) => `„${file}“ ist keine Szene.`,
+  choosePart: 'Den Teil wählen, der importiert wird.',
   fileTooLarge: 'Die Datei überschreitet die Grenze des Servers. Aufteilen oder die Kommandozeile verwenden.',
   updateThisProgram: 'Dieses Programm aktualisieren, oder die Szene mit der vorhandenen Version neu sichern.',
   fixTheFile: 'Die Datei korrigieren und noch einmal versuchen, oder eine andere wählen.',

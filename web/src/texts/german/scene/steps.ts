@@ -15,6 +15,7 @@ export const german: Said<typeof TEXTS> = {
   speedCurveOfChanged: (name) => `Tempokurve von ${name} geändert`,
   goalOfCleared: (name) => `Ziel von ${name} entfernt`,
   resetToLog: (name) => `${name} auf Aufzeichnung zurückgesetzt`,
+  driven: (name, time) => `${name} ${time} s lang gesteuert`,
   allReset: 'Alle auf Aufzeichnung zurückgesetzt',
   seed: (seed) => `Startwert ${seed}`,
   diversity: (diversity) => `Vielfalt ${diversity} %`,
