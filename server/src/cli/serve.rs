@@ -172,7 +172,12 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let audit =
         audit.transpose().map_err(|error| Failure::new(Exit::Failure, format!("--audit: {error}")))?;
     let app = App::new(AppParts {
-        gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits), audit: audit.map(Arc::new) },
+        gate: RequestGate {
+            guard: Arc::new(guard),
+            limits: Arc::clone(&limits),
+            audit: audit.map(Arc::new),
+            sample: Arc::default(),
+        },
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits, &memory),
         room: Arc::new(Room::new(&limits, &memory)),
         pool,
