@@ -373,16 +373,20 @@ fn each_request_is_logged_with_peer_user_bytes_and_trace_and_drags_are_sampled()
     server.stop().unwrap();
     let text = std::fs::read_to_string(&log).unwrap();
     let lines = text.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
-    let lines: Vec<_> = lines.filter(|line| line["target"] == "access").map(|line| line["fields"].clone()).collect();
+    let lines: Vec<_> =
+        lines.filter(|line| line["target"] == "access").map(|line| line["fields"].clone()).collect();
     let of = |route: &'static str| lines.iter().filter(move |line| line["route"] == route);
     let first = of("/v1/generate").next().unwrap();
     assert_eq!((&first["peer"], &first["user"]), (&"192.0.2.7".into(), &"maria".into()), "{first}");
     assert_eq!((&first["trace_id"], &first["span_id"]), (&trace.into(), &span.into()));
-    assert_eq!((first["received"].as_u64(), first["sent"].as_u64()), (Some(bytes as u64), Some(replies[0].body.len() as u64)));
+    assert_eq!(
+        (first["received"].as_u64(), first["sent"].as_u64()),
+        (Some(bytes as u64), Some(replies[0].body.len() as u64))
+    );
     assert!(first["sent_ms"].as_f64() >= first["ms"].as_f64(), "{first}");
     // What is not logged is counted by the next line, or came after the last one.
-    let (logged, left_out) =
-        of("/v1/generate").fold((0, 0), |(n, left), line| (n + 1, left + line["left_out"].as_u64().unwrap_or(0)));
+    let (logged, left_out) = of("/v1/generate")
+        .fold((0, 0), |(n, left), line| (n + 1, left + line["left_out"].as_u64().unwrap_or(0)));
     assert!(logged < 12 && logged + left_out <= 12, "{logged} lines, {left_out} left out");
     let refused = of("/v1/scenes/{id}").next().unwrap();
     assert_eq!((&refused["status"], &refused["request_id"]), (&404.into(), &"mine".into()));

@@ -373,9 +373,9 @@ fn pongs_that_nobody_reads_take_no_memory() {
                 let until = Instant::now() + Duration::from_secs(3);
                 while Instant::now() < until {
                     let mut line = Line::to(&server);
-                    while Instant::now() < until
-                        && line.0.send(Message::Ping(vec![b'x'; 125].into())).is_ok()
-                    {}
+                    while Instant::now() < until && line.0.send(Message::Ping(vec![b'x'; 125].into())).is_ok()
+                    {
+                    }
                 }
             });
         }

@@ -95,8 +95,17 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     }
     metrics::request(&route, Some(&method), status, began.elapsed().as_secs_f64());
     let (peer, user) = (Some(sender.party), sender.name);
-    let line =
-        AccessLine { method: Some(method), route, status, began, peer, user, trace, request_id: id, received };
+    let line = AccessLine {
+        method: Some(method),
+        route,
+        status,
+        began,
+        peer,
+        user,
+        trace,
+        request_id: id,
+        received,
+    };
     response.map(|body| line.at_end_of(body, Some(gate.sample)))
 }
 
@@ -105,7 +114,12 @@ fn sender(request: &Request, guard: &Guard) -> Sender {
     let extensions = request.extensions();
     let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());
     let party = extensions.get::<Connection>().map(|connection| connection.party).unwrap_or_default();
-    Sender { name: user.or_else(|| guard.bearer(request.headers())), party }
+    let (name, is_admin) = match user {
+        // The token is then the proxy's.
+        Some(user) => (Some(user), None),
+        None => guard.bearer(request.headers()).unzip(),
+    };
+    Sender { name, party, is_admin: is_admin.unwrap_or(false) }
 }
 
 /// The refusal of a head that could not be read, so that no route, method or id of it is known. It began to arrive at
@@ -117,8 +131,17 @@ pub fn unread(problem: Problem, began: Instant, peer: Option<Party>) -> Response
     let status = response.status();
     metrics::request(NO_ROUTE, None, status, began.elapsed().as_secs_f64());
     let (route, received) = (NO_ROUTE.to_owned(), ByteCount::default());
-    let line =
-        AccessLine { method: None, route, status, began, peer, user: None, trace: None, request_id: id, received };
+    let line = AccessLine {
+        method: None,
+        route,
+        status,
+        began,
+        peer,
+        user: None,
+        trace: None,
+        request_id: id,
+        received,
+    };
     response.map(|body| line.at_end_of(body, None))
 }
 

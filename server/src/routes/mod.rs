@@ -13,6 +13,7 @@ pub mod jobs;
 pub mod layouts;
 pub mod maps;
 pub mod openapi;
+mod own;
 pub mod place;
 pub mod runs;
 mod scene_ref;

@@ -94,12 +94,7 @@ const KINDS: &[Kind] = &[
         ranges: &[(1, 256), (2, 600)],
         body: long,
     },
-    Kind {
-        name: SEARCH,
-        path: "/v1/search",
-        ranges: &[(2, 128), (1, 1_000), (3, 20)],
-        body: search,
-    },
+    Kind { name: SEARCH, path: "/v1/search", ranges: &[(2, 128), (1, 1_000), (3, 20)], body: search },
     Kind { name: "begin of a run", path: "/v1/runs", ranges: &[(2, 128), (3, 600)], body: begin },
 ];
 
