@@ -3,8 +3,10 @@
 use crate::base::limits::Limits;
 use crate::generation::LaneOperations;
 use crate::http::body::{Reading, Room};
+use crate::http::idempotency::Sender;
 use crate::http::observe::RequestGate;
 use crate::runs::RunStore;
+use crate::scenes::store::Viewer;
 use crate::scenes::{Catalog, map_bytes};
 use crate::work::Pool;
 use api::{Operations, Problem};
@@ -26,8 +28,10 @@ pub struct AppParts {
     pub limits: Arc<Limits>,
     /// Access rules of the server.
     pub gate: RequestGate,
-    /// Scenes and maps, wherever they are.
+    /// Scenes and maps, wherever they are; handlers take [`Self::catalog_of`].
     pub catalog: Catalog,
+    /// Users own their scenes.
+    pub owners: bool,
     /// Room for bodies.
     pub room: Arc<Room>,
     /// All CPU work.
@@ -50,6 +54,13 @@ impl App {
     /// Wraps the state.
     pub fn new(inside: AppParts) -> Self {
         Self(Arc::new(inside))
+    }
+
+    /// Scenes as the sender of a request may see them.
+    pub fn catalog_of(&self, sender: &Sender) -> Catalog {
+        let viewer =
+            if self.owners { Viewer::user(sender.name.clone(), sender.is_admin) } else { Viewer::default() };
+        self.catalog.of(sender.party, viewer)
     }
 
     /// Expected time to work out a map that a call needs; zero for a known one.

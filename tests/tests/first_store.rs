@@ -77,6 +77,12 @@ fn a_store_of_the_first_version_lives_on() {
     server.stop().unwrap();
     sound(&db).unwrap();
     assert_ne!(number(&db, "application_id"), 0);
+    let copy = db.with_extension("v1.sqlite");
+    assert_eq!(
+        (number(&db, "user_version"), number(&copy, "user_version")),
+        (2, 1),
+        "a copy of before is kept"
+    );
     let server = Server::start_at(&db, &[]).unwrap();
     assert_eq!(server.get("/v1/scenes?q=copy").unwrap().json()["scenes"].as_array().unwrap().len(), 3);
 }
@@ -91,6 +97,6 @@ fn a_store_of_a_later_version_is_left_alone() {
     let output = serve.args(["serve", "--port", "0", "--db"]).arg(&db).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("the file has schema 99, this program knows up to 1"), "{said}");
+    assert!(said.contains("the file has schema 99, this program knows up to 2"), "{said}");
     assert_eq!((number(&db, "application_id"), number(&db, "user_version")), (0, 99));
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed test panics")]
 
-use dragtraffic_tests::{Request, Server};
+use dragtraffic_tests::{Request, Server, program};
 use std::io::{Read, Write};
 use std::time::Duration;
 
@@ -147,7 +147,7 @@ fn options_come_from_the_command_line_the_environment_and_a_file_in_this_order()
     let file = folder.path().join("server.toml");
     let check = |text: &str, variables: &[(&str, &str)], flags: &[&str]| {
         std::fs::write(&file, text).unwrap();
-        let mut command = std::process::Command::new(dragtraffic_tests::program::program());
+        let mut command = std::process::Command::new(program::program());
         command.args(["serve", "--check", "--config"]).arg(&file).args(flags);
         let output = command.envs(variables.iter().copied()).output().unwrap();
         let text = [output.stdout, output.stderr].concat();
@@ -190,7 +190,7 @@ fn installed(name: &str) -> Option<std::path::PathBuf> {
 /// The first block of a page in this language.
 #[cfg(unix)]
 fn block(page: &str, language: &str) -> String {
-    let text = std::fs::read_to_string(dragtraffic_tests::program::root().join(page)).unwrap();
+    let text = std::fs::read_to_string(program::root().join(page)).unwrap();
     let (_, rest) = text.split_once(&format!("```{language}\n")).unwrap();
     rest.split_once("```").unwrap().0.to_owned()
 }
@@ -227,7 +227,7 @@ fn with_nginx_the_server_and_the_proxy_of_the_documentation_work_together() {
         .replace("/var/lib/dragtraffic/", &at(""))
         .replace("127.0.0.1:9090", &probes.to_string());
     std::fs::write(at("server.toml"), options).unwrap();
-    let mut command = std::process::Command::new(dragtraffic_tests::program::program());
+    let mut command = std::process::Command::new(program::program());
     command.args(["serve", "--config", &at("server.toml")]).stdout(std::process::Stdio::null());
     let _server = Ended(command.spawn().unwrap());
     let site = block("docs/hosting.md", "nginx")
@@ -342,6 +342,55 @@ fn changes_and_refusals_are_in_the_audit_log() {
         ("guest".into(), &403.into(), &401.into())
     );
     assert!(!told(0, "time").is_empty() && !told(0, "request_id").is_empty());
+}
+
+#[test]
+fn each_request_is_logged_with_peer_user_bytes_and_trace_and_drags_are_sampled() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, log] = ["tokens", "log"].map(|name| folder.path().join(name));
+    let anna = "a".repeat(32);
+    std::fs::write(&file, format!("anna edit {anna}\n")).unwrap();
+    set_mode(&file, 0o600);
+    let mut command = std::process::Command::new(program::program());
+    command
+        .args(["--log-format", "json", "--log-level", "info", "serve", "--port", "0"])
+        .args(["--trust-proxy", "127.0.0.1", "--token-file", file.to_str().unwrap(), "--db"])
+        .arg(folder.path().join("s.sqlite"))
+        .stderr(std::fs::File::create(&log).unwrap());
+    let server = Server::launch(command).unwrap();
+    let (trace, span) = ("4bf92f3577b34da6a3ce929d0e0e4736", "00f067aa0ba902b7");
+    let with = |request: Request| {
+        let request = request.header("authorization", &format!("Bearer {anna}"));
+        let request = request.header("x-forwarded-for", "192.0.2.7").header("x-forwarded-user", "maria");
+        server.send(&request.header("traceparent", &format!("00-{trace}-{span}-01"))).unwrap()
+    };
+    let body = serde_json::json!({"scene_id": "demo-crossing", "agents": ["5"], "score": false});
+    let bytes = serde_json::to_vec(&body).unwrap().len();
+    let replies: Vec<_> = (0..12).map(|_| with(Request::new("POST", "/v1/generate").json(&body))).collect();
+    assert!(replies.iter().all(|reply| reply.status == 200));
+    let missing = with(Request::new("GET", "/v1/scenes/gone").header("x-request-id", "mine"));
+    assert_eq!(missing.status, 404);
+    server.stop().unwrap();
+    let text = std::fs::read_to_string(&log).unwrap();
+    let lines = text.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+    let lines: Vec<_> =
+        lines.filter(|line| line["target"] == "access").map(|line| line["fields"].clone()).collect();
+    let of = |route: &'static str| lines.iter().filter(move |line| line["route"] == route);
+    let first = of("/v1/generate").next().unwrap();
+    assert_eq!((&first["peer"], &first["user"]), (&"192.0.2.7".into(), &"maria".into()), "{first}");
+    assert_eq!((&first["trace_id"], &first["span_id"]), (&trace.into(), &span.into()));
+    assert_eq!(
+        (first["received"].as_u64(), first["sent"].as_u64()),
+        (Some(bytes as u64), Some(replies[0].body.len() as u64))
+    );
+    assert!(first["sent_ms"].as_f64() >= first["ms"].as_f64(), "{first}");
+    // What is not logged is counted by the next line, or came after the last one.
+    let (logged, left_out) = of("/v1/generate")
+        .fold((0, 0), |(n, left), line| (n + 1, left + line["left_out"].as_u64().unwrap_or(0)));
+    assert!(logged < 12 && logged + left_out <= 12, "{logged} lines, {left_out} left out");
+    let refused = of("/v1/scenes/{id}").next().unwrap();
+    assert_eq!((&refused["status"], &refused["request_id"]), (&404.into(), &"mine".into()));
+    assert_eq!(refused["sent"].as_u64(), Some(missing.body.len() as u64));
 }
 
 fn set_mode(path: &std::path::Path, mode: u32) {

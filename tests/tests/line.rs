@@ -362,6 +362,51 @@ fn more_pings_than_a_client_needs_end_the_line() {
     assert_eq!(line.answer(1).0["status"], json!(200));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn pongs_that_nobody_reads_take_no_memory() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let until = Instant::now() + Duration::from_secs(3);
+                while Instant::now() < until {
+                    let mut line = Line::to(&server);
+                    while Instant::now() < until && line.0.send(Message::Ping(vec![b'x'; 125].into())).is_ok()
+                    {
+                    }
+                }
+            });
+        }
+    });
+    assert!(server.peak_memory().unwrap() < 200 << 20, "{:?}", server.peak_memory());
+}
+
+#[test]
+fn eight_open_questions_are_given_up_within_a_tenth_of_a_second() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let mut body = long();
+    body["stream_modes"] = json!("all");
+    let mut line = Line::to(&server);
+    // The shortest of three: other work on the machine takes time too.
+    let took = (0..3).map(|round| {
+        let numbers: Vec<u64> = (1..=8).map(|number| 8 * round + number).collect();
+        numbers.iter().for_each(|number| line.ask(*number, &body));
+        assert!(!line.hear().is_last());
+        let began = Instant::now();
+        numbers.iter().for_each(|number| line.say(format!("{{\"end\": {number}}}")));
+        let mut open = numbers.len();
+        while open > 0 {
+            open -= usize::from(line.hear().is_last());
+        }
+        began.elapsed()
+    });
+    let took = took.min().unwrap();
+    assert!(took < Duration::from_millis(100), "{took:?}");
+}
+
 #[test]
 fn a_close_is_heard_while_its_sender_takes_nothing() {
     // Only a Close that is heard ends the requests: the patience is longer than the test's.

@@ -293,8 +293,10 @@ fn a_file_that_becomes_a_pipe_or_a_link_outwards_is_gone_and_holds_nobody_up() {
             assert_eq!((gone.status, gone.code().as_str()), (404, "not-found"), "{id}");
         }
     }
+    let began = Instant::now();
     assert_eq!(status("demo-crossing"), 200);
     assert_eq!(server.get("/readyz").unwrap().status, 200);
+    assert!(began.elapsed() < Duration::from_secs(1), "{:?}", began.elapsed());
 }
 
 #[test]
@@ -321,9 +323,18 @@ fn a_form_has_few_parts_with_known_names() {
         (vec![("other", ""), ("file", &*scene)], "another name"),
         (vec![("file", &*scene); 33], "at most 32"),
     ] {
+        let began = Instant::now();
         let refused = post(&parts);
+        let mut shortest = began.elapsed();
         assert_eq!((refused.status, refused.code().as_str()), (422, "invalid-field"), "{}", refused.text());
         assert!(refused.text().contains(word), "{}", refused.text());
+        // Other work on the machine takes time too.
+        for _ in 0..2 {
+            let began = Instant::now();
+            post(&parts);
+            shortest = shortest.min(began.elapsed());
+        }
+        assert!(shortest < Duration::from_secs(2), "{word}: {shortest:?}");
     }
 }
 
@@ -405,7 +416,7 @@ fn scenes_are_held_without_what_no_answer_depends_on() {
     body["scene"]["x_big"] = json!(vec!["some letters of no use"; 40_000]);
     server.post("/v1/generate", &body).unwrap();
     let before = server.memory().unwrap();
-    for seed in 0..40 {
+    for seed in 0..100 {
         body["seed"] = json!(seed);
         let reply = server.post("/v1/generate", &body).unwrap();
         assert_eq!(reply.status, 200, "{}", reply.text());
@@ -413,4 +424,5 @@ fn scenes_are_held_without_what_no_answer_depends_on() {
     // Held with them, they took 4 MB each.
     let grown = server.memory().unwrap().saturating_sub(before);
     assert!(grown < 80 << 20, "{grown} bytes more");
+    assert!(server.peak_memory().unwrap() < 300 << 20, "{:?}", server.peak_memory());
 }

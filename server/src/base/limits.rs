@@ -64,6 +64,8 @@ limits! {
     clients = 1_024, "clients whose revisions are remembered";
     client_idle_s = 600, "time after which a client is forgotten";
     stored_scenes = 10_000, "scenes in the store";
+    user_scenes = 2_000, "scenes of one user, where scenes have owners (--owners)";
+    user_bytes = 1 << 30, "scenes of one user as they are stored, without maps";
     store_bytes = 4 << 30, "size of the store's file";
     map_keep_s = 86_400, "time an unused map is kept";
     cached_map_bytes = 128 << 20, "memory of maps that are kept";

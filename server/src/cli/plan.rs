@@ -46,6 +46,10 @@ impl ServePlan {
         if let Some(folder) = args.data.as_ref().filter(|folder| !folder.is_dir()) {
             faults.push(Failure::usage(format!("--data {}: no such folder", folder.display())));
         }
+        if args.owners && args.token_file.is_none() && args.trust_proxy.is_empty() {
+            let reason = "--owners: users are told by --token-file or --trust-proxy; neither is given";
+            faults.push(Failure::usage(reason.to_owned()));
+        }
         let db = args.db.clone().unwrap_or_else(db_path);
         if args.db.is_some()
             && db.parent().is_some_and(|folder| !folder.as_os_str().is_empty() && !folder.is_dir())

@@ -64,6 +64,9 @@ pub struct ServeArgs {
     /// admin). Its mode is at most 0600, or 0640 for a file of root. A changed file is read again.
     #[arg(long, env = "DRAGTRAFFIC_TOKEN_FILE", value_name = "FILE")]
     pub(super) token_file: Option<PathBuf>,
+    /// Scenes belong to the user who made them, a token's name or X-Forwarded-User: others see what is shared.
+    #[arg(long, env = "DRAGTRAFFIC_OWNERS")]
+    pub(super) owners: bool,
     /// Generations computed in parallel. Default: half the cores.
     #[arg(long, env = "DRAGTRAFFIC_THREADS", value_name = "N")]
     pub(super) threads: Option<u64>,
@@ -172,8 +175,14 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let audit =
         audit.transpose().map_err(|error| Failure::new(Exit::Failure, format!("--audit: {error}")))?;
     let app = App::new(AppParts {
-        gate: RequestGate { guard: Arc::new(guard), limits: Arc::clone(&limits), audit: audit.map(Arc::new) },
+        gate: RequestGate {
+            guard: Arc::new(guard),
+            limits: Arc::clone(&limits),
+            audit: audit.map(Arc::new),
+            sample: Arc::default(),
+        },
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits, &memory),
+        owners: args.owners,
         room: Arc::new(Room::new(&limits, &memory)),
         pool,
         patient: operations.beside(cores - 1),

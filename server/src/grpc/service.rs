@@ -7,6 +7,7 @@ use super::messages::{
 use super::session::TrafficSession;
 use crate::app::App;
 use crate::base::memory::MemoryShare;
+use crate::http::idempotency::Sender;
 use crate::scenes::bytes_of;
 use crate::work::{JobKind, JobRequest};
 use api::{Code, Problem, english};
@@ -83,7 +84,7 @@ impl TrafficCarrier {
     }
 
     async fn start(self, request: SessionBegin) -> Result<Nothing, Problem> {
-        let base = self.app.catalog.whole(&request.scene_id).await?;
+        let base = self.app.catalog_of(&Sender::default()).whole(&request.scene_id).await?;
         let work = move |_: &_| Ok((TrafficSession::begin(&request, &base)?, request.session_uuid));
         let (session, uuid) = self.app.pool.run(asked(QUESTION), work).await?;
         let bytes = OF_SCENE * bytes_of(session.scene());

@@ -1,5 +1,6 @@
 //! Requests of a server that is published below a path.
 
+use super::extract::Connection;
 use super::observe;
 use crate::base::base_path;
 use api::{Code, Problem};
@@ -8,6 +9,7 @@ use axum::extract::Request;
 use axum::http::Uri;
 use axum::http::uri::PathAndQuery;
 use axum::response::{IntoResponse, Redirect, Response};
+use std::time::Instant;
 
 /// Addresses that probes ask for without the path.
 const PROBED: [&str; 3] = ["/healthz", "/readyz", "/metrics"];
@@ -29,7 +31,8 @@ async fn serve(router: Router, mut request: Request) -> Response {
     }
     let Some(inner) = base_path::within(path).or(Some(path).filter(|path| PROBED.contains(path))) else {
         let detail = format!("This server is below {}/.", base_path::base());
-        return observe::unread(Problem::new(Code::NotFound, detail), 0.0);
+        let peer = request.extensions().get::<Connection>().map(|connection| connection.party);
+        return observe::unread(Problem::new(Code::NotFound, detail), Instant::now(), peer);
     };
     let target = uri.query().map_or_else(|| inner.to_owned(), |query| format!("{inner}?{query}"));
     let mut parts = uri.clone().into_parts();

@@ -64,9 +64,9 @@ impl Guard {
         Self { any_host: true, ..Self::default() }
     }
 
-    /// Name of the token that a request carries.
-    pub fn bearer(&self, headers: &HeaderMap) -> Option<String> {
-        self.tokens.as_ref()?.bearer(headers, |token| token.name.clone()).ok()
+    /// Name of the token that a request carries, and whether it is an administrator's.
+    pub fn bearer(&self, headers: &HeaderMap) -> Option<(String, bool)> {
+        self.tokens.as_ref()?.bearer(headers, |token| (token.name.clone(), token.is_admin())).ok()
     }
 
     /// The tokens, where a request for a page comes without any of them.

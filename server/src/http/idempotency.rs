@@ -35,6 +35,8 @@ pub struct Sender {
     pub name: Option<String>,
     /// Whose the connection is.
     pub party: Party,
+    /// The token is one of an administrator.
+    pub is_admin: bool,
 }
 
 /// A reply as it was sent.

@@ -1,6 +1,7 @@
 //! HTTP for every operation: connections, access rules, bodies, headers, the form of replies.
 
 pub mod accept;
+pub mod access;
 pub mod audit;
 pub mod below;
 pub mod body;

@@ -333,7 +333,7 @@ async fn answer_health(router: Router, connection: Connection, place: &Arc<Conne
             }
             let problem =
                 Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1);
-            Ok(observe::unread(problem, 0.0))
+            Ok(observe::unread(problem, Instant::now(), Some(connection.party)))
         }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
@@ -402,7 +402,7 @@ async fn connection(
                 let unread = served.into_parts().map(|parts| parts.read_buf).unwrap_or_default();
                 let Some(problem) = wire::refusal(socket, &error, limits, &unread) else { return };
                 let since = *lock(&place.idle_since);
-                wire::refuse(socket, observe::unread(problem, since.elapsed().as_secs_f64())).await;
+                wire::refuse(socket, observe::unread(problem, since, Some(place.party))).await;
                 return;
             }
             () = place.close.notified() => return,

@@ -1,6 +1,7 @@
 //! The outermost layer: request id, access line, metrics, security headers, and the one place where
 //! problems are written.
 
+use super::access::{AccessLine, AccessSample, ByteCount, CountingBody, TraceParent};
 use super::audit::{self, AuditLine, AuditLog};
 use super::extract::Connection;
 use super::guard::{self, Guard};
@@ -9,6 +10,7 @@ use super::pause::RefusalPause;
 use super::proxies::ForwardedUser;
 use super::tokens::Right;
 use crate::base::limits::Limits;
+use crate::base::party::Party;
 use crate::base::problem::{ProblemDoc, Refusal, code_of, status_of};
 use crate::base::{id, metrics};
 use api::Problem;
@@ -40,10 +42,12 @@ pub struct RequestGate {
     pub limits: Arc<Limits>,
     /// Where changes and refusals are noted.
     pub audit: Option<Arc<AuditLog>>,
+    /// Which questions of a drag are in the access log.
+    pub sample: Arc<AccessSample>,
 }
 
 /// Wraps every request.
-pub async fn observe(State(gate): State<RequestGate>, mut request: Request, next: Next) -> Response {
+pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(request.headers());
     let method = request.method().clone();
@@ -54,6 +58,8 @@ pub async fn observe(State(gate): State<RequestGate>, mut request: Request, next
     let pause = request.extensions().get::<RefusalPause>().cloned();
     let edits = Right::needed(&method, &path, request.uri().query()) == Right::Edit;
     let sender = sender(&request, &gate.guard);
+    let (trace, received) = (TraceParent::of(request.headers()), ByteCount::default());
+    let mut request = request.map(|body| CountingBody::received(body, &received));
     request.extensions_mut().insert(sender.clone());
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
@@ -87,10 +93,20 @@ pub async fn observe(State(gate): State<RequestGate>, mut request: Request, next
             None => tokio::time::sleep(REFUSAL_PAUSE).await,
         }
     }
-    let seconds = began.elapsed().as_secs_f64();
-    metrics::request(&route, Some(&method), status, seconds);
-    tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
-    response
+    metrics::request(&route, Some(&method), status, began.elapsed().as_secs_f64());
+    let (peer, user) = (Some(sender.party), sender.name);
+    let line = AccessLine {
+        method: Some(method),
+        route,
+        status,
+        began,
+        peer,
+        user,
+        trace,
+        request_id: id,
+        received,
+    };
+    response.map(|body| line.at_end_of(body, Some(gate.sample)))
 }
 
 /// Who sends a request: the user whom a trusted proxy has signed in, else the name of the token.
@@ -98,19 +114,35 @@ fn sender(request: &Request, guard: &Guard) -> Sender {
     let extensions = request.extensions();
     let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());
     let party = extensions.get::<Connection>().map(|connection| connection.party).unwrap_or_default();
-    Sender { name: user.or_else(|| guard.bearer(request.headers())), party }
+    let (name, is_admin) = match user {
+        // The token is then the proxy's.
+        Some(user) => (Some(user), None),
+        None => guard.bearer(request.headers()).unzip(),
+    };
+    Sender { name, party, is_admin: is_admin.unwrap_or(false) }
 }
 
-/// The refusal of a head that could not be read, so that no route, method or id of it is known.
-pub fn unread(problem: Problem, seconds: f64) -> Response {
+/// The refusal of a head that could not be read, so that no route, method or id of it is known. It began to arrive at
+/// this time.
+pub fn unread(problem: Problem, began: Instant, peer: Option<Party>) -> Response {
     let id = new_id();
     let mut response = written(Refusal::from(problem).into_response(), &Method::GET, None, &id);
     dress(response.headers_mut(), "/v1/", &id);
     let status = response.status();
-    metrics::request(NO_ROUTE, None, status, seconds);
-    let ms = seconds * 1e3;
-    tracing::info!(target: "access", method = "OTHER", route = NO_ROUTE, status = status.as_u16(), ms, request_id = id);
-    response
+    metrics::request(NO_ROUTE, None, status, began.elapsed().as_secs_f64());
+    let (route, received) = (NO_ROUTE.to_owned(), ByteCount::default());
+    let line = AccessLine {
+        method: None,
+        route,
+        status,
+        began,
+        peer,
+        user: None,
+        trace: None,
+        request_id: id,
+        received,
+    };
+    response.map(|body| line.at_end_of(body, None))
 }
 
 fn request_id(headers: &HeaderMap) -> String {

@@ -70,6 +70,11 @@ impl NamedToken {
         Ok(Self { name: name.to_owned(), right, secret: secret.to_owned(), cookie })
     }
 
+    /// Whether it allows everything.
+    pub fn is_admin(&self) -> bool {
+        self.right == Right::Admin
+    }
+
     fn is(&self, given: &str) -> bool {
         same_bytes(given.as_bytes(), self.secret.as_bytes())
     }

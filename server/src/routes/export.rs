@@ -1,5 +1,6 @@
 //! Files out of scenes: `/v1/scenes/{id}/export` and `/v1/export`.
 
+use super::own::OwnCatalog;
 use crate::app::App;
 use crate::base::metrics;
 use crate::base::problem::Refusal;
@@ -55,11 +56,12 @@ refusals!(Unwritten: CHANGES BODY SCENE STORE WORK, FormatUnknown, CannotReprese
         Refused))]
 pub async fn stored(
     State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
     Id(id): Id,
     connection: Connection,
     QueryParams(params): QueryParams<ExportParams>,
 ) -> Result<Response, Refusal> {
-    let scene = app.catalog.whole(&id).await?;
+    let scene = catalog.whole(&id).await?;
     export(&app, connection, scene, params).await
 }
 

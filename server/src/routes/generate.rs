@@ -1,5 +1,6 @@
 //! `/v1/generate`: conditions to futures.
 
+use super::own::own_catalog;
 use crate::app::App;
 use crate::base::id::is_id;
 use crate::base::problem::Refusal;
@@ -41,12 +42,12 @@ pub async fn generate(
     request: Request,
 ) -> Result<Response, Refusal> {
     let form = ReplyFormat::negotiate(request.headers())?;
+    let home = own_catalog(&app, request.extensions())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
     let Caller { job, client, background, .. } = caller_of(&body)?;
     let caller = Caller { job, client, background, ..connection.into() };
     // Opening and preparing a scene costs more than a refusal may.
     app.pool.expects(&caller)?;
-    let home = app.catalog.of(connection.party);
     let about = body.take_scene().open(&home).await?;
     let held = about.held.clone();
     let streams = form != ReplyFormat::Json;

@@ -1,5 +1,6 @@
 //! `/v1/maps`: immutable maps by content hash.
 
+use super::own::OwnCatalog;
 use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::coding;
@@ -38,8 +39,8 @@ refusals!(Unread: STORE WORK, NotFound);
 /// Lists the maps of saved scenes.
 #[utoipa::path(get, path = "/v1/maps", operation_id = "listMaps", tag = "maps",
     responses((status = 200, description = "all maps", body = ref("#/components/schemas/MapList")), Refused))]
-pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Refusal> {
-    let rows = app.catalog.store.maps().await?.into_iter();
+pub async fn list(OwnCatalog(catalog): OwnCatalog) -> Result<axum::Json<MapList>, Refusal> {
+    let rows = catalog.store.maps().await?.into_iter();
     let maps = rows.map(|StoredMap { sha256, bytes, polylines, points }| MapItem {
         sha256,
         bytes,

@@ -13,6 +13,7 @@ pub mod jobs;
 pub mod layouts;
 pub mod maps;
 pub mod openapi;
+mod own;
 pub mod place;
 pub mod runs;
 mod scene_ref;
@@ -100,8 +101,8 @@ pub fn router(app: &App) -> Router {
 
 /// Routes for probes, without token.
 pub fn probes(app: &App) -> Router {
-    let gate =
-        RequestGate { guard: Guard::for_probes().into(), limits: Arc::clone(&app.limits), audit: None };
+    let (guard, limits) = (Guard::for_probes().into(), Arc::clone(&app.limits));
+    let gate = RequestGate { guard, limits, audit: None, sample: Arc::default() };
     let (router, _) = OpenApiRouter::new()
         .routes(routes!(health::healthz))
         .routes(routes!(health::readyz))

@@ -1,5 +1,6 @@
 //! Bodies that are about a scene, with the scene.
 
+use super::own::own_catalog;
 use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::body::Json;
@@ -18,10 +19,11 @@ impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for Wit
     async fn from_request(request: Request, app: &App) -> Result<Self, Refusal> {
         let connection = request.extensions().get::<Connection>().copied();
         let caller = connection.map_or_else(Caller::default, Caller::from);
+        let catalog = own_catalog(app, request.extensions())?;
         let Json(mut body) = Json::<T>::from_request(request, app).await?;
         // Opening a scene costs more than a refusal may.
         app.pool.expects(&caller)?;
-        let scene = body.take_scene().open(&app.catalog.of(caller.party)).await?;
+        let scene = body.take_scene().open(&catalog).await?;
         Ok(Self(body, scene))
     }
 }

@@ -1,6 +1,7 @@
 //! `/v1/search`: tries in one scene, towards a condition on what happens.
 
 use super::generate::own_id;
+use super::own::own_catalog;
 use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::generation;
@@ -40,11 +41,12 @@ pub async fn search(
     request: Request,
 ) -> Result<Response, Refusal> {
     let form = ReplyFormat::negotiate(request.headers())?;
+    let catalog = own_catalog(&app, request.extensions())?;
     let Json(mut body) = Json::<SearchBody>::from_request(request, &app).await?;
     own_id("/job", body.job.as_deref())?;
     let caller = Caller { job: body.job.take(), ..connection.into() };
     app.pool.expects(&caller)?;
-    let scene = body.take_scene().open(&app.catalog.of(connection.party)).await?.scene;
+    let scene = body.take_scene().open(&catalog).await?.scene;
     let preparation = app.map_preparation(&scene.map).await?;
     let search = SceneSearch::new(&body, Arc::clone(&scene), app.patient.generator.hashes())?;
     let pace = StreamPace {

@@ -3,7 +3,7 @@
 
 use super::library::Library;
 use super::record::{self, size};
-use super::store::{Expect, PackedScene, SceneRecord, Store, Written};
+use super::store::{Expect, PackedScene, SceneRecord, Store, Viewer, Written};
 use super::weight;
 use crate::base::cache::Cache;
 use crate::base::id;
@@ -60,9 +60,9 @@ impl Catalog {
         Self { store, library, maps, open, pool, party: Party::default() }
     }
 
-    /// The same for a caller: what is kept in memory for it counts as its own.
-    pub fn of(&self, party: Party) -> Self {
-        Self { party, ..self.clone() }
+    /// The same for a caller: what is kept in memory for it counts as its own, and it sees what it may.
+    pub fn of(&self, party: Party, viewer: Viewer) -> Self {
+        Self { party, store: self.store.of(viewer), ..self.clone() }
     }
 
     /// The map of a hash, wherever it is.

@@ -1,6 +1,6 @@
 //! Facts about a scene without its content.
 
-use super::store::SceneSummary;
+use super::store::{SceneShare, SceneSummary};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,12 @@ pub struct SceneItem {
     pub bytes: u64,
     /// Demo scenes and those of the data folder; duplicate one to change it.
     pub readonly: bool,
+    /// User whose scene it is, on a server whose scenes have owners.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub owner: Option<String>,
+    /// What others may do with it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shared: Option<SceneShare>,
 }
 
 /// Road users by type.
@@ -94,6 +100,8 @@ impl From<SceneSummary> for SceneItem {
             parent_id: row.parent_id,
             bytes: row.bytes,
             readonly: false,
+            shared: row.ownership.owner.is_some().then_some(row.ownership.shared),
+            owner: row.ownership.owner,
         }
     }
 }

@@ -145,6 +145,8 @@ impl Library {
             parent_id: None,
             bytes: bytes.len() as u64,
             readonly: true,
+            owner: None,
+            shared: None,
             id: id.clone(),
         };
         let mut entries = self.0.entries.write().unwrap_or_else(PoisonError::into_inner);

@@ -30,6 +30,7 @@ pub fn of_scene(mut scene: Scene, id: &str) -> Result<SceneRecord, Problem> {
         parent_id: scene.meta.parent_id.clone(),
         meta: serde_json::to_string(&Facts::of(&scene)).map_err(Problem::internal)?,
         json: serde_json::to_vec(&doc).map_err(Problem::internal)?,
+        shared: None,
         map,
     })
 }
@@ -50,6 +51,7 @@ pub fn of_doc(
         parent_id,
         meta,
         json: serde_json::to_vec(doc).map_err(Problem::internal)?,
+        shared: None,
         map: MapRecord { sha: map_sha, polylines: 0, points: 0, json: None },
     })
 }

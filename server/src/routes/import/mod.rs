@@ -6,6 +6,7 @@ mod reply;
 
 pub use reply::ImportedBody;
 
+use super::own::OwnCatalog;
 use crate::app::App;
 use crate::base::base_path::published;
 use crate::base::metrics;
@@ -73,6 +74,7 @@ refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
 pub async fn import(
     State(app): State<App>,
     connection: Connection,
+    OwnCatalog(catalog): OwnCatalog,
     QueryParams(params): QueryParams<ImportParams>,
     request: Request,
 ) -> Result<Response, Refusal> {
@@ -117,7 +119,7 @@ pub async fn import(
         Ready::Store(reply, rows) => (reply, rows),
     };
     let ids: Vec<String> = rows.iter().map(|(id, _)| id.clone()).collect();
-    let etags = if rows.is_empty() { Vec::new() } else { app.catalog.store.put_new(rows).await? };
+    let etags = if rows.is_empty() { Vec::new() } else { catalog.store.put_new(rows).await? };
     done();
     let first = ids.first().map(|id| published(&format!("/v1/scenes/{id}")));
     for (scene, (id, etag)) in reply.scenes().zip(ids.into_iter().zip(etags)) {

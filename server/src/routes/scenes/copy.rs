@@ -6,6 +6,7 @@ use crate::base::id;
 use crate::base::problem::Refusal;
 use crate::http::body::{self, Reading};
 use crate::http::extract::Id;
+use crate::routes::own::OwnCatalog;
 use crate::scenes::store::Expect;
 use api::Problem;
 use axum::extract::{FromRef, Request, State};
@@ -33,7 +34,12 @@ refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull, IdempotencyKey
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))), Uncopied))]
-pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+pub async fn duplicate(
+    State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
+    Id(id): Id,
+    request: Request,
+) -> Result<Response, Refusal> {
     let typed = request.headers().contains_key(header::CONTENT_TYPE);
     if typed {
         body::media_type(request.headers(), body::JSON)?;
@@ -45,7 +51,7 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
     } else {
         reading.parse(bytes).await?
     };
-    let scene = app.catalog.whole(&id).await?;
+    let scene = catalog.whole(&id).await?;
     let mut scene = Arc::unwrap_or_clone(scene);
     scene.name = match options.name {
         Some(name) if name.chars().count() > MAX_NAME_CHARS => {
@@ -59,6 +65,6 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
     };
     scene.meta.parent_id = Some(id);
     let copy = id::fresh();
-    let written = app.catalog.save(&copy, Expect::Absent, scene).await?;
+    let written = catalog.save(&copy, Expect::Absent, scene).await?;
     Ok(saved(StatusCode::CREATED, copy, written.etag))
 }

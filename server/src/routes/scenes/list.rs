@@ -1,13 +1,12 @@
 //! The list of scenes, page by page.
 
-use crate::app::App;
 use crate::base::id;
 use crate::base::problem::Refusal;
 use crate::http::extract::QueryParams;
+use crate::routes::own::OwnCatalog;
 use crate::scenes::store::{PageQuery, SceneSummary, Sort};
 use crate::scenes::{SceneItem, tags_of};
 use api::{Code, Problem};
-use axum::extract::State;
 use serde::{Deserialize, Serialize};
 
 /// Query of the list.
@@ -51,7 +50,7 @@ refusals!(Unlisted: QUERY STORE);
 #[utoipa::path(get, path = "/v1/scenes", operation_id = "listScenes", tag = "scenes", params(ListParams),
     responses((status = 200, description = "a page", body = ref("#/components/schemas/SceneList")), Unlisted))]
 pub async fn list(
-    State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
     QueryParams(params): QueryParams<ListParams>,
 ) -> Result<axum::Json<SceneList>, Refusal> {
     if !(1..=200).contains(&params.limit) {
@@ -72,13 +71,13 @@ pub async fn list(
         keys.then_with(|| a.1.cmp(&b.1))
     };
     let place_of = |item: &SceneItem| (sort.key(&item.name, &item.updated_at).to_owned(), item.id.clone());
-    let mut items = app.catalog.library.items();
+    let mut items = catalog.library.items();
     items.retain(|item| {
         wanted(&item.name, &item.tags, item.parent_id.as_ref())
             && after.as_ref().is_none_or(|after| order(after, &place_of(item)).is_lt())
     });
     let saved = move |row: &SceneSummary| wanted(&row.name, &tags_of(row), row.parent_id.as_ref());
-    let rows = app.catalog.store.list(PageQuery { sort, after, most }, saved).await?;
+    let rows = catalog.store.list(PageQuery { sort, after, most }, saved).await?;
     items.extend(rows.into_iter().map(SceneItem::from));
     items.sort_by(|a, b| order(&place_of(a), &place_of(b)));
     let more = items.len() > params.limit;

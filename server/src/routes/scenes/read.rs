@@ -4,6 +4,7 @@ use crate::app::App;
 use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::http::extract::{Id, QueryParams, if_none_match};
+use crate::routes::own::OwnCatalog;
 use crate::scenes::{bytes_of, preview};
 use api::Home;
 use api::home::not_found;
@@ -47,25 +48,26 @@ refusals!(Unread: QUERY STORE WORK, NotFound);
             headers(("ETag" = String, description = "version of the scene"))), Unread))]
 pub async fn read(
     State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
     Id(id): Id,
     QueryParams(params): QueryParams<ReadParams>,
     headers: HeaderMap,
 ) -> Result<Response, Refusal> {
-    if let Some(opened) = app.catalog.library.open(&id).await? {
+    if let Some(opened) = catalog.library.open(&id).await? {
         if !fresh(&headers, &opened.etag) {
             return Ok(not_modified(&opened.etag));
         }
         let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
-        let json = app.catalog.written(opened.scene, form).await?;
+        let json = catalog.written(opened.scene, form).await?;
         return scene_reply(&app, headers, &opened.etag, json).await;
     }
-    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let (summary, json) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
     if !fresh(&headers, &summary.etag) {
         return Ok(not_modified(&summary.etag));
     }
     let json = match params.map {
         MapParam::Ref => json,
-        MapParam::Inline => app.catalog.with_map(json, &summary.map_sha).await?,
+        MapParam::Inline => catalog.with_map(json, &summary.map_sha).await?,
     };
     scene_reply(&app, headers, &summary.etag, json).await
 }
@@ -103,8 +105,13 @@ refusals!(Unpreviewed: STORE WORK, NotFound);
             headers(("ETag" = String, description = "version of the scene"))),
         (status = 304, description = "not changed",
             headers(("ETag" = String, description = "version of the scene"))), Unpreviewed))]
-pub async fn preview_of(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<Response, Refusal> {
-    let opened = app.catalog.open(&id).await?;
+pub async fn preview_of(
+    State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
+    Id(id): Id,
+    headers: HeaderMap,
+) -> Result<Response, Refusal> {
+    let opened = catalog.open(&id).await?;
     let kept = [(header::CACHE_CONTROL, "private, no-cache")];
     if !fresh(&headers, &opened.etag) {
         return Ok((kept, not_modified(&opened.etag)).into_response());

@@ -6,8 +6,9 @@ use crate::base::id;
 use crate::base::problem::Refusal;
 use crate::http::body::{self, Json, Reading};
 use crate::http::extract::{Id, if_match, if_none_match};
-use crate::scenes::record;
-use crate::scenes::store::Expect;
+use crate::routes::own::OwnCatalog;
+use crate::scenes::store::{Expect, SceneShare};
+use crate::scenes::{Catalog, record};
 use api::home::not_found;
 use api::{Code, Home, Problem};
 use axum::extract::{FromRef, FromRequest, Request, State};
@@ -25,10 +26,10 @@ refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull, Idempoten
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))), Uncreated))]
-pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {
+pub async fn create(OwnCatalog(catalog): OwnCatalog, Json(doc): Json<SceneDoc>) -> Result<Response, Refusal> {
     let id = id::fresh();
-    let scene = app.catalog.read(doc).await?;
-    let written = app.catalog.save(&id, Expect::Absent, scene).await?;
+    let scene = catalog.read(doc).await?;
+    let written = catalog.save(&id, Expect::Absent, scene).await?;
     Ok(saved(StatusCode::CREATED, id, written.etag))
 }
 
@@ -45,16 +46,21 @@ refusals!(Unreplaced: CHANGES BODY SCENE STORE WORK,
         (status = 201, description = "made", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))), Unreplaced))]
-pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+pub async fn replace(
+    State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
+    Id(id): Id,
+    request: Request,
+) -> Result<Response, Refusal> {
     let expect = match (if_match(request.headers()), if_none_match(request.headers())) {
         (Some(tags), _) => Expect::Etags(tags),
         (None, Some(tags)) if tags == ["*"] => Expect::Absent,
         _ => return Err(precondition_required().into()),
     };
-    writable(&app, &id)?;
+    writable(&catalog, &id)?;
     let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
-    let scene = app.catalog.read(doc).await?;
-    let written = app.catalog.save(&id, expect, scene).await.map_err(|problem| match problem.code {
+    let scene = catalog.read(doc).await?;
+    let written = catalog.save(&id, expect, scene).await.map_err(|problem| match problem.code {
         // PUT could make it: then it is the precondition that fails (RFC 9110, 13.1.1).
         Code::NotFound => Problem::new(Code::StaleEtag, "There is no scene to replace under this id."),
         _ => problem,
@@ -68,8 +74,8 @@ fn precondition_required() -> Problem {
     Problem::new(Code::PreconditionRequired, detail)
 }
 
-fn writable(app: &App, id: &str) -> Result<(), Problem> {
-    if app.catalog.library.has(id) {
+fn writable(catalog: &Catalog, id: &str) -> Result<(), Problem> {
+    if catalog.library.has(id) {
         let detail = "This scene is read-only; POST to its /duplicate and change the copy.";
         return Err(Problem::new(Code::ReadOnly, detail));
     }
@@ -89,6 +95,8 @@ pub struct ScenePatch {
     /// New notes; null empties them.
     #[serde(deserialize_with = "present")]
     notes: Option<Option<String>>,
+    /// What others may do with the scene, where scenes have owners; only its owner says so.
+    shared: Option<SceneShare>,
 }
 
 /// Distinguishes null from absence.
@@ -101,7 +109,7 @@ fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
 refusals!(Unrenamed: CHANGES BODY SCENE STORE WORK,
     NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
-/// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
+/// Renames or shares a scene, or changes its tags or notes (RFC 7396 merge patch).
 #[utoipa::path(patch, path = "/v1/scenes/{id}", operation_id = "renameScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = String, Header)),
     request_body(content = ref("#/components/schemas/ScenePatch"),
@@ -109,13 +117,18 @@ refusals!(Unrenamed: CHANGES BODY SCENE STORE WORK,
     responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))), Unrenamed))]
-pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Refusal> {
+pub async fn rename(
+    State(app): State<App>,
+    OwnCatalog(catalog): OwnCatalog,
+    Id(id): Id,
+    request: Request,
+) -> Result<Response, Refusal> {
     let tags = if_match(request.headers()).ok_or_else(precondition_required)?;
     body::media_type(request.headers(), &["application/merge-patch+json", "application/json"])?;
-    writable(&app, &id)?;
+    writable(&catalog, &id)?;
     let reading = Reading::from_ref(&app);
     let patch: ScenePatch = reading.parse(reading.json(request).await?).await?;
-    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let (summary, json) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
     let bytes = json.len();
     let mut doc = app.pool.document(bytes, move || Ok(native::read_doc(&json)?)).await?;
     if let Some(name) = patch.name {
@@ -128,13 +141,14 @@ pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Res
         doc.meta.notes = notes.unwrap_or_default();
     }
     // The whole scene is checked again, so that a patch cannot store what a PUT could not.
-    app.catalog.read(doc.clone()).await?;
+    catalog.read(doc.clone()).await?;
     let make = move || record::of_doc(&doc, summary.parent_id, summary.meta, summary.map_sha);
-    let record = app.pool.document(bytes, make).await?;
+    let mut record = app.pool.document(bytes, make).await?;
+    record.shared = patch.shared;
     // Between the read above and this write the scene may have changed: the ETag read decides too.
     let held = tags.iter().any(|t| t == "*" || *t == summary.etag);
     let expect = if held { vec![summary.etag] } else { tags };
-    let written = app.catalog.save_record(&id, Expect::Etags(expect), record).await?;
+    let written = catalog.save_record(&id, Expect::Etags(expect), record).await?;
     Ok(saved(StatusCode::OK, id, written.etag))
 }
 
@@ -144,9 +158,13 @@ refusals!(Undeleted: CHANGES STORE, NotFound, StaleEtag, PreconditionRequired, R
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = String, Header)),
     responses((status = 204, description = "deleted"), Undeleted))]
-pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Refusal> {
+pub async fn remove(
+    OwnCatalog(catalog): OwnCatalog,
+    Id(id): Id,
+    headers: HeaderMap,
+) -> Result<StatusCode, Refusal> {
     let tags = if_match(&headers).ok_or_else(precondition_required)?;
-    writable(&app, &id)?;
-    app.catalog.delete(&id, Expect::Etags(tags)).await?;
+    writable(&catalog, &id)?;
+    catalog.delete(&id, Expect::Etags(tags)).await?;
     Ok(StatusCode::NO_CONTENT)
 }

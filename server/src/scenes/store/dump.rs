@@ -59,7 +59,7 @@ fn opened(path: &Path) -> Result<Connection, StoreError> {
 fn after(connection: &Connection, id: &str) -> Result<Option<DumpedScene>, StoreError> {
     let sql = format!("SELECT {SUMMARY}, body FROM scenes WHERE id > ?1 ORDER BY id LIMIT 1");
     let mut query = connection.prepare_cached(&sql)?;
-    let row = query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
+    let row = query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(12)?))).optional()?;
     let Some((summary, packed)) = row else { return Ok(None) };
     let mut query = connection.prepare_cached("SELECT body FROM maps WHERE sha = ?1")?;
     let map: Option<Vec<u8>> = query.query_row([&summary.map_sha], |row| row.get(0)).optional()?;

@@ -46,6 +46,9 @@ pub enum StoreError {
     /// The map that a scene names by its hash is not kept any more.
     #[error("no such map")]
     MissingMap,
+    /// The scene belongs to this user, who does not share it for this.
+    #[error("the scene belongs to {0}")]
+    OfAnother(String),
     /// A limit is reached.
     #[error("the store is full: {0}")]
     Full(String),
@@ -78,6 +81,10 @@ impl From<StoreError> for Problem {
                 let detail = "The file of saved scenes was removed or replaced. Nothing is saved until the server \
                               is started again.";
                 Self::new(Code::StoreUnavailable, detail).retry_after(60)
+            }
+            StoreError::OfAnother(owner) => {
+                let detail = format!("The scene belongs to \"{owner}\", who does not share it for this.");
+                Self::new(Code::Forbidden, detail)
             }
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {

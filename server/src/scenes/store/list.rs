@@ -31,12 +31,13 @@ pub struct PageQuery {
 }
 
 impl Store {
-    /// Scenes of a page that are wanted, without their bodies.
+    /// Scenes of a page that are seen and wanted, without their bodies.
     pub async fn list(
         &self,
         page: PageQuery,
         wanted: impl Fn(&SceneSummary) -> bool + Send + 'static,
     ) -> Result<Vec<SceneSummary>, StoreError> {
+        let viewer = self.viewer.clone();
         self.read(move |connection| {
             let PageQuery { sort, after, most } = page;
             let key = if sort.by_name { "name" } else { "updated_at" };
@@ -50,7 +51,8 @@ impl Store {
             );
             let mut query = connection.prepare_cached(&sql)?;
             let rows = query.query_map(rusqlite::params![from, last_key, last_id], summary)?;
-            let wanted = rows.filter(|row| row.as_ref().map_or(true, &wanted));
+            let seen = |row: &SceneSummary| viewer.sees(&row.ownership) && wanted(row);
+            let wanted = rows.filter(|row| row.as_ref().map_or(true, seen));
             Ok(wanted.take(most).collect::<Result<_, _>>()?)
         })
         .await

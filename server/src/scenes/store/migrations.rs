@@ -5,7 +5,8 @@ use rusqlite::Connection;
 use std::path::Path;
 
 /// One SQL script a version; scripts that were released are never changed.
-const STEPS: &[&str] = &["
+const STEPS: &[&str] = &[
+    "
     CREATE TABLE maps (
         sha        TEXT PRIMARY KEY,
         bytes      INTEGER NOT NULL,
@@ -29,7 +30,13 @@ const STEPS: &[&str] = &["
     ) STRICT;
     CREATE INDEX scenes_by_time ON scenes(updated_at);
     CREATE INDEX scenes_by_map ON scenes(map_sha);
-"];
+",
+    "
+    ALTER TABLE scenes ADD COLUMN owner TEXT;
+    ALTER TABLE scenes ADD COLUMN shared TEXT NOT NULL DEFAULT 'nobody';
+    CREATE INDEX scenes_by_owner ON scenes(owner);
+",
+];
 
 /// `application_id` of our files: "DrTr".
 const OURS: i32 = 0x4472_5472;

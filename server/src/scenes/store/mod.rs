@@ -10,6 +10,7 @@ mod error;
 mod identity;
 mod list;
 mod migrations;
+mod owners;
 mod records;
 mod reserve;
 
@@ -17,6 +18,7 @@ pub use backup::{backup, restore};
 pub use dump::{DumpedScene, count, each};
 pub use error::StoreError;
 pub use list::{PageQuery, Sort};
+pub use owners::{Ownership, SceneShare, Viewer};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;
@@ -42,6 +44,8 @@ pub struct Store {
     limits: Arc<Limits>,
     reserve: Arc<Reserve>,
     file: Arc<FileIdentity>,
+    /// Who asks.
+    viewer: Viewer,
 }
 
 impl Store {
@@ -69,7 +73,12 @@ impl Store {
         }
         let reserve = Arc::new(Reserve::beside(path));
         let file = Arc::new(FileIdentity::of(path).map_err(StoreError::File)?);
-        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve, file })
+        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve, file, viewer: Viewer::default() })
+    }
+
+    /// The same for a user: scenes of others are as far away as their owners want.
+    pub fn of(&self, viewer: Viewer) -> Self {
+        Self { viewer, ..self.clone() }
     }
 
     /// Runs a read on one of the reading connections.

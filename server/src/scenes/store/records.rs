@@ -1,6 +1,6 @@
 //! Rows of the store, and its queries.
 
-use super::{Store, StoreError};
+use super::{Ownership, SceneShare, Store, StoreError, Viewer};
 use crate::base::limits::Limits;
 use crate::base::{clock, metrics};
 use api::Problem;
@@ -41,6 +41,8 @@ pub struct SceneRecord {
     pub meta: String,
     /// Native JSON with the map by reference, without id.
     pub json: Vec<u8>,
+    /// What others than its owner may do from now on; `None` leaves that as it is.
+    pub shared: Option<SceneShare>,
     /// Its map.
     pub map: MapRecord,
 }
@@ -52,14 +54,14 @@ impl SceneRecord {
     /// When the compressor fails.
     pub fn packed(self) -> Result<PackedScene, Problem> {
         let pack = |json: Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
-        let Self { name, tags, parent_id, meta, json, map } = self;
+        let Self { name, tags, parent_id, meta, json, shared, map } = self;
         let MapRecord { sha, polylines, points, json: map_json } = map;
         let map_bytes = map_json.as_ref().map_or(0, Vec::len);
         let map =
             PackedMap { sha, polylines, points, bytes: map_bytes, body: map_json.map(pack).transpose()? };
         let tags = serde_json::to_string(&tags).map_err(Problem::internal)?;
         let hash = ContentHash::of_bytes(&json);
-        Ok(PackedScene { name, tags, parent_id, meta, hash, body: pack(json)?, map })
+        Ok(PackedScene { name, tags, parent_id, meta, hash, body: pack(json)?, shared, map })
     }
 }
 
@@ -74,6 +76,7 @@ pub struct PackedScene {
     /// Of the text.
     hash: ContentHash,
     body: Vec<u8>,
+    shared: Option<SceneShare>,
     map: PackedMap,
 }
 
@@ -133,6 +136,8 @@ pub struct SceneSummary {
     pub created_at: String,
     /// RFC 3339.
     pub updated_at: String,
+    /// Whose it is.
+    pub ownership: Ownership,
 }
 
 /// Precondition of a write.
@@ -145,7 +150,7 @@ pub enum Expect {
 }
 
 pub(super) const SUMMARY: &str =
-    "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
+    "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at, owner, shared";
 
 pub(super) fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
     Ok(SceneSummary {
@@ -159,19 +164,26 @@ pub(super) fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
         bytes: row.get::<_, i64>(7)?.unsigned_abs(),
         created_at: row.get(8)?,
         updated_at: row.get(9)?,
+        ownership: ownership(row, 10)?,
     })
+}
+
+/// Whose a scene is, in two columns from this one on.
+fn ownership(row: &Row<'_>, at: usize) -> rusqlite::Result<Ownership> {
+    Ok(Ownership { owner: row.get(at)?, shared: SceneShare::of(&row.get::<_, String>(at + 1)?) })
 }
 
 impl Store {
     /// A scene's facts and its JSON (map by reference).
     pub async fn get(&self, id: &str) -> Result<Option<(SceneSummary, Vec<u8>)>, StoreError> {
-        let id = id.to_owned();
+        let (id, viewer) = (id.to_owned(), self.viewer.clone());
         self.read(move |connection| {
             let sql = format!("SELECT {SUMMARY}, body FROM scenes WHERE id = ?1");
             let mut query = connection.prepare_cached(&sql)?;
             let row =
-                query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
-            let Some((summary, packed)) = row else { return Ok(None) };
+                query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(12)?))).optional()?;
+            let seen = row.filter(|(summary, _)| viewer.sees(&summary.ownership));
+            let Some((summary, packed)) = seen else { return Ok(None) };
             Ok(Some((summary, zstd::decode_all(packed.as_slice())?)))
         })
         .await
@@ -179,27 +191,29 @@ impl Store {
 
     /// The ETag of a scene; `None` when nothing has the id.
     pub async fn etag(&self, id: &str) -> Result<Option<String>, StoreError> {
-        let id = id.to_owned();
+        let (id, viewer) = (id.to_owned(), self.viewer.clone());
         self.read(move |connection| {
-            let mut query = connection.prepare_cached("SELECT etag FROM scenes WHERE id = ?1")?;
-            Ok(query.query_row([id], |row| row.get(0)).optional()?)
+            let mut query =
+                connection.prepare_cached("SELECT etag, owner, shared FROM scenes WHERE id = ?1")?;
+            let row = query.query_row([id], |row| Ok((row.get(0)?, ownership(row, 1)?))).optional()?;
+            Ok(row.filter(|(_, of)| viewer.sees(of)).map(|(etag, _)| etag))
         })
         .await
     }
 
     /// Writes a scene under an id; checks the precondition in the same transaction.
     pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
-        let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
-        let written = self.add(move |tx| put(tx, &limits, &id, &expect, &scene)).await?;
+        let (id, limits, viewer) = (id.to_owned(), Arc::clone(&self.limits), self.viewer.clone());
+        let written = self.add(move |tx| put(tx, (&limits, &viewer), &id, &expect, &scene)).await?;
         self.tell_size().await;
         Ok(written)
     }
 
     /// Writes new scenes, all of them or none; their ETags in the same order.
     pub async fn put_new(&self, scenes: Vec<(String, PackedScene)>) -> Result<Vec<String>, StoreError> {
-        let limits = Arc::clone(&self.limits);
+        let (limits, viewer) = (Arc::clone(&self.limits), self.viewer.clone());
         let put_one = move |tx: &Transaction<'_>, (id, scene): &(String, PackedScene)| {
-            put(tx, &limits, id, &Expect::Absent, scene).map(|written| written.etag)
+            put(tx, (&limits, &viewer), id, &Expect::Absent, scene).map(|written| written.etag)
         };
         let etags = self.add(move |tx| scenes.iter().map(|scene| put_one(tx, scene)).collect()).await?;
         self.tell_size().await;
@@ -238,8 +252,10 @@ impl Store {
     /// to the disk.
     pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
         let delete = |id: String, expect: Expect, with_maps: bool| {
+            let viewer = self.viewer.clone();
             self.write(move |tx| {
                 let stored = current(tx, &id)?.ok_or(StoreError::MissingScene)?;
+                viewer.check(&stored.ownership, true)?;
                 check(&expect, Some(&stored))?;
                 tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
                 if with_maps {
@@ -278,13 +294,16 @@ impl Store {
         .await
     }
 
-    /// All maps without their content.
+    /// All maps of scenes that are seen, without their content.
     pub async fn maps(&self) -> Result<Vec<StoredMap>, StoreError> {
-        self.read(|connection| {
-            let mut query =
-                connection.prepare_cached("SELECT sha, bytes, polylines, points FROM maps ORDER BY sha")?;
+        let viewer = self.viewer.clone();
+        self.read(move |connection| {
+            let mut query = connection.prepare_cached(
+                "SELECT sha, bytes, polylines, points FROM maps WHERE ?2 OR sha IN
+                    (SELECT map_sha FROM scenes WHERE owner IS NULL OR owner = ?1 OR shared <> 'nobody') ORDER BY sha",
+            )?;
             let number = |row: &Row<'_>, i| row.get::<_, i64>(i).map(i64::unsigned_abs);
-            let rows = query.query_map([], |row| {
+            let rows = query.query_map(viewer.parts(), |row| {
                 let (bytes, polylines, points) = (number(row, 1)?, number(row, 2)?, number(row, 3)?);
                 Ok(StoredMap { sha256: row.get(0)?, bytes, polylines, points })
             })?;
@@ -331,12 +350,15 @@ impl Store {
 
 fn put(
     tx: &Transaction<'_>,
-    limits: &Limits,
+    (limits, viewer): (&Limits, &Viewer),
     id: &str,
     expect: &Expect,
     scene: &PackedScene,
 ) -> Result<Written, StoreError> {
     let stored = current(tx, id)?;
+    if let Some(stored) = &stored {
+        viewer.check(&stored.ownership, scene.shared.is_some())?;
+    }
     check(expect, stored.as_ref())?;
     if stored.is_none() {
         let count: i64 = tx.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
@@ -346,11 +368,13 @@ fn put(
     }
     let before = stored.as_ref().map_or(0, |s| s.bytes);
     let map_bytes = scene.map.body.as_ref().map_or(0, Vec::len) as u64;
-    make_room(tx, (scene.body.len() as u64).saturating_sub(before) + map_bytes, limits.store_bytes)?;
+    let grows = (scene.body.len() as u64).saturating_sub(before);
+    viewer.check_quota(tx, limits, (grows, stored.is_none()))?;
+    make_room(tx, grows + map_bytes, limits.store_bytes)?;
     keep_map(tx, &scene.map)?;
     let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
     let etag = etag(rev, &scene.hash);
-    save(tx, (id, rev, &etag), scene)?;
+    save(tx, (id, rev, &etag), viewer, scene)?;
     Ok(Written { etag, created: stored.is_none() })
 }
 
@@ -360,14 +384,17 @@ struct Stored {
     updated_at: String,
     /// Of its body as it is stored.
     bytes: u64,
+    ownership: Ownership,
 }
 
 fn current(tx: &Transaction<'_>, id: &str) -> Result<Option<Stored>, StoreError> {
-    let mut query =
-        tx.prepare_cached("SELECT rev, etag, updated_at, length(body) FROM scenes WHERE id = ?1")?;
+    let mut query = tx.prepare_cached(
+        "SELECT rev, etag, updated_at, length(body), owner, shared FROM scenes WHERE id = ?1",
+    )?;
     let stored = query.query_row([id], |row| {
         let bytes = row.get::<_, i64>(3)?.unsigned_abs();
-        Ok(Stored { rev: row.get(0)?, etag: row.get(1)?, updated_at: row.get(2)?, bytes })
+        let ownership = ownership(row, 4)?;
+        Ok(Stored { rev: row.get(0)?, etag: row.get(1)?, updated_at: row.get(2)?, bytes, ownership })
     });
     Ok(stored.optional()?)
 }
@@ -408,18 +435,22 @@ fn keep_map(tx: &Transaction<'_>, map: &PackedMap) -> Result<(), StoreError> {
 fn save(
     tx: &Transaction<'_>,
     (id, rev, etag): (&str, i64, &str),
+    viewer: &Viewer,
     scene: &PackedScene,
 ) -> Result<(), StoreError> {
-    let sql = "INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at)
-        VALUES (:id, :rev, :etag, :name, :tags, :parent, :map, :meta, :body, :now, :now)
+    let sql = "INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at,
+            owner, shared)
+        VALUES (:id, :rev, :etag, :name, :tags, :parent, :map, :meta, :body, :now, :now, :owner,
+            ifnull(:shared, 'nobody'))
         ON CONFLICT (id) DO UPDATE SET rev = :rev, etag = :etag, name = :name, tags = :tags,
-            parent_id = :parent, map_sha = :map, meta = :meta, body = :body, updated_at = :now";
+            parent_id = :parent, map_sha = :map, meta = :meta, body = :body, updated_at = :now,
+            shared = ifnull(:shared, shared)";
     tx.execute(
         sql,
         named_params! {
             ":id": id, ":rev": rev, ":etag": etag, ":name": scene.name, ":tags": scene.tags,
             ":parent": scene.parent_id, ":map": scene.map.sha, ":meta": scene.meta, ":body": scene.body,
-            ":now": clock::now(),
+            ":now": clock::now(), ":owner": viewer.owner(), ":shared": scene.shared.map(SceneShare::word),
         },
     )?;
     Ok(())

@@ -15,6 +15,7 @@ fn unpacked(name: &str) -> SceneRecord {
         parent_id: None,
         meta: "{}".into(),
         json: format!("{{\"name\":\"{name}\"}}").into_bytes(),
+        shared: None,
         map: MapRecord { sha: "aa".into(), polylines: 1, points: 2, json: Some(b"{}".to_vec()) },
     }
 }

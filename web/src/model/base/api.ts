@@ -384,7 +384,7 @@ export interface paths {
         delete: operations["deleteScene"];
         options?: never;
         head?: never;
-        /** Renames a scene, or changes its tags or notes (RFC 7396 merge patch). */
+        /** Renames or shares a scene, or changes its tags or notes (RFC 7396 merge patch). */
         patch: operations["renameScene"];
         trace?: never;
     };
@@ -4612,10 +4612,14 @@ export interface components {
             map_sha256: string;
             /** @description For people. */
             name: string;
+            /** @description User whose scene it is, on a server whose scenes have owners. */
+            owner?: string | null;
             /** @description Scene it is a variant of. */
             parent_id: string | null;
             /** @description Demo scenes and those of the data folder; duplicate one to change it. */
             readonly: boolean;
+            /** @description What others may do with it. */
+            shared?: components["schemas"]["Share"] | null;
             /** @description Format or tool it came from. */
             source: string;
             /** @description Id in the source. */
@@ -4654,6 +4658,11 @@ export interface components {
              * @default null
              */
             notes?: string | null;
+            /**
+             * @description What others may do with the scene, where scenes have owners; only its owner says so.
+             * @default null
+             */
+            shared?: components["schemas"]["Share"] | null;
             /**
              * @description New tags; null removes all.
              * @default null
@@ -5154,6 +5163,18 @@ export interface components {
             /** @description What the actor of a template does, in one sentence. */
             what?: string;
         };
+        /**
+         * Share
+         * @description What others than its owner may do with a scene.
+         *
+         *     `nobody`: Nothing: it is not found.
+         *
+         *     `read`: See, generate in and copy it.
+         *
+         *     `edit`: And change it; only its owner deletes it.
+         * @enum {string}
+         */
+        Share: "nobody" | "read" | "edit";
         /**
          * Shown
          * @description The future that was shown last.

@@ -19,7 +19,8 @@ fn number(connection: &Connection, sql: &str) -> i64 {
 
 fn one_scene(connection: &Connection) {
     let sql = "INSERT INTO maps VALUES ('aa', 1, 1, 1, x'00', 0);
-        INSERT INTO scenes VALUES ('a', 1, '\"1\"', 'one', '[]', NULL, 'aa', '{}', x'00', '', '');";
+        INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at)
+            VALUES ('a', 1, '\"1\"', 'one', '[]', NULL, 'aa', '{}', x'00', '', '');";
     connection.execute_batch(sql).unwrap();
 }
 
