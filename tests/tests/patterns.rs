@@ -59,7 +59,7 @@ fn a_plan_varies_a_pattern_at_every_place() {
     let at = |name: &str| folder.path().join(name);
     std::fs::copy(root().join("assets/patterns/ccrs.toml"), at("own.toml")).unwrap();
     let plan = format!(
-        "scenes = ['{}/demo-motorway.json']\n[generate]\nhorizon_s = 4\nsteps = 1\n\
+        "scenes = ['{}/demo-motorway.json']\n[generate]\nsteps = 1\n\
          [[situations]]\npattern = 'ALKS-deceleration'\nparameters = {{ gap_m = {{ choice = [15, 30] }} }}\n\
          [[situations]]\nname = 'own'\npattern = 'own.toml'",
         demos()

@@ -9,13 +9,13 @@ use crate::generation::stream::{self, StreamPace};
 use crate::http::accept::ReplyFormat;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
+use crate::scenes::map_bytes;
 use crate::work::Caller;
 use api::AboutScene;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
 use batch::search::call::SearchBody;
 use batch::search::one_scene::SceneSearch;
-use std::sync::Arc;
 use std::time::Duration;
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK, NotAcceptable, Exists);
@@ -48,7 +48,9 @@ pub async fn search(
     app.pool.expects(&caller)?;
     let scene = body.take_scene().open(&catalog).await?.scene;
     let preparation = app.map_preparation(&scene.map).await?;
-    let search = SceneSearch::new(&body, Arc::clone(&scene), app.patient.generator.hashes())?;
+    // The places of a pattern are looked for on all of the map.
+    let (bytes, hashes) = (map_bytes(&scene.map), app.patient.generator.hashes());
+    let search = app.pool.document(bytes, move || SceneSearch::new(&body, scene, hashes)).await?;
     let pace = StreamPace {
         heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
         together: Duration::ZERO,

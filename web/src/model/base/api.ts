@@ -983,12 +983,20 @@ export interface components {
             goal?: components["schemas"]["GoalRanges"];
             /** @description Length of the road user, metres. */
             length_m?: components["schemas"]["Distribution"] | null;
-            /** @description Name in the results: letters, digits, - and _. Default: the template's, or `free`. */
+            /** @description Name in the results: letters, digits, - and _. Default: that of the template or the pattern, or `free`. */
             name?: string | null;
-            /** @description Figures of the template by name; those absent are drawn by the seed. */
+            /**
+             * @description Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
+             *     have their standard values.
+             */
             parameters?: {
                 [key: string]: components["schemas"]["Distribution"];
             };
+            /**
+             * @description Pattern of the road that the maps of the scenes are searched for: a name of `dragtraffic match --list`, a file, or
+             *     the pattern itself. Its road users are put at each place where it fits; those of the scene are left out.
+             */
+            pattern?: components["schemas"]["PatternChoice"] | null;
             /** @description Start. */
             start?: components["schemas"]["StartRanges"];
             /**
@@ -2958,6 +2966,18 @@ export interface components {
             width_m?: number | null;
         };
         /**
+         * LaneSide
+         * @description A lane beside another.
+         *
+         *     `left`: In the same direction, to the left.
+         *
+         *     `right`: In the same direction, to the right.
+         *
+         *     `oncoming`: In the opposite direction.
+         * @enum {string}
+         */
+        LaneSide: "left" | "right" | "oncoming";
+        /**
          * Layout
          * @description A template with its parameters.
          */
@@ -3517,6 +3537,18 @@ export interface components {
             z_m?: number;
         };
         /**
+         * OtherSide
+         * @description Where another way comes from.
+         *
+         *     `left`: From the left.
+         *
+         *     `right`: From the right.
+         *
+         *     `oncoming`: Towards the subject, before it turns.
+         * @enum {string}
+         */
+        OtherSide: "left" | "right" | "oncoming";
+        /**
          * Overlap
          * @description The boxes of two road users overlap by less than a collision takes. One entry a pair.
          */
@@ -3569,6 +3601,125 @@ export interface components {
              */
             share?: number | null;
         };
+        /** PatternChoice */
+        PatternChoice: ("ALKS-cut-in" | "ALKS-cut-out" | "ALKS-deceleration" | "CBDA" | "CBFA" | "CBLA" | "CBNA" | "CBNAO" | "CBTA" | "CCCscp" | "CCFhol" | "CCFhos" | "CCFtap" | "CCRb" | "CCRm" | "CCRs" | "CPFA" | "CPLA" | "CPNA" | "CPNCO" | "CPTA" | "crosswalk-after-bend" | "merge" | "roundabout-entry") | string | components["schemas"]["RoadPattern"];
+        /**
+         * PatternGoal
+         * @description The goal of a road user. Its place follows from `at_m`, from `relation`, or from the mean of both speeds over the time.
+         */
+        PatternGoal: {
+            /** @description Metres along the way from the place. */
+            at_m?: (number | string) | null;
+            /** @description In place of a time: constant braking from the speed of the start to that of the goal, m/s2. */
+            braking_mps2?: (number | string) | null;
+            /** @description Metres to the left of the way. Default: as at the start on the same way, else 0. */
+            left_m?: (number | string) | null;
+            /** @description Place relative to another road user as it moves in the result. */
+            relation?: components["schemas"]["PatternRelation"] | null;
+            /** @description Speed, km/h. Default: that of the start. */
+            speed_kmh?: (number | string) | null;
+            /** @description Seconds after the start. */
+            time_s?: (number | string) | null;
+            /** @description Way of the goal. Default: that of the start. */
+            way?: components["schemas"]["PatternWay"] | null;
+        };
+        /**
+         * PatternParameter
+         * @description A number that may be varied.
+         */
+        PatternParameter: {
+            /** @description What it is. */
+            note?: string | null;
+            /** @description Least and greatest value. */
+            range: [
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Standard value.
+             */
+            value: number;
+        };
+        /**
+         * PatternRelation
+         * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m` and `behind_s`.
+         */
+        PatternRelation: {
+            /** @description Gap from the front of the other one to the own rear, metres. */
+            ahead_m?: (number | string) | null;
+            /** @description Gap from the own front to the rear of the other one, metres. */
+            behind_m?: (number | string) | null;
+            /** @description The same gap in seconds at the speed of the goal. */
+            behind_s?: (number | string) | null;
+            /**
+             * Format: int32
+             * @description Lanes to the left of the other one's; negative is to the right.
+             * @default 0
+             */
+            lanes_left?: number;
+            /** @description Its id. */
+            to: string;
+        };
+        /**
+         * PatternUser
+         * @description A road user of a pattern.
+         */
+        PatternUser: {
+            /** @description Start ahead of an earlier road user of the list: its id, with `gap_m`. */
+            ahead_of?: string | null;
+            /** @description Start along the way, metres from the place; negative is before it. */
+            at_m?: (number | string) | null;
+            /** @description Start along the way in seconds from the place at the own speed; negative is before it. */
+            at_s?: (number | string) | null;
+            /** @description Gap along the way between the two boxes, metres, with `ahead_of`. */
+            gap_m?: (number | string) | null;
+            /** @description Exact goal. Default: free. */
+            goal?: components["schemas"]["PatternGoal"] | null;
+            /** @description Letters, digits, - and _. */
+            id: string;
+            /** @description Metres to the left of the way. */
+            left_m?: (number | string) | null;
+            /** @description Length of its box, metres. Default: that of the type. */
+            length_m?: (number | string) | null;
+            /** @description Speed at the start, km/h. */
+            speed_kmh?: (number | string) | null;
+            /** @description Finer type, such as `child` or `truck`. */
+            subtype?: string | null;
+            /** @description Type. */
+            type: components["schemas"]["AgentType"];
+            /** @description Places of the own way that it passes, metres from the place, at any time; 4 at most. */
+            via_m?: (number | string)[];
+            /**
+             * @description The way that it starts on.
+             * @default own
+             */
+            way?: components["schemas"]["PatternWay"];
+            /** @description Width of its box, metres. Default: that of the type. */
+            width_m?: (number | string) | null;
+        };
+        /**
+         * PatternWay
+         * @description A way of the place, along which road users are put. All ways have the place at 0 m.
+         *
+         *     `own`: That of the subject.
+         *
+         *     `against`: That of the subject, in the opposite direction.
+         *
+         *     `other`: The lane that is crossed or joined.
+         *
+         *     `left`: The lane to the left, in the same direction.
+         *
+         *     `right`: The lane to the right, in the same direction.
+         *
+         *     `oncoming`: The lane in the opposite direction.
+         *
+         *     `from-left`: Across the own way, from the left: along the crosswalk where one is there.
+         *
+         *     `from-right`: Across the own way, from the right: along the crosswalk where one is there.
+         * @enum {string}
+         */
+        PatternWay: "own" | "against" | "other" | "left" | "right" | "oncoming" | "from-left" | "from-right";
         /**
          * PeekBody
          * @description Body of a peek.
@@ -4220,6 +4371,22 @@ export interface components {
             type?: "unknown" | "boundary" | "median" | "sidewalk";
         };
         /**
+         * RoadFeature
+         * @description What is at the place.
+         *
+         *     `lane`: A lane for motor vehicles outside of junctions.
+         *
+         *     `crosswalk`: A crosswalk over the way of the subject.
+         *
+         *     `crossing`: The way of the subject crosses another lane for motor vehicles.
+         *
+         *     `merge`: The way of the subject joins another lane.
+         *
+         *     `roundabout-entry`: The way of the subject joins a roundabout.
+         * @enum {string}
+         */
+        RoadFeature: "lane" | "crosswalk" | "crossing" | "merge" | "roundabout-entry";
+        /**
          * RoadLine
          * @description A painted line.
          */
@@ -4235,6 +4402,73 @@ export interface components {
              */
             type?: "unknown" | "broken_single_white" | "solid_single_white" | "solid_double_white" | "broken_single_yellow" | "broken_double_yellow" | "solid_single_yellow" | "solid_double_yellow" | "passing_double_yellow";
         };
+        /**
+         * RoadNeeds
+         * @description What the road must have.
+         */
+        RoadNeeds: {
+            /**
+             * Format: double
+             * @description Way of the subject after the place, metres. Most: 400.
+             * @default 0
+             */
+            after_m?: number;
+            /**
+             * Format: double
+             * @description Way of the subject before the place, metres. Most: 400.
+             * @default 0
+             */
+            before_m?: number;
+            /** @description The way of the subject bends within 60 m before the place, or stays straight there. Default: either. */
+            bend?: boolean | null;
+            /** @description What is there. */
+            feature: components["schemas"]["RoadFeature"];
+            /** @description From where the other way comes, as the subject sees it. */
+            from?: components["schemas"]["OtherSide"] | null;
+            /** @description Least and greatest speed limit of the lane, km/h. Default: any. */
+            limit_kmh?: [
+                number,
+                number
+            ] | null;
+            /** @description A lane beside the place. */
+            neighbor?: components["schemas"]["LaneSide"] | null;
+            /** @description A signal controls the way of the subject, or none does. Default: either. */
+            signal?: boolean | null;
+            /** @description How the way of the subject turns: from 25 m before the place to 5 m after it, on a lane over all of the way. */
+            turn?: components["schemas"]["RoadTurn"] | null;
+        };
+        /**
+         * RoadPattern
+         * @description A situation on any map: what the road must have, and who drives or walks there.
+         */
+        RoadPattern: {
+            /** @description Short name: letters, digits, - and _. */
+            name: string;
+            /** @description Numbers that may be varied, by name. */
+            parameters?: {
+                [key: string]: components["schemas"]["PatternParameter"];
+            };
+            /** @description The road. */
+            road: components["schemas"]["RoadNeeds"];
+            /** @description Where the parameters are from. */
+            source?: string | null;
+            /** @description One sentence. */
+            title: string;
+            /** @description Road users. The first one is the subject: its goal may stay free. */
+            users: components["schemas"]["PatternUser"][];
+        };
+        /**
+         * RoadTurn
+         * @description How a way turns.
+         *
+         *     `straight`: By less than 20 degrees.
+         *
+         *     `left`: To the left by more than 35 degrees.
+         *
+         *     `right`: To the right by more than 35 degrees.
+         * @enum {string}
+         */
+        RoadTurn: "straight" | "left" | "right";
         /**
          * Round
          * @description A round of cards.
@@ -4619,7 +4853,7 @@ export interface components {
             /** @description Demo scenes and those of the data folder; duplicate one to change it. */
             readonly: boolean;
             /** @description What others may do with it. */
-            shared?: components["schemas"]["Share"] | null;
+            shared?: components["schemas"]["SceneShare"] | null;
             /** @description Format or tool it came from. */
             source: string;
             /** @description Id in the source. */
@@ -4662,7 +4896,7 @@ export interface components {
              * @description What others may do with the scene, where scenes have owners; only its owner says so.
              * @default null
              */
-            shared?: components["schemas"]["Share"] | null;
+            shared?: components["schemas"]["SceneShare"] | null;
             /**
              * @description New tags; null removes all.
              * @default null
@@ -4803,6 +5037,18 @@ export interface components {
              */
             wrong_way_share: number | null;
         };
+        /**
+         * SceneShare
+         * @description What others than its owner may do with a scene.
+         *
+         *     `nobody`: Nothing: it is not found.
+         *
+         *     `read`: See, generate in and copy it.
+         *
+         *     `edit`: And change it; only its owner deletes it.
+         * @enum {string}
+         */
+        SceneShare: "nobody" | "read" | "edit";
         /**
          * ScoreReply
          * @description Answer to a score request.
@@ -5163,18 +5409,6 @@ export interface components {
             /** @description What the actor of a template does, in one sentence. */
             what?: string;
         };
-        /**
-         * Share
-         * @description What others than its owner may do with a scene.
-         *
-         *     `nobody`: Nothing: it is not found.
-         *
-         *     `read`: See, generate in and copy it.
-         *
-         *     `edit`: And change it; only its owner deletes it.
-         * @enum {string}
-         */
-        Share: "nobody" | "read" | "edit";
         /**
          * Shown
          * @description The future that was shown last.
