@@ -74,7 +74,8 @@ fn global_options_stand_in_one_line_of_each_command() {
 fn what_a_user_does_stands_before_the_lab() {
     let whole = help(&["-h"]);
     let names = commands(&whole);
-    assert_eq!(names[..7], ["serve", "generate", "batch", "replay", "index", "map", "place"]);
+    let first = ["serve", "generate", "batch", "replay", "index", "mine", "match", "map", "place"];
+    assert_eq!(names[..first.len()], first);
     assert_eq!(names.last(), Some(&"lab"));
     let output =
         Command::new(env!("CARGO_BIN_EXE_dragtraffic")).args(["train", "a.records"]).output().unwrap();
