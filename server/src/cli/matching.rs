@@ -1,10 +1,9 @@
 //! `dragtraffic match`: places of maps where a pattern fits, and a scene for each.
 
-use super::inputs::{Inputs, Reading, Source};
+use super::inputs::{Inputs, Item};
 use super::output::{self, Folder};
-use super::progress::Progress;
-use super::tally::Tally;
-use super::{Common, Failure, parallel};
+use super::tally::survey;
+use super::{Common, Failure};
 use batch::pattern::document::RoadPattern;
 use batch::pattern::place::PatternPlace;
 use batch::pattern::search::PatternSearch;
@@ -93,14 +92,9 @@ pub fn run(args: &MatchArgs, common: &Common) -> Result<(), Failure> {
     let inputs = Inputs { scenes: args.maps.maps.clone(), jobs: args.maps.jobs };
     let sources = inputs.sources()?;
     let folder = args.output.as_deref().map(|path| Folder::new(path, args.force)).transpose()?;
-    let progress = Progress::new("files", sources.len() as u64, common.quiet);
-    let (mut tally, mut maps) = (Tally::default(), Vec::new());
-    let work = |source: &Source| of_file(source, &patterns, folder.as_ref());
-    parallel::in_order(&sources, inputs.workers(), work, |_, found| {
-        tally.add(found.map(|found| maps.extend(found)), sources.len() == 1, &progress);
-        progress.step();
+    let (maps, tally) = survey(&sources, inputs.workers(), common.quiet, |_, _, item| {
+        of_map(item, &patterns, folder.as_ref())
     });
-    drop(progress);
     let text = if args.json { json(&patterns, &maps) } else { counts(&patterns, &maps) };
     output::print(text.as_bytes())?;
     tally.end("files")
@@ -121,28 +115,20 @@ fn patterns(word: &str) -> Result<Vec<RoadPattern>, Failure> {
     RoadPattern::parse(&output::read_text(Path::new(word))?).map(|pattern| vec![pattern]).map_err(refused)
 }
 
-fn of_file(
-    source: &Source,
-    patterns: &[RoadPattern],
-    folder: Option<&Folder>,
-) -> Result<Vec<MatchedMap>, Failure> {
-    let mut found = Vec::new();
-    source.each(&Reading::default(), &mut |item| {
-        let graph = LaneGraph::new(&item.scene.map);
-        let (mut lanes, mut places) = (0, Vec::new());
-        for pattern in patterns {
-            let search = PatternSearch::new(pattern, &item.scene, &graph);
-            let matched = search.all();
-            if let Some(folder) = folder {
-                write(folder, pattern, &item.scene, &item.name, &matched)?;
-            }
-            lanes = search.lanes();
-            places.push(matched);
+/// The places of all patterns on a map.
+fn of_map(item: Item, patterns: &[RoadPattern], folder: Option<&Folder>) -> Result<MatchedMap, Failure> {
+    let graph = LaneGraph::new(&item.scene.map);
+    let (mut lanes, mut places) = (0, Vec::new());
+    for pattern in patterns {
+        let search = PatternSearch::new(pattern, &item.scene, &graph);
+        let matched = search.all();
+        if let Some(folder) = folder {
+            write(folder, pattern, &item.scene, &item.name, &matched)?;
         }
-        found.push(MatchedMap { name: item.name, lanes, places });
-        Ok(())
-    })?;
-    Ok(found)
+        lanes = search.lanes();
+        places.push(matched);
+    }
+    Ok(MatchedMap { name: item.name, lanes, places })
 }
 
 /// Writes a scene for each place, with the standard values.

@@ -1,10 +1,9 @@
 //! `dragtraffic mine`: what happens in recorded scenes.
 
-use super::inputs::{Inputs, Reading, Source};
+use super::inputs::Inputs;
 use super::output;
-use super::progress::Progress;
-use super::tally::Tally;
-use super::{Common, Failure, parallel};
+use super::tally::survey;
+use super::{Common, Failure};
 use batch::mine::MinedTag;
 use batch::mine::table::{self, MinedScene};
 use clap::Args;
@@ -35,13 +34,9 @@ pub fn run(args: &MineArgs, common: &Common) -> Result<(), Failure> {
     if let Some(path) = &args.output {
         output::keep(path, args.force)?;
     }
-    let progress = Progress::new("files", sources.len() as u64, common.quiet);
-    let (mut tally, mut scenes) = (Tally::default(), Vec::new());
-    parallel::in_order(&sources, args.inputs.workers(), of_file, |_, found| {
-        tally.add(found.map(|found| scenes.extend(found)), sources.len() == 1, &progress);
-        progress.step();
+    let (scenes, tally) = survey(&sources, args.inputs.workers(), common.quiet, |source, number, item| {
+        Ok(MinedScene::new(source.shown(), number, item.name, &item.scene))
     });
-    drop(progress);
     if !scenes.is_empty() {
         let text = if args.json { json(&scenes) } else { counts(&scenes) };
         output::print(text.as_bytes())?;
@@ -50,16 +45,6 @@ pub fn run(args: &MineArgs, common: &Common) -> Result<(), Failure> {
         }
     }
     tally.end("files")
-}
-
-fn of_file(source: &Source) -> Result<Vec<MinedScene>, Failure> {
-    let mut found = Vec::new();
-    source.each(&Reading::default(), &mut |item| {
-        let number = found.len() as u64;
-        found.push(MinedScene::new(source.shown(), number, item.name, &item.scene));
-        Ok(())
-    })?;
-    Ok(found)
 }
 
 /// How often each tag is there, and in how many scenes.

@@ -1,7 +1,8 @@
 //! The outcome of work on many files: each failure is printed when it happens, and the exit code follows from all.
 
+use super::inputs::{Item, Reading, Source};
 use super::progress::Progress;
-use super::{Exit, Failure};
+use super::{Exit, Failure, parallel};
 
 /// What became of the items so far.
 #[derive(Default)]
@@ -41,4 +42,29 @@ impl Tally {
             Some(_) => Err(Failure::new(Exit::Partly, format!("{} of {all} {what} failed", self.failed))),
         }
     }
+}
+
+/// What the scenes of files give, in the order of the files, and the outcome of each file. `of_scene` takes a file, the
+/// number of the scene in it, and the scene.
+pub fn survey<T: Send>(
+    sources: &[Source],
+    workers: usize,
+    quiet: bool,
+    of_scene: impl Fn(&Source, u64, Item) -> Result<T, Failure> + Sync,
+) -> (Vec<T>, Tally) {
+    let progress = Progress::new("files", sources.len() as u64, quiet);
+    let of_file = |source: &Source| {
+        let mut found = Vec::new();
+        source.each(&Reading::default(), &mut |item| {
+            found.push(of_scene(source, found.len() as u64, item)?);
+            Ok(())
+        })?;
+        Ok(found)
+    };
+    let (mut tally, mut all) = (Tally::default(), Vec::new());
+    parallel::in_order(sources, workers, of_file, |_, found: Result<Vec<T>, Failure>| {
+        tally.add(found.map(|found| all.extend(found)), sources.len() == 1, &progress);
+        progress.step();
+    });
+    (all, tally)
 }
