@@ -40,7 +40,9 @@ impl WorkerPool {
         f: impl Fn(&T) -> R + Sync + Send,
     ) -> Vec<R> {
         match self.pool() {
-            Some(pool) if items.len() >= many => pool.install(|| items.par_iter().map(f).collect()),
+            Some(pool) if items.len() >= many && !is_in_another(pool) => {
+                pool.install(|| items.par_iter().map(f).collect())
+            }
             _ => items.iter().map(f).collect(),
         }
     }
@@ -54,9 +56,17 @@ impl WorkerPool {
     }
 }
 
+/// The caller's thread belongs to another pool. While it waited for this one it would begin more of its own pool's
+/// work, call in call, until its stack overflows; and that pool keeps the cores busy already.
+fn is_in_another(pool: &ThreadPool) -> bool {
+    rayon::current_thread_index().is_some() && pool.current_thread_index().is_none()
+}
+
 #[cfg(test)]
 mod tests {
     use super::WorkerPool;
+    use rayon::prelude::*;
+    use std::thread::ThreadId;
 
     #[test]
     fn order_is_kept() {
@@ -65,6 +75,19 @@ mod tests {
             let doubled = WorkerPool::new(threads).map(&items, |i| i * 2);
             assert_eq!(doubled, items.iter().map(|i| i * 2).collect::<Vec<_>>());
         }
+    }
+
+    #[test]
+    fn a_thread_of_another_pool_does_its_work_itself() {
+        let (ours, id) = (WorkerPool::new(2), |_: &usize| std::thread::current().id());
+        let of_caller = |_: usize| {
+            let own = std::thread::current().id();
+            ours.map(&[0; 4], id).iter().all(|other: &ThreadId| *other == own)
+        };
+        let foreign = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        assert!(foreign.install(|| (0..50).into_par_iter().map(of_caller).all(|is| is)));
+        // Work within work of the same pool is still cut up: no thread waits for itself.
+        assert_eq!(ours.map(&[2, 3], |n| ours.map(&vec![1; *n], |i| i * 2).len()), [2, 3]);
     }
 
     #[test]
