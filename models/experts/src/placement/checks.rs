@@ -5,7 +5,8 @@ use super::placed::PlacedAgent;
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 pub(super) use crate::tuning::placing::checks::END_M;
 use crate::tuning::placing::checks::{
-    BAND, BEFORE_M, LANE_REACH_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M, WALK_SIDE_M,
+    BAND, BEFORE_M, CROSSING_M, LANE_REACH_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M,
+    WALK_SIDE_M,
 };
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
@@ -36,7 +37,7 @@ impl Neighbours {
     }
 
     /// No obstacle is too near; `min_gap_m` is the room along the lane between drivers of the same direction. Drivers
-    /// that pass each other keep a gap, and nobody is on foot right before a driver.
+    /// that pass or cross each other keep a gap, and nobody is on foot right before a driver.
     pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
         let outline = placed.outline();
         let near = outline.grown(MARGIN_M);
@@ -46,6 +47,7 @@ impl Neighbours {
             OrientedBox::new(outline.center(), length_m, width_m, outline.heading_rad())
         };
         let (long, beside) = (wide(&outline, gap_m), wide(&outline, MARGIN_M));
+        let (passing, crossing) = (outline.grown(SIDE_M), outline.grown(CROSSING_M));
         let in_the_way = |next: &OrientedBox| overlaps(&near, next, 0.0);
         let apart = |(other, kept): (&Obstacle, &KindOnLane)| {
             let (agent_type, lane) = kept;
@@ -53,7 +55,8 @@ impl Neighbours {
             let other = &other.outline;
             match (placed.lane.is_some(), lane.is_some()) {
                 (true, true) if turn < FRAC_PI_4 => !overlaps(&long, other, 0.0),
-                (true, true) if turn > 3.0 * FRAC_PI_4 => !overlaps(&beside, other, 0.0),
+                (true, true) if turn > 3.0 * FRAC_PI_4 => !overlaps(&passing, other, 0.0),
+                (true, true) => !overlaps(&crossing, other, 0.0),
                 (true, false) if *agent_type != AgentType::Vehicle => {
                     !overlaps(&before(&outline), other, 0.0)
                 }
@@ -233,7 +236,11 @@ mod tests {
         assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap along the lane");
         assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
         let across = car(10.0, 0.0, 1.0, CellKind::Lane);
-        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "a crossing vehicle has no follower");
+        assert!(beside(&across, true).is_free(&at(4.5), 5.0), "a crossing vehicle has no follower");
+        assert!(
+            !beside(&across, true).is_free(&at(5.2), 0.0),
+            "it is crossed with more room than it is passed"
+        );
         assert!(beside(&leader, true).is_free(&car(10.0, 2.45, 0.0, CellKind::Lane), 2.0));
         assert!(!beside(&leader, true).is_free(&car(10.0, 2.35, 0.0, CellKind::Lane), 2.0));
     }

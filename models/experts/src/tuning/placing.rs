@@ -76,6 +76,8 @@ numbers! {
         MARGIN_M: f64 = 0.1;
         /// The same to the side between two that drive, metres: lanes keep them farther apart than doors need.
         SIDE_M: f64 = 0.4;
+        /// The same about a driver that another one crosses, metres: a little more than the gap of a near miss.
+        CROSSING_M: f64 = 1.2;
         /// A vehicle is at least so far before the end of a lane that leaves the map, metres: it must be seen for a while.
         END_M: f64 = 8.0;
         /// Vehicles longer than this stand straight on their lane only where nose and tail are on a lane too, metres.
