@@ -24,7 +24,7 @@ use std::sync::LazyLock;
 pub(super) static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 
 /// The states of a future, and whether it meets the goal.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Rollout {
     pub(super) states: Trajectory,
     pub(super) reach: Reach,

@@ -5,7 +5,7 @@ use crate::request::Request;
 use scene::judge::{Change, Fault, Judge, Other};
 use scene::motion::Trajectory;
 use scene::score::Actor;
-use scene::{Agent, Future, HORIZON_STEPS, Vec2};
+use scene::{Agent, Future, HORIZON_STEPS, State, Vec2};
 
 /// An agent farther than this from a motion can meet none of it, metres: half a long vehicle, and as much for the
 /// near miss.
@@ -27,32 +27,49 @@ pub(super) struct ChangedAgent {
     pub(super) is_caused: bool,
 }
 
-/// The faults of a motion of an agent, given by its index; `changed` are the agents that do not keep theirs.
-pub(super) fn faults(
-    setting: &WindowSetting<'_>,
-    judge: &Judge<'_>,
+/// A motion of an agent, to be judged.
+pub(super) struct JudgedMotion<'a> {
+    setting: &'a WindowSetting<'a>,
+    /// Index into the scene's agents.
     agent: usize,
-    motion: &Trajectory,
-    changed: &[ChangedAgent],
-) -> Vec<Fault> {
-    let request = &*setting.request;
-    let agents = &request.scene.agents;
-    let future = Future::bare(1.0, setting.world.step + 1, setting.cut(motion));
-    // What the recording does later must not show in what is chosen.
-    let actor = Actor { log: None, reference: None, ..Actor::of_future(&agents[agent], &future, &[]) };
-    let mut faults = judge.alone(&actor);
-    let ground = MotionExtent::about(motion.iter().map(|s| s.position));
-    let others = agents.iter().enumerate().filter(|(i, _)| *i != agent).map(|(i, other)| {
-        let new = changed.iter().find(|other| other.agent == i).map(|other| &other.future);
-        as_taken(request, other, new)
-    });
-    let others = others.filter(|o| o.track.states.iter().flatten().any(|s| ground.holds(s.position())));
-    let others: Vec<Other<'_>> = others.map(|other| judge.other(other)).collect();
-    faults.extend(judge.among(&actor, others.iter()));
-    let caused = changed.iter().filter(|other| other.is_caused);
-    let changes = caused.map(|other| change(request, &agents[other.agent], &other.future));
-    faults.extend(judge.towards(&actor, &changes.collect::<Vec<_>>()));
-    faults
+    future: Future,
+}
+
+impl<'a> JudgedMotion<'a> {
+    /// Of the agent of this index.
+    pub(super) fn new(setting: &'a WindowSetting<'a>, agent: usize, motion: &Trajectory) -> Self {
+        let future = Future::bare(1.0, setting.world.step + 1, setting.cut(motion));
+        Self { setting, agent, future }
+    }
+
+    /// What the recording does later must not show in what is chosen.
+    fn actor(&self) -> Actor<'_> {
+        let agent = &self.setting.request.scene.agents[self.agent];
+        Actor { log: None, reference: None, ..Actor::of_future(agent, &self.future, &[]) }
+    }
+
+    /// The faults that do not involve another agent.
+    pub(super) fn alone(&self, judge: &Judge<'_>) -> Vec<Fault> {
+        judge.alone(&self.actor())
+    }
+
+    /// The faults that involve another agent; `changed` are those that do not keep their motions.
+    pub(super) fn among(&self, judge: &Judge<'_>, changed: &[ChangedAgent]) -> Vec<Fault> {
+        let (actor, request) = (self.actor(), &*self.setting.request);
+        let agents = &request.scene.agents;
+        let ground = MotionExtent::about(self.future.states.iter().map(State::position));
+        let others = agents.iter().enumerate().filter(|(i, _)| *i != self.agent).map(|(i, other)| {
+            let new = changed.iter().find(|other| other.agent == i).map(|other| &other.future);
+            as_taken(request, other, new)
+        });
+        let others = others.filter(|o| o.track.states.iter().flatten().any(|s| ground.holds(s.position())));
+        let others: Vec<Other<'_>> = others.map(|other| judge.other(other)).collect();
+        let mut faults = judge.among(&actor, others.iter());
+        let caused = changed.iter().filter(|other| other.is_caused);
+        let changes = caused.map(|other| change(request, &agents[other.agent], &other.future));
+        faults.extend(judge.towards(&actor, &changes.collect::<Vec<_>>()));
+        faults
+    }
 }
 
 /// A road user with a new motion; without one with the future that the scene keeps, or its log.

@@ -214,7 +214,7 @@ numbers! {
     /// Of staying behind another agent.
     following {
         /// Braking that is tried, from easy to hard: shares of the hardest.
-        BRAKES: [f64; 3] = [0.25, 0.45, 0.9];
+        BRAKES: [f64; 4] = [0.25, 0.4, 0.65, 0.9];
         /// Distance to what is ahead, metres.
         GAP_M: f64 = 2.0;
         /// And time at its own speed, seconds.

@@ -207,21 +207,23 @@ impl<'a> Going<'a> {
             return false;
         }
         let (gap_m, towards) = gap_and_direction(self.outline, other.outline);
-        if gap_m < limits.pass_gap_m && speed > limits.pass_mps {
+        let closing = relative.dot(&towards);
+        let turn = wrap_angle(self.outline.heading_rad() - other.outline.heading_rad()).abs();
+        let follows = turn < FRAC_PI_6 && towards.dot(&self.outline.forward()).abs() > 0.7;
+        // Scores look three times as often: those that pass or cross may be nearer between two moments.
+        let least_m = if follows { gap_m } else { gap_m - 0.5 * MOMENT_S * closing.abs() };
+        if least_m < limits.pass_gap_m && speed > limits.pass_mps {
             return true;
         }
-        let closing = relative.dot(&towards);
         if closing <= least_mps {
             return false;
         }
-        let turn = wrap_angle(self.outline.heading_rad() - other.outline.heading_rad()).abs();
-        let follows = turn < FRAC_PI_6 && towards.dot(&self.outline.forward()).abs() > 0.7;
         if follows && closing * closing / (2.0 * gap_m.max(0.05)) <= limits.follow_brake_mps2 {
             return false;
         }
         let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
         let moves = |one: &Self| one.velocity.norm() > limits.moving_mps;
-        if crosses && gap_m < limits.gap_m && moves(self) && moves(other) {
+        if crosses && least_m < limits.gap_m && moves(self) && moves(other) {
             return true;
         }
         LOOKS_S.iter().any(|t| overlaps(&self.later(*t), &other.later(*t), 0.0))

@@ -81,12 +81,15 @@ impl OptionTable<'_> {
             let deciding = pair.into_iter().filter(|k| now.left.get(*k).is_some_and(|left| *left > 0));
             let deciding: Vec<usize> = deciding.collect();
             let mut best: Option<(f64, usize, usize)> = None;
-            for k in deciding {
-                now.left[k] -= 1;
+            for &k in &deciding {
                 let Some((gain, option)) = self.yielding(k, &now) else { continue };
                 if best.is_none_or(|(most, ..)| gain > most) {
                     best = Some((gain, k, option));
                 }
+            }
+            // Where nothing helps now, the change of another one may.
+            for k in best.map_or(deciding, |(_, k, _)| vec![k]) {
+                now.left[k] -= 1;
             }
             if let Some((_, k, option)) = best {
                 now.chosen[k] = option;
@@ -129,10 +132,7 @@ impl OptionTable<'_> {
         bases.extend(Some(meant).filter(|meant| *meant != now.chosen[i]));
         let found: Vec<MotionCandidate> =
             bases.into_iter().flat_map(|option| self.behind(i, option, &all)).collect();
-        let from = self.candidates[i].len();
-        self.candidates[i].extend(found);
-        self.choice.agents[i] = self.options(i);
-        let found = (from..self.candidates[i].len()).map(|option| (before - total(self, option), option));
+        let found = self.add(i, found).into_iter().map(|option| (before - total(self, option), option));
         found.filter(|(gain, _)| *gain > 1e-9).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
     }
 }

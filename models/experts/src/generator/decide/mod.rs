@@ -15,7 +15,7 @@ use crate::generator::replan::{ReplanField, stop_before, swerve};
 use crate::generator::repulsion::{Outline, outlines};
 use crate::generator::road_rules::{is_against_traffic, leaves_the_road};
 use crate::generator::trajectory::{Rollout, short_along};
-use crate::generator::verdict::{ChangedAgent, faults, window_judge};
+use crate::generator::verdict::{ChangedAgent, JudgedMotion, window_judge};
 use crate::planning::PER_INSTANT;
 use crate::request::{React, Shown};
 use crate::tuning::fixed::following::BRAKES;
@@ -151,8 +151,15 @@ impl OptionTable<'_> {
                 if misses(o) && best.0 != FaultKind::Collision {
                     break;
                 }
+                let alone = self.judged(i, o).alone(&self.judge);
+                // The others can only make it worse.
+                let is_no_better = |fault| fault <= best.0 || goes_on && best.0 != FaultKind::Collision;
+                if worst_kind(alone.iter()).is_some_and(is_no_better) {
+                    continue;
+                }
                 let next = self.with_option(i, o, &best.1);
-                let Some(worst) = self.worst_fault(i, &next) else { return next };
+                let among = self.faults_among(i, &next);
+                let Some(worst) = worst_kind(alone.iter().chain(&among)) else { return next };
                 // Only a collision is worth another motion that has a fault too.
                 if worst > best.0 && (!goes_on || best.0 == FaultKind::Collision) {
                     best = (worst, next);
@@ -173,7 +180,7 @@ impl OptionTable<'_> {
             let worst = self.worst_fault(i, &settled);
             return (settled, worst);
         };
-        let grave = |of: &Settled| worst(self.faults(i, of).iter().filter(|fault| !is_slight(fault)));
+        let grave = |of: &Settled| worst_kind(self.faults(i, of).iter().filter(|fault| !is_slight(fault)));
         if settled.chosen[i] == shown {
             let fault = grave(&settled);
             return (settled, fault);
@@ -195,11 +202,24 @@ impl OptionTable<'_> {
 
     /// The worst fault of the chosen motion of an actor.
     fn worst_fault(&self, i: usize, settled: &Settled) -> Option<FaultKind> {
-        worst(self.faults(i, settled).iter())
+        worst_kind(self.faults(i, settled).iter())
     }
 
     /// All faults of the chosen motion of an actor.
     fn faults(&self, i: usize, settled: &Settled) -> Vec<Fault> {
+        let mut faults = self.judged(i, settled.chosen[i]).alone(&self.judge);
+        faults.extend(self.faults_among(i, settled));
+        faults
+    }
+
+    /// The motion of an option, to be judged.
+    fn judged(&self, i: usize, option: usize) -> JudgedMotion<'_> {
+        let agent = self.of.actors[i].plan.present.index;
+        JudgedMotion::new(self.of.setting, agent, &self.candidates[i][option].motion.states)
+    }
+
+    /// The faults of the chosen motion of an actor that involve other agents.
+    fn faults_among(&self, i: usize, settled: &Settled) -> Vec<Fault> {
         let setting = self.of.setting;
         let first_step = setting.world.step + 1;
         let id = &self.of.actors[i].id;
@@ -218,8 +238,7 @@ impl OptionTable<'_> {
             is_caused: reacted.reaction.as_ref().is_some_and(|r| r.cause == *id),
         });
         let changed: Vec<_> = settled.chosen.iter().enumerate().filter_map(acting).chain(reacted).collect();
-        let motion = &self.candidates[i][settled.chosen[i]].motion.states;
-        faults(setting, &self.judge, self.of.actors[i].plan.present.index, motion, &changed)
+        self.judged(i, settled.chosen[i]).among(&self.judge, &changed)
     }
 
     fn change(&self, i: usize, taken: &MotionCandidate, sweep: Arc<Sweep>) -> ChangedMotion {
@@ -293,11 +312,28 @@ impl OptionTable<'_> {
         let mut changes = false;
         for (i, (found, met)) in found.into_iter().enumerate().filter(|(_, (found, _))| !found.is_empty()) {
             blockers[i] = blockers[i].take().or(met);
-            self.candidates[i].extend(found);
-            self.choice.agents[i] = self.options(i);
-            changes = true;
+            let known = self.candidates[i].len();
+            changes |= self.add(i, found).into_iter().any(|option| option >= known);
         }
         changes
+    }
+
+    /// Adds candidates of an actor with their options; returns the option of each. One that is known is not added again.
+    fn add(&mut self, i: usize, found: Vec<MotionCandidate>) -> Vec<usize> {
+        let candidates = &mut self.candidates[i];
+        let known = candidates.len();
+        let place = |new: MotionCandidate| {
+            let is_same = |c: &MotionCandidate| c.origin == new.origin && c.motion == new.motion;
+            candidates.iter().position(is_same).unwrap_or_else(|| {
+                candidates.push(new);
+                candidates.len() - 1
+            })
+        };
+        let added: Vec<usize> = found.into_iter().map(place).collect();
+        if self.candidates[i].len() > known {
+            self.choice.agents[i] = self.options(i);
+        }
+        added
     }
 
     /// Replanned motions of one actor, and the agent that its chosen motion meets.
@@ -459,8 +495,7 @@ impl OptionTable<'_> {
             guided(&energy, tuning, &actors[i], &drafts[i].modes, &self.candidates[i], &near)
         });
         for (i, found) in concerned.into_iter().zip(found) {
-            self.candidates[i].extend(found);
-            self.choice.agents[i] = self.options(i);
+            self.add(i, found);
         }
         *chosen = self.choice.solve();
     }
@@ -506,7 +541,7 @@ impl OptionTable<'_> {
 }
 
 /// The worst of these faults; a missed goal or via point is none here.
-fn worst<'f>(faults: impl Iterator<Item = &'f Fault>) -> Option<FaultKind> {
+fn worst_kind<'f>(faults: impl Iterator<Item = &'f Fault>) -> Option<FaultKind> {
     faults.map(|fault| fault.kind).filter(|kind| *kind <= FaultKind::NearMiss).min()
 }
 
