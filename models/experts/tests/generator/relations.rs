@@ -86,6 +86,8 @@ fn who_may_react_keeps_its_relation_to_a_regenerated_agent() {
 #[test]
 fn relations_are_placed_one_after_the_other() {
     let mut scene = behind(8.0);
+    // Straight on: in a turn the gap along the lane is longer than the straight line.
+    scene.agents[0].conditions.goal = Goal { position: Some(Vec2::new(30.0, -1.75)), ..Goal::default() };
     let mut third = agent("7", AgentType::Vehicle, (-75.0, -1.75), 0.0, 9.0);
     relate(&mut third, "2", RelativePlace::Behind(6.0));
     scene.agents.push(third);
