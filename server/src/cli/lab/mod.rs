@@ -62,6 +62,7 @@ impl LabCommand {
     /// # Errors
     /// Those of the command.
     pub fn run(self, common: &Common) -> Result<(), Failure> {
+        look_at_scenes_side_by_side();
         match self {
             Self::Synthesize(args) => synthesize::synthesize(args, common),
             Self::Statistics(args) => statistics::statistics(args),
@@ -75,6 +76,14 @@ impl LabCommand {
             Self::Bench(args) => eval::bench(args, common),
         }
     }
+}
+
+/// Starts the threads over which the lab cuts scenes and files, one a core: the program's own setting
+/// (`RAYON_NUM_THREADS`) is meant for products of matrices. Results keep the order of their inputs.
+fn look_at_scenes_side_by_side() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    // Fails only where there are such threads already.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
 }
 
 /// Scenes to look at.
