@@ -124,6 +124,50 @@ mod opendrive {
     }
 
     #[test]
+    fn a_step_of_the_lane_offset_moves_the_next_section_alone() {
+        // From 30 m on the lanes are counted from 3.5 m further left, and a lane that is none comes first.
+        let step = "<laneOffset s='0' a='0'/><laneOffset s='30' a='3.5'/>".to_owned();
+        let first = step
+            + &section(0.0, &[(-1, "<successor id='-2'/>")])
+            + &section(30.0, &[(-2, "<predecessor id='-1'/><successor id='-1'/>"), (-1, "")]);
+        let second = section(0.0, &[(-1, "<predecessor id='-2'/>")]);
+        let imported = map(&two_roads(&first, &second), "a.xodr");
+        let scene = &imported.0;
+        let before = lane(&scene.map, "1.0.-1");
+        for p in before.points.xy.iter().map(|p| place(scene, *p)) {
+            assert!((p.y + 1.75).abs() < 0.01, "{p:?}");
+        }
+        assert!((place(scene, *before.points.xy.last().unwrap()).x - 30.0).abs() < 0.01);
+        assert_eq!(before.successors.len(), 1);
+        let next = lane(&scene.map, &before.successors[0]);
+        assert!((place(scene, next.points.xy[0]) - Vec2::new(30.0, -1.75)).norm() < 0.01);
+        assert_eq!(next.successors, ["2.0.-1"]);
+        assert!(!codes(&imported).contains(&"links-dropped"), "{:?}", codes(&imported));
+    }
+
+    #[test]
+    fn a_lane_through_a_junction_leads_back_to_the_incoming_road() {
+        let road = |id: usize, x: f64, junction: &str, link: &str| {
+            format!(
+                "<road id='{id}' length='20' junction='{junction}'><link>{link}</link><planView><geometry s='0' x='{x}' \
+                 y='0' hdg='0' length='20'><line/></geometry></planView><lanes>{}</lanes></road>",
+                section(0.0, &[(-1, ""), (1, "")])
+            )
+        };
+        let text = format!(
+            "<OpenDRIVE><header/>{}{}<junction id='9'><connection id='0' incomingRoad='1' connectingRoad='2' \
+             contactPoint='start'><laneLink from='-1' to='-1'/><laneLink from='1' to='1'/></connection></junction>\
+             </OpenDRIVE>",
+            road(1, 0.0, "-1", "<successor elementType='junction' elementId='9'/>"),
+            road(2, 20.0, "9", "<predecessor elementType='road' elementId='1' contactPoint='end'/>")
+        );
+        let (scene, _) = map(&text, "a.xodr");
+        let mut found = links(&scene.map);
+        found.sort_unstable();
+        assert_eq!(found, [("1.0.-1", "2.0.-1"), ("2.0.1", "1.0.1")]);
+    }
+
+    #[test]
     fn links_across_gaps_are_dropped_and_said() {
         let imported = map(include_str!("fixtures/foreign/xodr-link-across-40-m.xodr"), "a.xodr");
         assert!(
@@ -370,6 +414,30 @@ mod sumo {
         assert_eq!((b.x_m - a.x_m, b.y_m - a.y_m), (500_000.0, 5_400_000.0));
         assert!(b.crs.as_ref().unwrap().contains("+zone=32") && a.crs.is_none());
         assert!(warnings.iter().all(|warning| !warning.code.contains("projection")));
+    }
+
+    #[test]
+    fn a_lane_without_width_is_left_out_and_said() {
+        let net = r#"<net><edge id="a" from="w" to="e">
+            <lane id="a_0" index="0" speed="13.9" length="50" width="0" shape="0,-3.2 50,-3.2"/>
+            <lane id="a_1" index="1" speed="13.9" length="50" width="-1" shape="0,-1.6 50,-1.6"/></edge></net>"#;
+        let imported = map(net, "a.net.xml");
+        let lanes = &imported.0.map.lanes;
+        assert_eq!((lanes.len(), lanes[0].width_m), (1, Some(3.2)));
+        assert!(codes(&imported).contains(&"lanes-dropped"), "{:?}", codes(&imported));
+    }
+
+    #[test]
+    fn a_way_through_a_junction_leads_where_its_connection_does() {
+        // No connection leaves the inner lane.
+        let net = r#"<net><edge id=":c_0" function="internal">
+            <lane id=":c_0_0" index="0" speed="8" length="5" shape="50,-1.6 55,-1.6"/></edge>
+            <edge id="a" from="w" to="c"><lane id="a_0" index="0" speed="13.9" length="50" shape="0,-1.6 50,-1.6"/></edge>
+            <edge id="b" from="c" to="e"><lane id="b_0" index="0" speed="13.9" length="50" shape="55,-1.6 99,-1.6"/></edge>
+            <junction id="c" type="priority" x="52" y="0"/>
+            <connection from="a" to="b" fromLane="0" toLane="0" via=":c_0_0" dir="s" state="M"/></net>"#;
+        let (scene, _) = map(net, "a.net.xml");
+        assert_eq!(links(&scene.map), [("1", "3"), ("2", "1")]);
     }
 
     #[test]

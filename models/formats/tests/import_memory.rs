@@ -163,6 +163,30 @@ fn roads(count: usize, length_m: usize) -> Vec<u8> {
     gzip((text + "</OpenDRIVE>").as_bytes())
 }
 
+/// Straight roads on each other, in sections of 1.9 km with as many points as a lane may have.
+fn straight_roads(count: usize, lanes: usize, length_m: usize) -> Vec<u8> {
+    let mut text = String::from("<OpenDRIVE>");
+    let lane = |id: usize| {
+        format!(
+            "<lane id=\"-{id}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>\
+             <roadMark sOffset=\"0\" type=\"broken\" color=\"white\" width=\"0.12\"/></lane>"
+        )
+    };
+    let lanes: String = (1..=lanes).map(lane).collect();
+    for i in 0..count {
+        let sections = (0..length_m.div_ceil(1_900))
+            .map(|k| format!("<laneSection s=\"{}\"><right>{lanes}</right></laneSection>", k * 1_900));
+        let sections: String = sections.collect();
+        write!(
+            text,
+            "<road id=\"{i}\" length=\"{length_m}\"><planView><geometry s=\"0\" x=\"0\" y=\"{i}\" hdg=\"0\" \
+             length=\"{length_m}\"><line/></geometry></planView><lanes>{sections}</lanes></road>"
+        )
+        .unwrap();
+    }
+    gzip((text + "</OpenDRIVE>").as_bytes())
+}
+
 /// Lanelets of 20 points a side.
 fn lanelets(count: usize) -> Vec<u8> {
     let (mut nodes, mut ways, mut relations) = (String::new(), String::new(), String::new());
@@ -292,6 +316,16 @@ fn reading_takes_little_beside_the_file() {
         ("opendrive", "opendrive", Box::new(roads(250, 150)), 1, None, 64),
         // As long lanes as are let through, over and over each other: where roads do, their edges cross.
         ("long roads", "opendrive", Box::new(roads(8, 4_900)), 1, None, 64),
+        // Two motorways on each other, as long as are let through.
+        ("straight roads", "opendrive", Box::new(straight_roads(2, 8, 11_000)), 1, None, 64),
+        (
+            "more straight roads",
+            "opendrive",
+            Box::new(straight_roads(12, 8, 11_000)),
+            0,
+            Some("decoded-too-large"),
+            16,
+        ),
         // A line of text says how a curve goes on for kilometres.
         ("longer roads", "opendrive", Box::new(roads(50, 4_900)), 0, Some("decoded-too-large"), 16),
         (

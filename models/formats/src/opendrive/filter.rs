@@ -5,6 +5,7 @@
 //! limits far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates
 //! move to the middle of the file's first road, because the crate keeps them in single precision.
 
+use super::bends::{LANE_MEMORY, LaneOffset, RoadBends, STRAIGHT_ROADS, number};
 use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
 use crate::around::Chosen;
 use crate::limits::memory_for;
@@ -34,10 +35,8 @@ const MAX_OBJECTS: usize = 10_000;
 /// Longest reference lines, and longest lanes, all together, metres.
 const MAX_LINES_M: f64 = 500_000.0;
 const MAX_LANES_M: f64 = 500_000.0;
-/// Most memory, bytes, for each metre of lane, each lane of a section, each element and each byte that is
-/// kept. It covers points, borders and crossing edges; the fixed cost of a lane; nodes; the text and its copy
-/// in the tree.
-const LANE_MEMORY: f64 = 800.0;
+/// Most memory, bytes, for each lane of a section, each element and each byte that is kept, beside that for each
+/// metre of lane. It covers the fixed cost of a lane; nodes; the text and its copy in the tree.
 const LANE_OWN_MEMORY: f64 = 4_000.0;
 const ELEMENT_MEMORY: f64 = 700.0;
 const TEXT_MEMORY: f64 = 2.0;
@@ -56,6 +55,10 @@ const RAISED_M: f64 = 0.05;
 
 /// Limits of speed change no nearer to each other, or to an end of a section, metres.
 const LEAST_STRETCH_M: f64 = 1.0;
+/// A `<laneOffset>` that begins so far from where the one before has led is a step, metres.
+const STEP_M: f64 = 0.05;
+/// Places along a road that are the same, metres.
+const SAME_M: f64 = 1e-4;
 
 /// Elements that are kept, by the one that they are in.
 const KEPT: &[(&str, &[&str])] = &[
@@ -119,6 +122,8 @@ pub(super) struct Filtered {
     pub faults: Vec<String>,
     /// No road is taken.
     pub is_empty: bool,
+    /// Links of lanes at junctions.
+    pub junctions: Vec<JunctionLink>,
     /// Lanes that have borders in a section with widths, and their length, metres.
     pub bordered: (usize, f64),
 }
@@ -153,6 +158,7 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Filtered, R
     filter.out.is_empty = filter.links.roads.is_empty();
     let mut edits = filter.edits;
     edits.extend(filter.links.edits());
+    filter.out.junctions = filter.links.junctions;
     filter.out.text = short::edited(filter.out.text, edits);
     Ok(filter.out)
 }
@@ -171,6 +177,8 @@ struct Road {
     sections: Vec<FilteredSection>,
     /// Where limits of speed begin along the road, and what they are.
     speeds: Vec<(f64, Option<String>)>,
+    offsets: Vec<LaneOffset>,
+    bends: RoadBends,
     ends: [Option<RoadEnd>; 2],
 }
 
@@ -246,8 +254,9 @@ struct Filter {
     objects: usize,
     lines_m: f64,
     lanes_m: f64,
-    /// Metres of drawn lanes: all but the centre lanes.
+    /// Metres of drawn lanes: all but the centre lanes; and memory for them, bytes.
     drawn_m: f64,
+    drawn_memory: f64,
     steps: f64,
     /// Most bytes of memory.
     room: u64,
@@ -267,6 +276,7 @@ impl Filter {
             }
             return self.keep(element, &[]);
         };
+        self.road.bends.take(element);
         let known =
             KEPT.iter().any(|(name, inner)| *name == parent && inner.contains(&element.name.as_str()));
         let outside = |name| element.get(name).is_some_and(|id| self.outside.contains(id));
@@ -338,6 +348,9 @@ impl Filter {
                     (section.gives[left], linked.gives[left]) = (true, true);
                 }
             }
+            ("lanes", "laneOffset", _) => {
+                self.road.offsets.push(LaneOffset::of(element));
+            }
             ("road", "type", _) => self.road.speeds.push((number(element, "s").unwrap_or(0.0), None)),
             ("type", "speed", _) => {
                 if let Some((_, limit)) = self.road.speeds.last_mut() {
@@ -395,6 +408,7 @@ impl Filter {
         }
         if name == "lanes" {
             self.split_at_limits()?;
+            self.end_before_steps();
         }
         if name == "lane" {
             self.lane = None;
@@ -499,7 +513,7 @@ impl Filter {
 
     /// Checks that the result fits the memory for a file of this size.
     fn fits(&self) -> Result<(), ReadError> {
-        let made = LANE_MEMORY * self.drawn_m
+        let made = self.drawn_memory
             + LANE_OWN_MEMORY * self.lanes as f64
             + ELEMENT_MEMORY * self.kept as f64
             + TEXT_MEMORY * self.out.text.len() as f64;
@@ -564,6 +578,32 @@ impl Filter {
         self.out.faults.push(fault);
         self.edits.push((road.length_at.clone(), line_m.to_string()));
         road.length_m = line_m;
+    }
+
+    /// Ends a section just before a `<laneOffset>` that moves all lanes aside begins with the next one: the crate
+    /// would place the end of the section by that record. What lies between is too short to have lanes.
+    fn end_before_steps(&mut self) {
+        let road = &mut self.road;
+        road.offsets.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+        let steps = road.offsets.windows(2).filter(|pair| pair[0].step_m(&pair[1]) > STEP_M);
+        let mut added = Vec::new();
+        for s_m in steps.map(|pair| pair[1].s_m) {
+            let at = road.sections.partition_point(|section| section.s_m < s_m - SAME_M);
+            let next = road.sections.get(at);
+            let begins = next.map_or(road.length_m, |section| section.s_m);
+            let Some(before) = at.checked_sub(1).and_then(|i| road.sections.get(i)) else { continue };
+            let place = s_m - short::SHORT_M / 2.0;
+            // The section before must stay long enough to have lanes; a side that goes on has no end here.
+            let ends = next.is_none_or(|section| section.gives == [true; 2]);
+            if !ends || (begins - s_m).abs() > SAME_M || place - before.s_m < 2.0 * short::SHORT_M {
+                continue;
+            }
+            let _ = write!(self.out.text, "<laneSection s=\"{place}\"></laneSection>");
+            self.sections.push(LinkedSection { s_m: place, ..LinkedSection::default() });
+            added.push(FilteredSection { s_m: place, ..FilteredSection::default() });
+        }
+        self.kept += added.len();
+        road.sections.append(&mut added);
     }
 
     /// Begins a section where a limit of speed changes, with the lanes of the one before, so that each lane has one
@@ -660,11 +700,15 @@ impl Filter {
             let carried = raised.into_iter().filter(|lane| !gives[usize::from(*lane > 0)]);
             road.sections[i].raised.extend(carried);
         }
+        let is_first = self.links.roads.len() <= STRAIGHT_ROADS;
+        let lane_memory = if is_first { road.bends.lane_memory(road.length_m) } else { LANE_MEMORY };
         let widest = road.sections.iter().map(|section| section.lanes).max().unwrap_or(0);
         for (i, section) in road.sections.iter().enumerate() {
             let end_m = road.sections.get(i + 1).map_or(road.length_m, |next| next.s_m).min(road.length_m);
             self.lanes_m += (end_m - section.s_m).max(0.0) * section.lanes as f64;
-            self.drawn_m += (end_m - section.s_m).max(0.0) * section.drawn as f64;
+            let drawn_m = (end_m - section.s_m).max(0.0) * section.drawn as f64;
+            self.drawn_m += drawn_m;
+            self.drawn_memory += lane_memory * drawn_m;
             let raised = section.raised.iter().map(|lane| (road.id.clone(), i, *lane));
             self.out.raised.extend(raised);
             if section.has_widths && section.bordered > 0 {
@@ -720,10 +764,6 @@ pub(super) fn is_stop_line(element: &Element) -> bool {
         letters.collect::<String>().to_ascii_lowercase().contains("stopline")
     };
     says("name") || says("subtype")
-}
-
-fn number(element: &Element, name: &str) -> Option<f64> {
-    element.get(name)?.trim().parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 /// Writes an attribute's value as XML has it; what XML cannot hold becomes a space.

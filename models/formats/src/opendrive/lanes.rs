@@ -1,6 +1,7 @@
 //! Lanes of a network as lanes of a map: which of them traffic uses, and what follows what.
 
 use super::sections::{MAX_PIECES, Section, SectionLane, dense};
+use super::short::JunctionLink;
 use crate::map_file;
 use scene::Vec2;
 use scene::map::{Lane, LaneMap, LaneType, Neighbor, Points};
@@ -72,7 +73,12 @@ pub(super) fn is_road(section: &Section, at: usize) -> bool {
 }
 
 /// Draws the lanes of all sections, with their links and neighbours.
-pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMap) -> Found {
+pub(super) fn draw(
+    network: &RoadNetwork,
+    sections: &[Section],
+    junctions: &[JunctionLink],
+    map: &mut LaneMap,
+) -> Found {
     let mut found = Found::new();
     let mut ids = HashSet::new();
     for section in sections {
@@ -108,6 +114,7 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMa
         beside(section, &found, map);
     }
     link(network, &found, map);
+    link_back(sections, junctions, &found, map);
     found
 }
 
@@ -237,4 +244,47 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
             }
         }
     }
+}
+
+/// Links lanes that lead through a junction towards the incoming road to that road: a `<laneLink>` holds for both
+/// directions, but the crate takes it as the way into the junction alone.
+fn link_back(sections: &[Section], junctions: &[JunctionLink], found: &Found, map: &mut LaneMap) {
+    // Lanes of the sections at both ends of each road, by the road and the number.
+    let mut ends: HashMap<(&str, i32), Vec<LaneId>> = HashMap::new();
+    let is_end = |i: usize| {
+        let road = |i: usize| sections.get(i).map(|section| section.road.as_str());
+        road(i) != i.checked_sub(1).and_then(road) || road(i) != road(i + 1)
+    };
+    for section in (0..sections.len()).filter(|i| is_end(*i)).map(|i| &sections[i]) {
+        for lane in &section.lanes {
+            ends.entry((section.road.as_str(), lane.number)).or_default().push(lane.id);
+        }
+    }
+    let drawn = |road: &str, lane: i32| -> Vec<usize> {
+        let lanes = ends.get(&(road, lane)).into_iter().flatten();
+        lanes.filter_map(|id| found.get(id)).flatten().map(|drawn| drawn.lane).collect()
+    };
+    for junction in junctions {
+        for from in drawn(&junction.connecting, junction.to) {
+            if !map.lanes[from].successors.is_empty() {
+                continue;
+            }
+            let to = drawn(&junction.incoming, junction.from).into_iter().find(|to| leads_on(map, from, *to));
+            if let Some(to) = to {
+                let [before, after] = [from, to].map(|i| map.lanes[i].id.clone());
+                map.lanes[from].successors.push(after);
+                map.lanes[to].predecessors.push(before);
+            }
+        }
+    }
+}
+
+/// Whether a lane begins where another ends, in about the same direction.
+fn leads_on(map: &LaneMap, from: usize, to: usize) -> bool {
+    let ([.., before, end], [start, after, ..]) =
+        (&map.lanes[from].points.xy[..], &map.lanes[to].points.xy[..])
+    else {
+        return false;
+    };
+    (start - end).norm() < MEETING_M && (end - before).dot(&(after - start)) > 0.0
 }

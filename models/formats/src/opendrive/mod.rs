@@ -3,6 +3,7 @@
 //! The crate `xodr` reads them; what it builds becomes lanes, lines, edges and signals of a scene here. Roads are
 //! flat across: superelevation and lateral shapes are left out, heights along the road are kept.
 
+mod bends;
 mod course;
 pub(crate) mod export;
 mod filter;

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 /// Sections shorter than this have no lanes in the crate, metres.
-const SHORT_M: f64 = 1e-3;
+pub(super) const SHORT_M: f64 = 1e-3;
 
 /// A `<predecessor>` or `<successor>` of a lane.
 pub(super) struct LaneLink {
@@ -83,6 +83,7 @@ impl LinkedSection {
 }
 
 /// A `<laneLink>` of a junction.
+#[derive(Clone, Debug)]
 pub(super) struct JunctionLink {
     pub junction: String,
     pub incoming: String,

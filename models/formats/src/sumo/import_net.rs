@@ -160,8 +160,8 @@ fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
     if let Some(value) = far {
         return problem(what::COORDINATE, -MAX_SOURCE_M, MAX_SOURCE_M, value);
     }
-    if !(0.1..=50.0).contains(&lane.width_m) {
-        return problem(what::WIDTH, 0.1, 50.0, lane.width_m);
+    if !(0.0..=50.0).contains(&lane.width_m) {
+        return problem(what::WIDTH, 0.0, 50.0, lane.width_m);
     }
     if !(0.0..=100.0).contains(&lane.speed_mps) {
         return problem(what::SPEED, 0.0, 100.0, lane.speed_mps);

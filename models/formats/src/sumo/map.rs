@@ -2,7 +2,7 @@
 
 use super::kerb::{self, Borders, JunctionArea};
 use super::medians;
-use super::net::{EdgeFunction, LaneKind, Net};
+use super::net::{EdgeFunction, LaneKind, NARROWEST_LANE_M, Net};
 use crate::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
 use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign};
@@ -130,6 +130,7 @@ impl Builder<'_> {
 
     fn lane_type(&self, lane: usize) -> Option<LaneType> {
         let internal = self.net.edge_of(lane).function == EdgeFunction::Internal;
+        let is_strip = !internal && self.net.lanes[lane].width_m >= NARROWEST_LANE_M;
         match self.net.lanes[lane].kind {
             LaneKind::Vehicle if internal => {
                 let before = self.before.get(&lane);
@@ -143,7 +144,7 @@ impl Builder<'_> {
             LaneKind::Bike => Some(LaneType::BikeLane),
             LaneKind::Bus => Some(LaneType::BusLane),
             LaneKind::Sidewalk => Some(LaneType::Sidewalk),
-            LaneKind::Closed if !internal => Some(LaneType::Parking),
+            LaneKind::Closed if is_strip => Some(LaneType::Parking),
             _ => None,
         }
     }

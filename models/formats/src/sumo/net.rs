@@ -37,6 +37,9 @@ pub enum EdgeFunction {
     WalkingArea,
 }
 
+/// Narrower lanes carry nobody, metres.
+pub const NARROWEST_LANE_M: f64 = 0.1;
+
 /// One lane.
 #[derive(Clone, Debug)]
 pub struct NetLane {

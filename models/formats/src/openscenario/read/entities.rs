@@ -34,7 +34,7 @@ pub(super) fn entry(
     });
     let scope = scope.declared(found, &given.collect())?;
     let mut found = found.clone();
-    scope.fill(&mut found)?;
+    scope.fill(&mut found);
     Ok(Some((found, scope)))
 }
 

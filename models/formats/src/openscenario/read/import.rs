@@ -196,29 +196,29 @@ impl<'a> OpenScenarioReader<'a> {
             (_, "FileHeader") => self.header(&node),
             (_, "CatalogLocations") => {}
             (_, "RoadNetwork") => {
-                self.scope.fill(&mut node)?;
+                self.scope.fill(&mut node);
                 self.roads(&node, place)?;
             }
             ("Entities", "ScenarioObject") => self.entity(node, place)?,
             ("Actions", "Private") => {
-                self.scope.fill(&mut node)?;
+                self.scope.fill(&mut node);
                 self.initial(&node, place)?;
             }
             ("Act", "ManeuverGroup") => {
                 let story = self.story.clone();
-                story.fill(&mut node)?;
+                story.fill(&mut node);
                 let moves = std::mem::take(&mut self.act);
                 let mut stage = self.motion(moves);
                 stage.group(&node, &story, place)?;
                 self.act = stage.moves;
             }
             ("Act", "StartTrigger") => {
-                self.story.fill(&mut node)?;
+                self.story.fill(&mut node);
                 self.act_start = Some(when(&node)?);
             }
             ("Act", "StopTrigger") => {}
             ("Storyboard", "StopTrigger") => {
-                self.scope.fill(&mut node)?;
+                self.scope.fill(&mut node);
                 if let When::At(time_s) = when(&node)? {
                     self.end_s = Some(time_s);
                 }
@@ -289,7 +289,7 @@ impl<'a> OpenScenarioReader<'a> {
 
     fn entity(&mut self, mut object: XmlNode, place: &str) -> Result<(), ReadError> {
         let place = named(place, &object);
-        self.scope.fill(&mut object)?;
+        self.scope.fill(&mut object);
         let name = attribute(&object, "name").to_owned();
         let mut found = None;
         for child in &object.children {

@@ -98,7 +98,7 @@ impl MotionReader<'_> {
                 "Maneuver" => {
                     let scope = scope.declared(child, &HashMap::new())?;
                     let mut maneuver = child.clone();
-                    scope.fill(&mut maneuver)?;
+                    scope.fill(&mut maneuver);
                     self.maneuver(&maneuver, &actors, &scope, &place)?;
                 }
                 "CatalogReference" => match entry(self.catalogs, scope, child)? {

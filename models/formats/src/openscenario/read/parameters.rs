@@ -18,10 +18,11 @@ pub(super) struct Scope {
 }
 
 impl Scope {
-    /// The same with the parameters that an element declares, unless `given` has them.
+    /// The same with the parameters that an element declares, unless `given` has them. One whose value cannot be
+    /// told is not declared.
     ///
     /// # Errors
-    /// `invalid-field` for a value that names an unknown parameter, `out-of-range` for too many.
+    /// `out-of-range` for too many.
     pub fn declared(&self, node: &XmlNode, given: &HashMap<String, String>) -> Result<Self, ReadError> {
         let mut scope = self.clone();
         let lists = node.all("ParameterDeclarations").chain(node.all("ParameterDeclaration"));
@@ -29,11 +30,11 @@ impl Scope {
             let single = (list.name() == "ParameterDeclaration").then_some(list);
             for declared in list.all("ParameterDeclaration").chain(single) {
                 let name = attribute(declared, "name").trim_start_matches('$').to_owned();
-                let value = match given.get(&name) {
-                    Some(value) => value.clone(),
-                    None => scope.value(declared, attribute(declared, "value"))?,
+                let value = given.get(&name).cloned();
+                match value.or_else(|| scope.value(attribute(declared, "value"))) {
+                    Some(value) => scope.values.insert(name, value),
+                    None => scope.values.remove(&name),
                 };
-                scope.values.insert(name, value);
             }
         }
         if scope.values.len() > MAX_PARAMETERS {
@@ -43,18 +44,14 @@ impl Scope {
         Ok(scope)
     }
 
-    /// Replaces parameters by their values in an element and all in it.
-    ///
-    /// # Errors
-    /// `invalid-field` for an unknown parameter.
-    pub fn fill(&self, node: &mut XmlNode) -> Result<(), ReadError> {
-        for i in 0..node.element.attributes.len() {
-            let Some((name, text)) = node.element.attributes.get(i) else { continue };
+    /// Replaces parameters by their values in an element and all in it. What has no value stays as it is written:
+    /// [`number`] refuses it where it is needed, and most of it is not.
+    pub fn fill(&self, node: &mut XmlNode) {
+        for (name, text) in &mut node.element.attributes {
             if !text.contains('$') || NAMES.contains(&name.as_str()) {
                 continue;
             }
-            let value = self.value(node, text)?;
-            if let Some((_, text)) = node.element.attributes.get_mut(i) {
+            if let Some(value) = self.value(text) {
                 *text = value;
             }
         }
@@ -62,22 +59,20 @@ impl Scope {
         let inner = node.children.iter_mut().filter(|child| child.name() != "ParameterDeclarations");
         for child in inner {
             if child.name() != "Maneuver" {
-                self.fill(child)?;
+                self.fill(child);
             }
         }
-        Ok(())
     }
 
-    fn value(&self, node: &XmlNode, text: &str) -> Result<String, ReadError> {
-        let wrong = || node.wrong(text, wanted::PARAMETER);
+    fn value(&self, text: &str) -> Option<String> {
         if let Some(inner) = text.strip_prefix("${").and_then(|rest| rest.strip_suffix('}')) {
             let mut expression = ParameterExpression { scope: self, rest: inner.as_bytes(), depth: 0 };
             let value = expression.sum().filter(|v| v.is_finite() && expression.is_done());
-            return value.map(|value| value.to_string()).ok_or_else(wrong);
+            return value.map(|value| value.to_string());
         }
         match text.strip_prefix('$') {
-            Some(name) => self.values.get(name).cloned().ok_or_else(wrong),
-            None => Ok(text.to_owned()),
+            Some(name) => self.values.get(name).cloned(),
+            None => Some(text.to_owned()),
         }
     }
 }
@@ -94,7 +89,8 @@ pub(super) fn attribute<'a>(node: &'a XmlNode, name: &str) -> &'a str {
 pub(super) fn number(node: &XmlNode, name: &str) -> Result<Option<f64>, ReadError> {
     let Some(text) = node.element.get(name) else { return Ok(None) };
     let value = text.trim().parse().ok().filter(|v: &f64| v.is_finite() && v.abs() < 1e9);
-    value.map(Some).ok_or_else(|| node.wrong(text, wanted::NUMBER))
+    let expected = if text.contains('$') { wanted::PARAMETER } else { wanted::NUMBER };
+    value.map(Some).ok_or_else(|| node.wrong(text, expected))
 }
 
 /// The rest of an expression.
@@ -146,11 +142,51 @@ impl ParameterExpression<'_> {
         let named = self.rest.first() == Some(&b'$');
         self.rest = self.rest.get(usize::from(named)..)?;
         let part = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'.' | b'_');
-        let count = self.rest.iter().position(|b| !part(b)).unwrap_or(self.rest.len());
+        let ends = |from: usize| {
+            let rest = self.rest.get(from..).unwrap_or_default();
+            from + rest.iter().position(|b| !part(b)).unwrap_or(rest.len())
+        };
+        let mut count = ends(0);
+        // The sign of an exponent is of the number.
+        let is_number = !named && self.rest.first().is_some_and(u8::is_ascii_digit);
+        let signed = matches!(self.rest.get(count.saturating_sub(1)..), Some([b'e' | b'E', b'+' | b'-', ..]));
+        if is_number && signed {
+            count = ends(count + 1);
+        }
         let (word, rest) = self.rest.split_at(count);
         self.rest = rest;
         let word = std::str::from_utf8(word).ok()?;
-        if named { self.scope.values.get(word)?.parse().ok() } else { word.parse().ok() }
+        match (named, word) {
+            (true, _) => self.scope.values.get(word)?.parse().ok(),
+            (false, "pi") => Some(std::f64::consts::PI),
+            (false, _) if self.sign(b"(").is_some() => self.function(word),
+            (false, _) => word.parse().ok(),
+        }
+    }
+
+    /// The value of a function, from behind its bracket to behind the closing one.
+    fn function(&mut self, name: &str) -> Option<f64> {
+        let first = self.sum()?;
+        let second = if self.sign(b",").is_some() { Some(self.sum()?) } else { None };
+        self.sign(b")")?;
+        match (name, second) {
+            ("abs", None) => Some(first.abs()),
+            ("sign", None) => Some(if first == 0.0 { 0.0 } else { first.signum() }),
+            ("round", None) => Some(first.round()),
+            ("floor", None) => Some(first.floor()),
+            ("ceil", None) => Some(first.ceil()),
+            ("sqrt", None) => Some(first.sqrt()),
+            ("sin", None) => Some(first.sin()),
+            ("cos", None) => Some(first.cos()),
+            ("tan", None) => Some(first.tan()),
+            ("asin", None) => Some(first.asin()),
+            ("acos", None) => Some(first.acos()),
+            ("atan", None) => Some(first.atan()),
+            ("pow", Some(exponent)) => Some(first.powf(exponent)),
+            ("min", Some(other)) => Some(first.min(other)),
+            ("max", Some(other)) => Some(first.max(other)),
+            _ => None,
+        }
     }
 
     fn sign(&mut self, signs: &[u8]) -> Option<u8> {
@@ -173,13 +209,38 @@ mod tests {
     fn expressions_have_the_usual_order() {
         let values = [("v", "10"), ("name", "a")].map(|(a, b)| (a.to_owned(), b.to_owned())).into();
         let scope = Scope { values };
-        let node = XmlNode::default();
-        let value = |text: &str| scope.value(&node, text).ok();
+        let value = |text: &str| scope.value(text);
         assert_eq!(value("${1 + 2 * ($v - 4) / -3}").as_deref(), Some("-3"));
         assert_eq!((value("$name").as_deref(), value("7 $").as_deref()), (Some("a"), Some("7 $")));
-        for wrong in ["$w", "${$w}", "${1 +}", "${(1}", "${1/0}", "${}", "${1 2}"] {
+        for wrong in ["$w", "${$w}", "${1 +}", "${(1}", "${1/0}", "${}", "${1 2}", "${cosh(1)}", "${pow(2)}"]
+        {
             assert_eq!(value(wrong), None, "{wrong}");
         }
         assert_eq!(value(&format!("${{{}1{}}}", "(".repeat(99), ")".repeat(99))), None);
+        assert_eq!(value(&format!("${{{}1{}}}", "abs(".repeat(99), ")".repeat(99))), None);
+    }
+
+    #[test]
+    fn expressions_have_functions_and_pi() {
+        let values = [("v", "10"), ("a", "2.5")].map(|(a, b)| (a.to_owned(), b.to_owned())).into();
+        let scope = Scope { values };
+        let number = |text: &str| scope.value(text).and_then(|text| text.parse::<f64>().ok());
+        assert_eq!(number("${$v*2 + 0.5*$a*pow( 2, 2 )}"), Some(25.0));
+        assert_eq!((number("${1e-3 * 2}"), number("${2E+1-1}")), (Some(0.002), Some(19.0)));
+        assert_eq!(number("${-pi}"), Some(-std::f64::consts::PI));
+        assert_eq!(number("${sqrt($v * $a) - abs(-3) + min(1, 2) - max(1, 2)}"), Some(1.0));
+        assert_eq!(number("${round(2.5) + floor(1.9) + ceil(1.1) + sign(-4) + sign(0)}"), Some(5.0));
+        assert_eq!(number("${sqrt(-1)}"), None);
+    }
+
+    #[test]
+    fn what_has_no_value_is_refused_where_a_number_is_needed_alone() {
+        let mut node = XmlNode::default();
+        let attributes = [("rule", "$unset"), ("x", "${$unset + 1}"), ("y", "${1 + 1}")];
+        node.element.attributes = attributes.map(|(a, b)| (a.to_owned(), b.to_owned())).into();
+        let scope = Scope::default();
+        scope.fill(&mut node);
+        assert_eq!((attribute(&node, "rule"), number(&node, "y").unwrap()), ("$unset", Some(2.0)));
+        assert!(number(&node, "x").is_err());
     }
 }

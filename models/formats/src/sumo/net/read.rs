@@ -1,6 +1,6 @@
 //! Reads a network in one pass over its elements; unknown elements are dropped.
 
-use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
+use super::{EdgeFunction, LaneKind, NARROWEST_LANE_M, Net, NetEdge, NetJunction, NetLane};
 use crate::around::Chosen;
 use crate::limits::MAX_POLYLINES;
 use crate::problem::ReadError;
@@ -193,6 +193,8 @@ impl Reader {
         let Self { mut net, connections, .. } = self;
         let by_id: HashMap<String, usize> =
             net.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
+        // Ways through junctions, each with the lane behind it: some files have no connection out of them.
+        let mut unled: Vec<(usize, usize)> = Vec::new();
         // Links that rule the ways into lanes that are entered without a lane between: one, or several.
         let mut entered: HashMap<usize, Vec<Option<(String, usize)>>> = HashMap::new();
         for connection in connections {
@@ -201,6 +203,7 @@ impl Reader {
             let via =
                 connection.via.and_then(|id| by_id.get(&id).copied()).or_else(|| way(&mut net, from, to));
             net.lanes[from].successors.push(via.unwrap_or(to));
+            unled.extend(via.map(|via| (via, to)));
             if let Some(via) = via.filter(|_| connection.stops) {
                 net.lanes[via].stops = true;
             }
@@ -209,6 +212,12 @@ impl Reader {
                 (Some(lane), Some(signal)) => net.lanes[lane].signal = Some(signal),
                 (None, signal) => entered.entry(to).or_default().push(signal),
                 (Some(_), None) => {}
+            }
+        }
+        unled.retain(|(via, _)| net.lanes[*via].successors.is_empty());
+        for (via, to) in unled {
+            if !net.lanes[via].successors.contains(&to) {
+                net.lanes[via].successors.push(to);
             }
         }
         // Of a network without ways through junctions, what a light rules begins behind them.
@@ -315,13 +324,16 @@ fn edge(element: &Element) -> Result<Option<NetEdge>, SumoError> {
 /// A lane; the caller knows its position in the network.
 fn lane(element: &Element, function: EdgeFunction, heights: &mut bool) -> Result<NetLane, SumoError> {
     let has_width = element.get("width").is_some();
+    // A negative width stands for the usual one.
+    let told_m = if has_width { Some(number(element, "width")?) } else { None };
+    let width_m = told_m.filter(|width| *width >= 0.0).unwrap_or(LANE_WIDTH_M);
     Ok(NetLane {
         id: owned(element, "id")?,
         edge: 0,
         index: 0,
-        kind: kind_of(function, element),
+        kind: if width_m < NARROWEST_LANE_M { LaneKind::Closed } else { kind_of(function, element) },
         speed_mps: number(element, "speed")?,
-        width_m: if has_width { number(element, "width")? } else { LANE_WIDTH_M },
+        width_m,
         shape: shape(element, heights)?,
         successors: Vec::new(),
         signal: None,
