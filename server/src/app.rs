@@ -1,6 +1,5 @@
 //! State that every handler can reach.
 
-use crate::base::limits::Limits;
 use crate::generation::LaneOperations;
 use crate::http::body::{Reading, Room};
 use crate::http::idempotency::Sender;
@@ -8,15 +7,16 @@ use crate::http::observe::RequestGate;
 use crate::runs::RunStore;
 use crate::scenes::store::Viewer;
 use crate::scenes::{Catalog, map_bytes};
-use crate::work::Pool;
 use api::{Operations, Problem};
 use axum::extract::FromRef;
+use base::limits::Limits;
 use metrics_exporter_prometheus::PrometheusHandle;
 use scene::{LaneMap, Shared};
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
+use work::Pool;
 
 /// Shared state. Cheap to clone.
 #[derive(Clone)]

@@ -3,7 +3,6 @@
 //! The program calls [`run`]; so does the Python package, which has the command in its wheel.
 
 mod app;
-mod base;
 mod cli;
 mod generation;
 mod grpc;
@@ -12,7 +11,6 @@ mod picture;
 mod routes;
 mod runs;
 mod scenes;
-mod work;
 
 pub use base::netconvert::companions;
 pub use cli::run;

@@ -1,8 +1,8 @@
 //! Flags of every command, and what follows from them: log lines, and the engine with its weights.
 
 use super::{Exit, Failure, output};
-use crate::base::clock;
 use api::Operations;
+use base::clock;
 use clap::{Args, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;

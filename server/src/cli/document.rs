@@ -1,8 +1,8 @@
 //! `dragtraffic openapi`, `schema`, `domain` and `info`.
 
 use super::{Common, Exit, Failure, output};
-use crate::base::limits::Limits;
 use crate::routes::info;
+use base::limits::Limits;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

@@ -2,8 +2,8 @@
 
 use super::serve::ServeArgs;
 use super::{Exit, Failure};
-use crate::base::base_path;
 use crate::http::stream::Listener;
+use base::base_path;
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 use tokio::net::TcpListener;

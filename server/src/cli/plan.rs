@@ -3,10 +3,10 @@
 use super::listen::ServerEndpoint;
 use super::serve::{ServeArgs, db_path};
 use super::{Exit, Failure};
-use crate::base::base_path;
-use crate::base::limits::Limits;
 use crate::http::proxies::TrustedProxies;
 use crate::http::tokens::TokenList;
+use base::base_path;
+use base::limits::Limits;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -4,8 +4,6 @@ use super::listen::ServerEndpoint;
 use super::plan::ServePlan;
 use super::{Common, Exit, Failure, config, output};
 use crate::app::{App, AppParts};
-use crate::base::memory::Memory;
-use crate::base::{base_path, descriptors, metrics};
 use crate::grpc::GrpcListener;
 use crate::http::audit::AuditLog;
 use crate::http::body::Room;
@@ -16,8 +14,9 @@ use crate::routes::router;
 use crate::runs::RunStore;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
-use crate::work::{self, Pool, PoolLane};
 use api::Operations;
+use base::memory::Memory;
+use base::{base_path, descriptors, metrics};
 use clap::{Args, FromArgMatches};
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -25,6 +24,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::net::TcpListener;
+use work::{Pool, PoolLane};
 
 /// Flags of `serve`.
 #[derive(Args, Clone, Debug)]

@@ -1,8 +1,8 @@
 //! The events of a generation as a stream carries them: numbered, with the job that they belong to.
 
-use crate::base::problem::ProblemDoc;
 use api::Problem;
 use api::events::{DraftBody, FinalBody};
+use base::problem::ProblemDoc;
 use experts::Accepted;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;

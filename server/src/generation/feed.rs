@@ -2,13 +2,13 @@
 
 use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
 use super::outbox::{EventMessage, JobEnd, Outbox};
-use crate::base::problem::logged;
-use crate::work::{Ending, Handle, Stop, Ticket};
 use api::Problem;
+use base::problem::logged;
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
+use work::{Ending, Handle, Stop, Ticket};
 
 /// Numbers events, dresses them and puts them into the outbox.
 #[derive(Debug)]

@@ -9,14 +9,14 @@ pub mod stream;
 
 pub use feed::EventReader;
 
-use crate::base::limits::Limits;
-use crate::work::{Caller, JobKind, JobRequest, Pool, PoolLane, Work};
 use api::generate::GenerationPlan;
 use api::{Operations, Problem};
+use base::limits::Limits;
 use batch::search::one_scene::SceneSearch;
 use feed::Feed;
 use std::sync::Arc;
 use std::time::Duration;
+use work::{Caller, JobKind, JobRequest, Pool, PoolLane, Work};
 
 /// Approximate time of a try of a search.
 const TRY_COST: Duration = Duration::from_millis(60);

@@ -1,13 +1,13 @@
 //! Events on their way from a worker to a reader. The worker never waits: `step` events are dropped
 //! for a slow reader, all others are kept.
 
-use crate::base::metrics;
-use crate::work::Stop;
+use base::metrics;
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::Notify;
+use work::Stop;
 
 /// End of a job.
 #[derive(Clone, Debug)]

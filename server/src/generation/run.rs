@@ -3,17 +3,17 @@
 use super::events::AcceptedBody;
 use super::feed::Feed;
 use super::outbox::JobEnd;
-use crate::base::{clock, metrics};
-use crate::work::JobKind;
 use api::events::FinalBody;
 use api::generate::{GenerationAnswer, GenerationEvent, GenerationPlan, round_ms};
 use api::{Operations, Problem};
+use base::{clock, metrics};
 use experts::weights::EXPERTS;
 use experts::{Draft, Event};
 use scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
+use work::JobKind;
 
 /// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
 pub fn generate(feed: &Feed, operations: &Operations, plan: GenerationPlan, others: &dyn Fn()) {

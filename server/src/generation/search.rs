@@ -3,10 +3,9 @@
 use super::events::{Envelope, ErrorBody, EventBody, choice};
 use super::feed::Feed;
 use super::outbox::JobEnd;
-use crate::base::clock;
-use crate::base::metrics;
-use crate::work::JobKind;
 use api::Operations;
+use base::clock;
+use base::metrics;
 use batch::row::UnitOutcome;
 use batch::search::call::{SearchEnd, SearchTry};
 use batch::search::one_scene::SceneSearch;
@@ -15,6 +14,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Duration;
+use work::JobKind;
 
 /// `accepted`: what will be tried.
 #[derive(Debug, Serialize, JsonSchema)]

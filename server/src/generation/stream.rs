@@ -2,16 +2,16 @@
 
 use super::feed::EventReader;
 use super::outbox::{EventMessage, JobEnd};
-use crate::base::problem::Refusal;
 use crate::http::accept::ReplyFormat;
-use crate::work::{Stop, superseded};
 use api::Problem;
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
+use base::problem::Refusal;
 use futures_util::stream::unfold;
 use std::convert::Infallible;
 use std::time::Duration;
+use work::{Stop, superseded};
 
 /// Timing of a stream.
 #[derive(Clone, Copy)]

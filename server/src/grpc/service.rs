@@ -6,11 +6,10 @@ use super::messages::{
 };
 use super::session::TrafficSession;
 use crate::app::App;
-use crate::base::memory::MemoryShare;
 use crate::http::idempotency::Sender;
 use crate::scenes::bytes_of;
-use crate::work::{JobKind, JobRequest};
 use api::{Code, Problem, english};
+use base::memory::MemoryShare;
 use prost::Message;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,6 +18,7 @@ use tonic::body::Body;
 use tonic::server::Grpc;
 use tonic::{Request, Response, Status};
 use tonic_prost::ProstCodec;
+use work::{JobKind, JobRequest};
 
 /// Name of the service.
 const SERVICE: &str = "/traffic.TrafficService/";

@@ -1,8 +1,8 @@
 //! The access log: one line for each request, when its reply is over. Of the questions of a drag a sample is logged.
 
-use crate::base::party::Party;
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, Method, StatusCode};
+use base::party::Party;
 use hyper::body::{Body as HttpBody, Frame, SizeHint};
 use std::pin::Pin;
 use std::sync::atomic::{AtomicU64, Ordering};

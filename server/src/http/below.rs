@@ -2,13 +2,13 @@
 
 use super::extract::Connection;
 use super::observe;
-use crate::base::base_path;
 use api::{Code, Problem};
 use axum::Router;
 use axum::extract::Request;
 use axum::http::Uri;
 use axum::http::uri::PathAndQuery;
 use axum::response::{IntoResponse, Redirect, Response};
+use base::base_path;
 use std::time::Instant;
 
 /// Addresses that probes ask for without the path.

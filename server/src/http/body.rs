@@ -4,15 +4,14 @@
 //! small body can never become a large one in memory.
 
 use super::upload::Upload;
-use crate::base::limits::Limits;
-use crate::base::memory::{Memory, MemoryShare};
-use crate::base::problem::{ENCODINGS, Refusal};
-use crate::work::{Pool, PoolLane};
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRef, FromRequest, Request};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
+use base::limits::Limits;
+use base::memory::{Memory, MemoryShare};
+use base::problem::{ENCODINGS, Refusal};
 use http_body_util::BodyExt;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -21,6 +20,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::Instant;
+use work::{Pool, PoolLane};
 
 /// Growth below this size is never too much.
 const FREE_EXPANSION: u64 = 1 << 20;
@@ -483,9 +483,9 @@ fn unpack(encoded: &Blocks, encoding: Encoding, bounds: Bounds, room: &Room) -> 
 #[cfg(test)]
 mod tests {
     use super::{Blocks, Bounds, Encoding, Held, Room};
-    use crate::base::limits::Limits;
-    use crate::base::memory::Memory;
     use api::Problem;
+    use base::limits::Limits;
+    use base::memory::Memory;
     use std::io::Write;
     use std::time::Duration;
 

@@ -2,13 +2,13 @@
 
 use super::observe::RequestGate;
 use super::{coding, sign_in};
-use crate::base::base_path;
-use crate::base::problem::{ALLOWED, Refusal};
 use api::{Code, Problem};
 use axum::body::Body;
 use axum::extract::State;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{Html, IntoResponse, Response};
+use base::base_path;
+use base::problem::{ALLOWED, Refusal};
 use rust_embed::{EmbeddedFile, RustEmbed};
 
 /// The built editor.

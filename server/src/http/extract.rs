@@ -1,16 +1,16 @@
 //! Parts of a request: ids in the path, query parameters, preconditions.
 
-use crate::base::id::is_id;
-use crate::base::party::Party;
-use crate::base::problem::Refusal;
 use crate::http::coding;
-use crate::work::Caller;
 use api::{Code, Problem};
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::HeaderMap;
 use axum::http::header::{HeaderName, IF_MATCH, IF_NONE_MATCH};
 use axum::http::request::Parts;
+use base::id::is_id;
+use base::party::Party;
+use base::problem::Refusal;
 use serde::de::DeserializeOwned;
+use work::Caller;
 
 /// An id in the path. One that no scene can have is simply not found.
 pub struct Id(pub String);

@@ -2,7 +2,7 @@
 //!
 //! The WebSocket itself reports whole messages alone, so that a client could hold one open for ever.
 
-use crate::base::memory::{Memory, MemoryShare};
+use base::memory::{Memory, MemoryShare};
 use std::io;
 use std::pin::Pin;
 use std::sync::Arc;
@@ -144,7 +144,7 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for WholeMessages<S> {
 #[allow(clippy::unwrap_used, reason = "a failed test panics")]
 mod tests {
     use super::{FrameReader, WholeMessages};
-    use crate::base::memory::Memory;
+    use base::memory::Memory;
     use std::time::Duration;
     use tokio::io::{AsyncReadExt, AsyncWriteExt};
 

@@ -4,11 +4,11 @@
 
 use super::extract::Connection;
 use super::tokens::{Right, TokenList};
-use crate::base::limits::Limits;
 use api::{Code, Problem};
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::limits::Limits;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 
@@ -202,9 +202,9 @@ fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
 #[cfg(test)]
 mod tests {
     use super::{Guard, check};
-    use crate::base::limits::Limits;
     use axum::body::Body;
     use axum::extract::Request;
+    use base::limits::Limits;
 
     fn verdict(method: &str, headers: &[(&str, &str)]) -> Option<&'static str> {
         let origins = ["https://tools.example".to_owned()];

@@ -1,14 +1,14 @@
 //! `Idempotency-Key`: a request that is sent again after a lost reply makes nothing twice (draft-ietf-httpapi-
 //! idempotency-key-header). The table is in memory: a restart forgets it.
 
-use crate::base::party::Party;
-use crate::base::problem::Refusal;
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, Method, StatusCode, Uri};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use base::party::Party;
+use base::problem::Refusal;
 use futures_util::TryStreamExt;
 use scene::ContentHash;
 use sha2::{Digest, Sha256};

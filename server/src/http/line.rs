@@ -6,14 +6,14 @@
 
 use super::frames::WholeMessages;
 use super::net::Carrier;
-use crate::base::base_path;
-use crate::base::limits::Limits;
-use crate::base::memory::MemoryShare;
-use crate::base::problem::{ProblemDoc, Refusal};
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, HeaderValue, Method, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::base_path;
+use base::limits::Limits;
+use base::memory::MemoryShare;
+use base::problem::{ProblemDoc, Refusal};
 use futures_util::{FutureExt, SinkExt, StreamExt};
 use http_body_util::BodyExt;
 use hyper_util::rt::TokioIo;

@@ -1,13 +1,13 @@
 //! Long replies take memory until their reader has them: slow readers of many would fill it.
 
-use crate::base::memory::{Memory, MemoryShare};
-use crate::base::problem::Refusal;
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use base::memory::{Memory, MemoryShare};
+use base::problem::Refusal;
 use hyper::body::{Body as HttpBody, Frame, SizeHint};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -75,8 +75,8 @@ impl HttpBody for HeldBody {
 #[cfg(test)]
 mod tests {
     use super::{HeldBody, PIECE};
-    use crate::base::memory::Memory;
     use axum::body::{Body, Bytes};
+    use base::memory::Memory;
     use http_body_util::BodyExt;
     use hyper::body::Body as HttpBody;
 

@@ -1,11 +1,11 @@
 //! Long replies: compressed where they are made, and unpacked while they are sent.
 
 use super::body::{Kept, Room};
-use crate::base::problem::Refusal;
 use api::Problem;
 use axum::body::{Body, Bytes};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
+use base::problem::Refusal;
 use futures_util::stream;
 use serde::Serialize;
 use std::io::{self, BufWriter, Cursor, Read, Write};

@@ -1,8 +1,8 @@
 //! Proxies whose word about their clients is taken: `X-Forwarded-For` and `X-Forwarded-User`.
 
 use super::extract::Connection;
-use crate::base::party::Party;
 use axum::http::{HeaderMap, HeaderName};
+use base::party::Party;
 use std::net::IpAddr;
 use std::sync::Arc;
 

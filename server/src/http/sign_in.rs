@@ -1,10 +1,10 @@
 //! A way in for browsers: a page that takes a token, and a cookie that stands for it. Scripts send the token itself.
 
 use super::tokens::TokenList;
-use crate::base::base_path::published;
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::base_path::published;
 use scene::ContentHash;
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! Connections by TCP or by a unix socket.
 
-use crate::base::party::Party;
+use base::party::Party;
 use std::io::{self, IoSlice};
 use std::net::{Shutdown, SocketAddr};
 use std::task::{Context, Poll};

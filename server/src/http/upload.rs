@@ -2,9 +2,9 @@
 //! parts of a form are put together.
 
 use super::body::{Blocks, Bounds, Encoding, Kept, Room, Unfolding};
-use crate::base::memory::MemoryShare;
 use api::{Code, Problem};
 use axum::body::Bytes;
+use base::memory::MemoryShare;
 use formats::Source;
 use formats::limits::memory_for;
 use futures_util::stream;

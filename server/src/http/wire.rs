@@ -4,10 +4,10 @@
 //! answer back; [`refuse`] gives the problem document in its place, as for every other refusal.
 
 use super::stream::ByteStream;
-use crate::base::limits::Limits;
 use api::{Code, Problem};
 use axum::http::header;
 use axum::response::Response;
+use base::limits::Limits;
 use futures_util::FutureExt;
 use http_body_util::BodyExt;
 use jiff::fmt::rfc2822::DateTimePrinter;

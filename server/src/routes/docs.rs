@@ -2,11 +2,11 @@
 //! without scripts and without anything from elsewhere.
 
 use super::openapi;
-use crate::base::base_path;
-use crate::base::problem::status_of;
 use api::Code;
 use axum::http::header;
 use axum::response::{Html, IntoResponse};
+use base::base_path;
+use base::problem::status_of;
 use serde_json::Value;
 use std::fmt::Write;
 use std::sync::OnceLock;

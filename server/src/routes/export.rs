@@ -2,23 +2,23 @@
 
 use super::own::OwnCatalog;
 use crate::app::App;
-use crate::base::metrics;
-use crate::base::problem::Refusal;
 use crate::http::body::Json;
 use crate::http::extract::{Connection, Id, QueryParams};
 use crate::scenes::bytes_of;
-use crate::work::{JobKind, JobRequest};
 use api::export::{self, MotionChoice};
 use api::{Home, import};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
+use base::metrics;
+use base::problem::Refusal;
 use experts::preparation;
 use formats::native::SceneDoc;
 use scene::Scene;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
+use work::{JobKind, JobRequest};
 
 /// Most bytes of a file: for each byte that the scene has as JSON, and for a small one. With what is worked out
 /// on the way, a writer takes 8 times the scene's JSON and 64 MB.

@@ -2,8 +2,6 @@
 
 use super::own::own_catalog;
 use crate::app::App;
-use crate::base::id::is_id;
-use crate::base::problem::Refusal;
 use crate::generation;
 use crate::generation::stream::{self, StreamPace};
 use crate::http::accept::ReplyFormat;
@@ -12,13 +10,15 @@ use crate::http::extract::Connection;
 use crate::http::line;
 use crate::http::net::Carrier;
 use crate::scenes::bytes_of;
-use crate::work::Caller;
 use api::{AboutScene, Code, GenerateRequest, Problem};
 use axum::Extension;
 use axum::extract::{FromRequest, Request, State};
 use axum::http::HeaderValue;
 use axum::response::Response;
+use base::id::is_id;
+use base::problem::Refusal;
 use std::time::Duration;
+use work::Caller;
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK,
     NotAcceptable, Exists, Superseded, StaleRevision, NotAsked, ReplyTooLarge, TooMuchWork, NonFiniteOutput);

@@ -1,16 +1,16 @@
 //! `/healthz`, `/readyz`, `/metrics`.
 
 use crate::app::App;
-use crate::base::problem::Refusal;
-use crate::base::{metrics as counters, process};
-use crate::work::PoolLane;
 use api::{Code, Problem};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;
+use base::problem::Refusal;
+use base::{metrics as counters, process};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::atomic::Ordering;
+use work::PoolLane;
 
 /// Health of the server in a word, for its operators.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]

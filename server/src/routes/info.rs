@@ -1,10 +1,10 @@
 //! `/v1/info`: what this server is and can do.
 
 use crate::app::App;
-use crate::base::limits::Limits;
 use api::Operations;
 use api::info::{BuildInfo, ProgramInfo};
 use axum::extract::State;
+use base::limits::Limits;
 
 /// Description of this program; the command line uses it too.
 pub fn of(operations: &Operations, limits: &Limits) -> ProgramInfo {

@@ -1,13 +1,13 @@
 //! `/v1/map`: maps from nothing.
 
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::body::{Json, JsonText};
 use crate::http::extract::Connection;
-use crate::work::{JobKind, JobRequest};
 use api::map::{MapBody, TemplateList};
 use axum::extract::State;
+use base::problem::Refusal;
 use std::time::Duration;
+use work::{JobKind, JobRequest};
 
 /// Approximate time to draw and write a map.
 const MAP_COST: Duration = Duration::from_millis(5);

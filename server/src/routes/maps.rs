@@ -2,7 +2,6 @@
 
 use super::own::OwnCatalog;
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::http::extract::if_none_match;
 use crate::scenes::store::StoredMap;
@@ -11,6 +10,7 @@ use api::{Code, Problem};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::problem::Refusal;
 use scene::ContentHash;
 use serde::Serialize;
 

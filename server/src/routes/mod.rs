@@ -23,8 +23,6 @@ pub mod score;
 pub mod search;
 
 use crate::app::App;
-use crate::base::base_path;
-use crate::base::problem::Refusal;
 use crate::http::guard::Guard;
 use crate::http::idempotency::{self, Replies};
 use crate::http::observe::RequestGate;
@@ -33,6 +31,8 @@ use api::Problem;
 use axum::Router;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
+use base::base_path;
+use base::problem::Refusal;
 use std::any::Any;
 use std::sync::Arc;
 use utoipa_axum::router::OpenApiRouter;

@@ -1,7 +1,7 @@
 //! The OpenAPI 3.1 document: paths from the handlers, [`schemas`], problems from the table of codes.
 
 use super::schemas;
-use crate::base::{base_path::published, limits::Limits};
+use base::{base_path::published, limits::Limits};
 use serde_json::{Map, Value, json};
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 

@@ -1,13 +1,13 @@
 //! The scenes that the sender of a request may see.
 
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::idempotency::Sender;
 use crate::scenes::Catalog;
 use api::Problem;
 use axum::extract::FromRequestParts;
 use axum::http::Extensions;
 use axum::http::request::Parts;
+use base::problem::Refusal;
 
 /// Scenes and maps for one request.
 pub struct OwnCatalog(pub Catalog);

@@ -2,15 +2,15 @@
 
 use super::scene_ref::WithScene;
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::body::JsonText;
 use crate::http::extract::Connection;
-use crate::work::{JobKind, JobRequest};
 use api::home::Subject;
 use api::place::{PlaceBody, PlaceReply};
 use axum::extract::State;
+use base::problem::Refusal;
 use experts::Cancel;
 use std::time::Duration;
+use work::{JobKind, JobRequest};
 
 /// Approximate time of a placement, from a few road users to a town of them.
 const PLACE_COST: Duration = Duration::from_millis(50);

@@ -1,8 +1,8 @@
 //! Refusals of an operation, declared beside its handler and added to the document from there. The end-to-end
 //! tests check every refusal against these lists.
 
-use crate::base::problem::status_of;
 use api::Code;
+use base::problem::status_of;
 use std::collections::BTreeMap;
 use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType, Type};

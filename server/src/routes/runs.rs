@@ -2,14 +2,11 @@
 
 use super::scene_ref::WithScene;
 use crate::app::App;
-use crate::base::id;
-use crate::base::problem::Refusal;
 use crate::http::body::{Json, JsonText};
 use crate::http::extract::{Connection, Id};
 use crate::http::line;
 use crate::http::net::Carrier;
 use crate::runs::HeldRun;
-use crate::work::{JobKind, JobRequest};
 use api::home::Subject;
 use api::runs::{PeekBody, PeekReply, RunBody, RunReply, SnapshotReply, StepBody, StepReply};
 use api::{Code, Problem};
@@ -17,8 +14,11 @@ use axum::Extension;
 use axum::extract::{Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
+use base::id;
+use base::problem::Refusal;
 use std::time::Duration;
 use tokio::sync::OwnedMutexGuard;
+use work::{JobKind, JobRequest};
 
 /// Approximate time of the first plan of one road user.
 const FIRST_PLAN: Duration = Duration::from_millis(3);

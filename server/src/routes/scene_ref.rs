@@ -2,13 +2,13 @@
 
 use super::own::own_catalog;
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
-use crate::work::Caller;
 use api::{AboutScene, Subject};
 use axum::extract::{FromRequest, Request};
+use base::problem::Refusal;
 use serde::de::DeserializeOwned;
+use work::Caller;
 
 /// A JSON body with the scene it is about.
 pub struct WithScene<T>(pub T, pub Subject);

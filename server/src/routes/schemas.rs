@@ -1,12 +1,12 @@
 //! The schemas of the OpenAPI document, made from the Rust types.
 
 use super::{health, import, maps, scenes};
-use crate::base::problem::ProblemDoc;
 use crate::generation::events;
 use crate::generation::search::SearchEvent;
 use api::map::{MapBody, MapReply, TemplateList};
 use api::place::{PlaceBody, PlaceReply};
 use api::{GenerateRequest, info::ProgramInfo, score::ScoreRequest};
+use base::problem::ProblemDoc;
 use batch::search::call::SearchBody;
 use formats::native::{MapDoc, SceneDoc};
 use scene::score::Score;

@@ -2,13 +2,13 @@
 
 use super::scene_ref::WithScene;
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::body::JsonText;
 use crate::http::extract::Connection;
-use crate::work::{JobKind, JobRequest};
 use api::score::ScoreRequest;
 use axum::extract::State;
+use base::problem::Refusal;
 use std::time::Duration;
+use work::{JobKind, JobRequest};
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 

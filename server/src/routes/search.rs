@@ -3,20 +3,20 @@
 use super::generate::own_id;
 use super::own::own_catalog;
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::generation;
 use crate::generation::stream::{self, StreamPace};
 use crate::http::accept::ReplyFormat;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
 use crate::scenes::map_bytes;
-use crate::work::Caller;
 use api::AboutScene;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
+use base::problem::Refusal;
 use batch::search::call::SearchBody;
 use batch::search::one_scene::SceneSearch;
 use std::time::Duration;
+use work::Caller;
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK, NotAcceptable, Exists);
 

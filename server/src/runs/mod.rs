@@ -1,12 +1,12 @@
 //! Runs that clients step: in memory, bounded in number, bytes and share of one party, and forgotten when idle.
 
-use crate::base::limits::Limits;
-use crate::base::memory::{Memory, MemoryShare};
-use crate::base::party::Party;
 use crate::scenes::bytes_of;
 use api::runs::unknown_run;
 use api::{Code, Problem, english};
 use axum::body::Bytes;
+use base::limits::Limits;
+use base::memory::{Memory, MemoryShare};
+use base::party::Party;
 use experts::Run;
 use scene::State;
 use std::collections::BTreeMap;
@@ -147,10 +147,10 @@ impl RunStore {
 #[cfg(test)]
 mod tests {
     use super::RunStore;
-    use crate::base::limits::Limits;
-    use crate::base::memory::Memory;
-    use crate::base::party::Party;
     use api::Code;
+    use base::limits::Limits;
+    use base::memory::Memory;
+    use base::party::Party;
     use experts::{Cancel, Generator, Run, RunSettings};
     use scene::{LaneMap, Scene};
     use std::sync::Arc;

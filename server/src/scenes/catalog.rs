@@ -5,17 +5,17 @@ use super::library::Library;
 use super::record::{self, size};
 use super::store::{Expect, PackedScene, SceneRecord, Store, Viewer, Written};
 use super::weight;
-use crate::base::cache::Cache;
-use crate::base::id;
-use crate::base::limits::Limits;
-use crate::base::memory::Memory;
-use crate::base::party::Party;
-use crate::work::Pool;
 use api::home::not_found;
 use api::{Code, Home, Opened, Problem};
+use base::cache::Cache;
+use base::id;
+use base::limits::Limits;
+use base::memory::Memory;
+use base::party::Party;
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::sync::{Arc, Weak};
+use work::Pool;
 
 /// Bytes that one step of one road user takes in JSON, about.
 const STEP_BYTES: usize = 40;

@@ -1,7 +1,7 @@
 //! Example scenes inside the program.
 
-use crate::base::id;
 use api::Problem;
+use base::id;
 use formats::native;
 use rust_embed::RustEmbed;
 use scene::Scene;

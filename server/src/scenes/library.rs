@@ -7,21 +7,21 @@ use super::demos;
 use super::folder::{DataFolder, FolderReader};
 use super::item::{Facts, SceneItem};
 use super::weight;
-use crate::base::cache::Cache;
-use crate::base::clock;
-use crate::base::id;
-use crate::base::memory::Memory;
-use crate::base::netconvert::companions;
-use crate::base::party::Party;
-use crate::work::Pool;
 use api::import::SceneFile;
 use api::{Code, Opened, Problem};
+use base::cache::Cache;
+use base::clock;
+use base::id;
+use base::memory::Memory;
+use base::netconvert::companions;
+use base::party::Party;
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
 use std::time::SystemTime;
+use work::Pool;
 
 /// Most files taken from the data folder.
 const MOST_FILES: usize = 5_000;
@@ -255,7 +255,7 @@ fn name_id(path: &Path, index: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::limits::Limits;
+    use base::limits::Limits;
 
     #[test]
     fn demos_are_there_before_anybody_can_ask() {

@@ -54,11 +54,11 @@ pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
 /// The pool of workers in thousands of orders of its threads, under a model checker; `SCHEDULES` says how many of each.
 pub fn schedules() -> anyhow::Result<Outcome> {
     let (mut tests, filters) = runner("fail")?;
-    tests.args(WHOLE).args(["--features", "dragtraffic/shuttle", "--lib"]);
+    tests.args(WHOLE).arg("--lib");
     if filters {
-        tests.args(["-E", "package(dragtraffic) & test(/^work::schedules/)"]);
+        tests.args(["-E", "package(dragtraffic-work) & test(/^schedules/)"]);
     } else {
-        tests.arg("work::schedules");
+        tests.arg("schedules::");
     }
     run(&mut tests)
 }

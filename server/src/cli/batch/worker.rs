@@ -2,11 +2,11 @@
 
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
-use crate::base::clock;
 use crate::cli::Failure;
 use crate::cli::generate::created_at;
 use api::Operations;
 use api::generate::GenerationAnswer;
+use base::clock;
 use batch::engine::{UnitEnd, UnitEngine};
 use batch::row::{BatchRow, KeptCase, UnitOutcome};
 use batch::unit::BatchUnit;

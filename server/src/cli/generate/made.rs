@@ -1,11 +1,11 @@
 //! One answer: a scene and a seed to a scene with its futures.
 
 use super::{GenerateArgs, ask};
-use crate::base::clock;
 use crate::cli::inputs::Source;
 use crate::cli::{Exit, Failure, pointers};
 use api::generate::{GenerationAnswer, GenerationRun};
 use api::{Operations, Problem, Subject};
+use base::clock;
 use batch::figures::Figures;
 use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};

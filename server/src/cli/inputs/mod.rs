@@ -7,9 +7,9 @@ pub use find::no_ids;
 pub use find::patterns;
 
 use super::{Failure, output};
-use crate::base::netconvert::companions;
 use api::import::{Companions, ReadScene, SceneFile, known as known_format};
 use api::{Code, Problem};
+use base::netconvert::companions;
 use clap::Args;
 use find::Known;
 use formats::registry;

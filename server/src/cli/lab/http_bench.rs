@@ -2,11 +2,11 @@
 
 use super::failed;
 use super::served::{Connection, JSON, NDJSON, Served};
-use crate::base::clock;
 use crate::cli::{Common, Failure};
 use api::generate::{GenerationEvent, GenerationPlan};
 use api::limits::CallLimits;
 use api::{GenerateRequest, Standings};
+use base::clock;
 use experts::{Cancel, Generator};
 use formats::native::{MapForm, SceneDoc, write_doc};
 use lab_eval::cost::Percentiles;

@@ -1,9 +1,9 @@
 //! The scenes that are open: by name, bounded in number and memory.
 
-use crate::base::id;
-use crate::base::memory::{Memory, MemoryShare};
 use crate::scenes::weight;
 use api::{Code, Problem};
+use base::id;
+use base::memory::{Memory, MemoryShare};
 use scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -111,8 +111,8 @@ impl SceneDesk {
 #[cfg(test)]
 mod tests {
     use super::SceneDesk;
-    use crate::base::memory::Memory;
     use api::Code;
+    use base::memory::Memory;
     use scene::{LaneMap, Scene};
 
     fn empty() -> Scene {

@@ -1,9 +1,9 @@
 //! The protocol: which tools there are, and one call after the other, each within its time.
 
 use super::tools::{self, TOOLS, ToolAnswer, Toolbox};
-use crate::base::problem::logged;
 use api::problem::ProblemMembers;
 use api::{Code, Problem};
+use base::problem::logged;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use experts::Cancel;

@@ -15,9 +15,9 @@ mod tools;
 
 use super::values::whole;
 use super::{Common, Exit, Failure};
-use crate::base::limits::Limits;
-use crate::base::memory::Memory;
 use api::Operations;
+use base::limits::Limits;
+use base::memory::Memory;
 use clap::Args;
 use desk::SceneDesk;
 use folders::AllowedFolders;

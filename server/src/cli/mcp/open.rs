@@ -3,11 +3,11 @@
 use super::describe::{self, Look};
 use super::schema::{self, Members, NoRequest};
 use super::tools::{ToolAnswer, Toolbox, yes};
-use crate::base::netconvert::companions;
 use crate::scenes::demos;
 use api::import::SceneFile;
 use api::map::{MapBody, TemplateList};
 use api::{Code, Problem};
+use base::netconvert::companions;
 use experts::Cancel;
 use formats::ImportWarning;
 use scene::Scene;

@@ -3,10 +3,10 @@
 use super::ask::{self, OF_GENERATE};
 use super::schema::{self, Members};
 use super::tools::{ToolAnswer, Toolbox, yes};
-use crate::base::clock;
 use api::generate::GenerationAnswer;
 use api::generate::request::{AgentChoice, ReactChoice};
 use api::{Code, GenerateRequest, Problem, Subject};
+use base::clock;
 use batch::figures::{FigureFilter, Figures};
 use experts::Cancel;
 use formats::native::ConditionsDoc;

@@ -1,9 +1,9 @@
 //! The files of an upload.
 
-use crate::base::netconvert::companions;
 use crate::http::upload::{self, Upload};
 use api::import::Companions;
 use api::{Code, Problem};
+use base::netconvert::companions;
 use formats::Source;
 use std::sync::Arc;
 

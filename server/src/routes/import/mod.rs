@@ -8,21 +8,21 @@ pub use reply::ImportedBody;
 
 use super::own::OwnCatalog;
 use crate::app::App;
-use crate::base::base_path::published;
-use crate::base::metrics;
-use crate::base::problem::Refusal;
 use crate::http::body::{self, JsonText, Reading};
 use crate::http::extract::{Connection, QueryParams};
-use crate::work::{JobKind, JobRequest};
 use api::import::{around, range};
 use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::base_path::published;
+use base::metrics;
+use base::problem::Refusal;
 use experts::Cancel;
 use order::{ImportOrder, Ready, known};
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
+use work::{JobKind, JobRequest};
 
 /// Query of an import.
 #[derive(Debug, Default, Deserialize, utoipa::IntoParams)]

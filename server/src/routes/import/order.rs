@@ -4,8 +4,6 @@ use super::file::ImportFile;
 use super::reply::{
     ImportReply, ImportedBody, ImportedFile, ImportedFiles, ImportedScene, SkippedRecord, around_scenes,
 };
-use crate::base::problem::ProblemDoc;
-use crate::base::{id, metrics};
 use crate::http::body::Room;
 use crate::http::packed::{PackedText, TextPacker};
 use crate::http::upload::Upload;
@@ -13,6 +11,8 @@ use crate::scenes::store::PackedScene;
 use crate::scenes::{Facts, record};
 use api::import::{ReadScene, SceneFile, names};
 use api::{Code, Problem};
+use base::problem::ProblemDoc;
+use base::{id, metrics};
 use experts::Cancel;
 use formats::around::Around;
 use formats::native::{MapForm, SceneDoc};

@@ -1,8 +1,8 @@
 //! Results of imported files, as JSON.
 
-use crate::base::problem::ProblemDoc;
 use crate::scenes::Counts;
 use api::Problem;
+use base::problem::ProblemDoc;
 use formats::native::SceneDoc;
 use schemars::JsonSchema;
 use serde::Serialize;

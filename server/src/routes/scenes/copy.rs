@@ -2,8 +2,6 @@
 
 use super::saved;
 use crate::app::App;
-use crate::base::id;
-use crate::base::problem::Refusal;
 use crate::http::body::{self, Reading};
 use crate::http::extract::Id;
 use crate::routes::own::OwnCatalog;
@@ -12,6 +10,8 @@ use api::Problem;
 use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::Response;
+use base::id;
+use base::problem::Refusal;
 use scene::MAX_NAME_CHARS;
 use serde::Deserialize;
 use std::sync::Arc;

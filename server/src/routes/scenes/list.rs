@@ -1,12 +1,12 @@
 //! The list of scenes, page by page.
 
-use crate::base::id;
-use crate::base::problem::Refusal;
 use crate::http::extract::QueryParams;
 use crate::routes::own::OwnCatalog;
 use crate::scenes::store::{PageQuery, SceneSummary, Sort};
 use crate::scenes::{SceneItem, tags_of};
 use api::{Code, Problem};
+use base::id;
+use base::problem::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// Query of the list.

@@ -5,9 +5,9 @@ pub mod list;
 pub mod read;
 pub mod write;
 
-use crate::base::base_path::published;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::base_path::published;
 use serde::Serialize;
 
 /// Result of a change.

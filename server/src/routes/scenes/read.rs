@@ -1,7 +1,6 @@
 //! One scene: the document, and what a small picture of it shows.
 
 use crate::app::App;
-use crate::base::problem::Refusal;
 use crate::http::coding;
 use crate::http::extract::{Id, QueryParams, if_none_match};
 use crate::routes::own::OwnCatalog;
@@ -11,6 +10,7 @@ use api::home::not_found;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::problem::Refusal;
 use formats::native::{self, MapForm};
 use serde::Deserialize;
 use std::sync::Arc;

@@ -2,8 +2,6 @@
 
 use super::saved;
 use crate::app::App;
-use crate::base::id;
-use crate::base::problem::Refusal;
 use crate::http::body::{self, Json, Reading};
 use crate::http::extract::{Id, if_match, if_none_match};
 use crate::routes::own::OwnCatalog;
@@ -14,6 +12,8 @@ use api::{Code, Home, Problem};
 use axum::extract::{FromRef, FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
+use base::id;
+use base::problem::Refusal;
 use formats::native::{self, SceneDoc};
 use serde::Deserialize;
 

@@ -1,8 +1,8 @@
 //! Errors of the store, and their messages to callers.
 
 use super::migrations;
-use crate::base::problem::Refusal;
 use api::{Code, Problem};
+use base::problem::Refusal;
 use rusqlite::ErrorCode;
 
 /// Why the store refused or failed.

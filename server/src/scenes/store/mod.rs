@@ -21,7 +21,7 @@ pub use list::{PageQuery, Sort};
 pub use owners::{Ownership, SceneShare, Viewer};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
-use crate::base::limits::Limits;
+use base::limits::Limits;
 use identity::FileIdentity;
 use reserve::Reserve;
 use rusqlite::{Connection, OpenFlags};

@@ -1,7 +1,7 @@
 //! Owners of scenes: who may see and change what, and how much each may keep.
 
 use super::StoreError;
-use crate::base::limits::Limits;
+use base::limits::Limits;
 use rusqlite::Transaction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,9 @@
 //! Rows of the store, and its queries.
 
 use super::{Ownership, SceneShare, Store, StoreError, Viewer};
-use crate::base::limits::Limits;
-use crate::base::{clock, metrics};
 use api::Problem;
+use base::limits::Limits;
+use base::{clock, metrics};
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
 use super::{PageQuery, Sort, Store, StoreError};
-use crate::base::limits::Limits;
 use api::{Code, Problem};
+use base::limits::Limits;
 use std::sync::Arc;
 
 fn record(name: &str) -> PackedScene {

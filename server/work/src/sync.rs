@@ -1,19 +1,17 @@
 //! Threads, locks and flags of the pool: the standard library's, or those of a model checker that runs the same
-//! code in every order it can think of (feature `shuttle`, `schedules`).
+//! code in every order it can think of (unit tests of this crate, `schedules`).
 
-#[cfg(feature = "shuttle")]
+#[cfg(test)]
 pub use shuttle::sync::{Condvar, Mutex, MutexGuard, atomic};
-#[cfg(not(feature = "shuttle"))]
+#[cfg(not(test))]
 pub use std::sync::{Condvar, Mutex, MutexGuard, atomic};
-#[cfg(not(feature = "shuttle"))]
+#[cfg(not(test))]
 pub use std::thread;
 
 /// Threads of the model checker.
-#[cfg(feature = "shuttle")]
+#[cfg(test)]
 pub mod thread {
-    #[cfg(test)]
-    pub use shuttle::thread::spawn;
-    pub use shuttle::thread::{Builder, yield_now};
+    pub use shuttle::thread::{Builder, spawn, yield_now};
 
     /// The model has no clock: a sleeping thread yields to all others.
     pub fn sleep(_: std::time::Duration) {

@@ -16,7 +16,6 @@ mod fair_queue;
 mod job;
 mod kind;
 #[cfg(test)]
-#[cfg(feature = "shuttle")]
 mod schedules;
 mod state;
 mod sync;
@@ -25,10 +24,10 @@ pub use call::superseded;
 pub use job::{Caller, Ending, JobRequest, Stop, Ticket, Work};
 pub use kind::{JobKind, PoolLane};
 
-use crate::base::id;
-use crate::base::limits::Limits;
-use crate::base::metrics;
 use api::{Code, Problem};
+use base::id;
+use base::limits::Limits;
+use base::metrics;
 use job::{CallerNames, Job};
 use state::PoolState;
 use std::io;
@@ -48,10 +47,10 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Sets the niceness of the calling thread, and of threads that it starts, to that of a lane (nice(2)). Only
 /// on Linux: elsewhere niceness applies to the whole process.
 pub fn give_way(lane: PoolLane) {
-    #[cfg(all(target_os = "linux", not(feature = "shuttle")))]
+    #[cfg(all(target_os = "linux", not(test)))]
     // If the system refuses, the thread keeps its priority.
     let _ = rustix::process::nice(lane.nice());
-    #[cfg(not(all(target_os = "linux", not(feature = "shuttle"))))]
+    #[cfg(not(all(target_os = "linux", not(test))))]
     let _ = lane.nice();
 }
 

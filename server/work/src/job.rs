@@ -3,9 +3,9 @@
 use super::kind::{JobKind, PoolLane};
 use super::lock;
 use super::sync::Mutex;
-use crate::base::metrics;
-use crate::base::party::Party;
 use api::{Code, Problem};
+use base::metrics;
+use base::party::Party;
 use experts::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
