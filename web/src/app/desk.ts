@@ -31,7 +31,7 @@ function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
   const worker = new WorkerTransport(client);
   const generator = (): HttpGenerator => new HttpGenerator(client, worker.ask);
-  const care = new SceneCare(editor, file, library, scenes, client, journal);
+  const care = new SceneCare(editor, file, library, scenes, client, journal, saving);
   const importing = new Importing(editor, library, scenes, client);
   const questions = (): RequestBuilder => new RequestBuilder(editor, file);
   const placement = new Placement();

@@ -9,6 +9,7 @@ import type {
   Problem,
   SceneJson,
   SceneListReply,
+  ScenePatch,
   ScoreReply,
   TemplateName,
   FormatInfo,
@@ -113,10 +114,11 @@ export class Client {
     return (await reply.json()) as { id: string };
   }
 
-  async rename(id: string, name: string, etag: string): Promise<string | null> {
+  /** Changes what the server notes beside the content of a scene. */
+  async patch(id: string, change: ScenePatch, etag: string): Promise<string | null> {
     const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`, {
       method: 'PATCH',
-      body: JSON.stringify({ name }),
+      body: JSON.stringify(change),
       headers: { 'Content-Type': 'application/merge-patch+json', 'If-Match': etag },
     });
     return etagOf(reply);

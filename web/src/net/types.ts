@@ -4,6 +4,8 @@ import type { Schemas } from '../model/base/schemas';
 import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/document/scene-json';
 
 export type SceneListItem = Schemas['SceneItem'];
+export type SceneShare = Schemas['SceneShare'];
+export type ScenePatch = { readonly name: string } | { readonly shared: SceneShare };
 export type SceneListReply = Schemas['SceneList'];
 /** Road users in document form. */
 export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };

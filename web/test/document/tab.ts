@@ -51,7 +51,7 @@ export class Tab {
     this.library = new Library(editor, file, this.saving, this.list, this.client, this.journal, (on) =>
       browser ? new SceneTurns(on, browser.locks, browser.channel) : new SceneTurns(on, null, null),
     );
-    this.care = new SceneCare(editor, file, this.library, this.list, this.client, this.journal);
+    this.care = new SceneCare(editor, file, this.library, this.list, this.client, this.journal, this.saving);
     this.generation = new Generation(editor, file, this.saving, this.generator, this.others, (id, joins) =>
       this.curve.takeUp(id, joins),
     );

@@ -568,7 +568,7 @@ describe('the shown future of a drag', () => {
     // The bold one is the same, under its new letter, which is not that of the likeliest.
     expect(editor.reading.futures.peek()!.modes[editor.reading.chosen.peek()].anchor).toBe(0);
     expect(editor.answers.remark.peek()?.words).toBe(
-      'F is shown: lower cost for all road users together than A, the likeliest.',
+      'F is shown: lower total cost than A, the likeliest.',
     );
   });
 
@@ -595,7 +595,7 @@ describe('the shown future of a drag', () => {
     generator.last.on.final(final({ chosen: 2, modes: hits }), 12);
     expect(editor.answers.remark.peek()).toEqual({
       id: '1',
-      words: 'C is shown: A hits Car 2; B has a higher cost for all road users together.',
+      words: 'C is shown: A hits Car 2; B has a higher total cost.',
     });
     expect(editor.notices.toast.peek()?.text).toBe('Goal of Car 1 moved.');
     dragTo(20);

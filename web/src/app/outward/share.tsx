@@ -4,6 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import type { Link, SharedParts } from '../../edit/document/sharing';
 import { MOST_LINK_BYTES } from '../../edit/document/share-link';
+import type { SceneShare } from '../../net/types';
 import { download } from '../../edit/tools/outward/download';
 import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';
@@ -50,6 +51,7 @@ export default function Share() {
   return (
     <Flyout label={TEXTS.share} under="share" class="share">
       <div class="pad">
+        <Access />
         <h2>{TEXTS.shareALink}</h2>
         <p>
           {TEXTS.theLinkHolds} <b>{TEXTS.makeACopy}</b>.
@@ -105,6 +107,37 @@ export default function Share() {
         </button>
       </div>
     </Flyout>
+  );
+}
+
+const MAY: readonly SceneShare[] = ['nobody', 'read', 'edit'];
+
+/** What others may do with the scene on a server whose scenes have owners; elsewhere nothing. */
+function Access() {
+  const { care, editor, scenes } = useApp();
+  const item = scenes.list.value.find((s) => s.id === editor.resting.value?.id);
+  if (!item?.shared) return null;
+  return (
+    <div class="access">
+      <h2>
+        {TEXTS.access}
+        <small>{TEXTS.owner(item.owner!)}</small>
+      </h2>
+      <div class="seg" role="radiogroup" aria-label={TEXTS.access}>
+        {MAY.map((may) => (
+          <button
+            key={may}
+            type="button"
+            role="radio"
+            aria-checked={may === item.shared}
+            class={`btn ${may === item.shared ? 'on' : ''}`}
+            onClick={() => void care.share(may)}
+          >
+            {TEXTS.mayOthers[may]}
+          </button>
+        ))}
+      </div>
+    </div>
   );
 }
 

@@ -3,8 +3,10 @@ import { emptyScene, withoutRoadUsers } from '../../model/document/blank-scene';
 import { rename } from '../../model/document/commands';
 import { isMapRef, type SceneJson } from '../../model/document/scene-json';
 import { Refused, type Client } from '../../net/client';
+import type { SceneShare } from '../../net/types';
 import type { Journal } from './journal';
 import type { Library } from './library';
+import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 import type { Session } from './session';
@@ -21,6 +23,7 @@ export class SceneCare {
     private readonly list: SceneList,
     private readonly client: Client,
     private readonly journal: Journal,
+    private readonly saving: Saving,
   ) {}
 
   /** The road of the open scene without road users. */
@@ -96,11 +99,33 @@ export class SceneCare {
     }
     try {
       const etag = list.find(id)?.etag ?? '*';
-      const now = await this.client.rename(id, name, etag);
+      const now = await this.client.patch(id, { name }, etag);
       await this.journal.noteVersion(id, etag, now);
       await list.refresh();
     } catch (e) {
       this.#failed(TEXTS.notRenamed, e);
+    }
+  }
+
+  /**
+   * Says what others may do with the open scene, on a server whose scenes have owners. The new version of the server is
+   * that of this tab, unless the scene was changed here meanwhile: then saving finds the conflict.
+   */
+  async share(shared: SceneShare): Promise<void> {
+    const { committed } = this.session.document;
+    try {
+      await this.library.written();
+      const now = committed.peek();
+      const was = now && this.saving.etagOf(now.scene.id);
+      if (!now || !was) return;
+      const etag = await this.client.patch(now.scene.id, { shared }, was);
+      if (etag && committed.peek() === now) {
+        this.saving.tookTheirs(etag);
+        this.journal.synced(now, etag);
+      }
+      await this.list.refresh();
+    } catch (e) {
+      this.#failed(TEXTS.accessNotChanged, e);
     }
   }
 

@@ -191,8 +191,7 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
     ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
     ...(alone && onRoad[i] ? [{ basis: TEXTS.byRoad, forms: [TEXTS.byRoad] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
-    // One that stops is not named by its direction.
-    stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
+    stops[i] && stopTells && !hasTurned(m, who.onFoot) ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
   ]);
 }
 
@@ -255,6 +254,11 @@ const SHORT = [
 
 /** Smaller movements are invisible, metres. */
 const CREEPS_M = 0.4;
+
+/** One that stops after its turn is named by the turn, which the eye sees first. */
+function hasTurned({ motion, about }: Nameable, onFoot: boolean): boolean {
+  return ['left', 'right', 'turn_round'].includes(about?.manoeuvre ?? shapeOf(motion, onFoot));
+}
 
 function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
   const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);

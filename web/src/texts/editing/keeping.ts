@@ -36,6 +36,7 @@ export const TEXTS = table('keeping', {
   copiedAs: (name: string) => `Copied as “${name}”.`,
   notCopied: 'Not copied',
   notRenamed: 'Not renamed',
+  accessNotChanged: 'Access not changed',
   undo: 'Undo',
   deleted: (name: string) => `“${name}” deleted.`,
   notDeleted: 'Not deleted',

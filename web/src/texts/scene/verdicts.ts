@@ -84,10 +84,10 @@ export const TEXTS = table('verdicts', {
   isLikelier: (letter: string, was: string) => `${letter} is shown: more likely than ${was}`,
   wasInTheDrag: (letter: string, was: string) => `${letter} is shown; ${was} was shown in the drag`,
   costsLess: (letter: string, first: string) =>
-    `${letter} is shown: lower cost for all road users together than ${first}, the likeliest`,
+    `${letter} is shown: lower total cost than ${first}, the likeliest`,
   isLessLikely: 'is less likely',
-  hasHigherCost: 'has a higher cost for all road users together',
-  haveHigherCost: 'have a higher cost for all road users together',
+  hasHigherCost: 'has a higher total cost',
+  haveHigherCost: 'have a higher total cost',
   crossesTheMedian: 'crosses the median',
   aRoadUser: 'a road user',
   brakes: (extent: string) => `brakes ${extent}`,

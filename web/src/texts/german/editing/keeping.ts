@@ -37,6 +37,7 @@ export const german: Said<typeof TEXTS> = {
   copiedAs: (name: string) => `Kopiert als „${name}“.`,
   notCopied: 'Nicht kopiert',
   notRenamed: 'Nicht umbenannt',
+  accessNotChanged: 'Zugriff nicht geändert',
   undo: 'Rückgängig',
   deleted: (name: string) => `„${name}“ gelöscht.`,
   notDeleted: 'Nicht gelöscht',

@@ -13,7 +13,7 @@ export const german: Said<typeof TEXTS> = {
   placeARoadUser: 'Einen Verkehrsteilnehmer einsetzen, um sein Tempo zu sehen',
   inTheLog: (name, title) => `${name}, in der Aufzeichnung: ${title}`,
   andMore: (more) => `, und ${more} weitere`,
-  events: 'Ereignisse',
+  events: 'Ereignis',
   playhead: 'Abspielmarke',
   seconds: (now: string) => `${now} Sekunden`,
   speedOverTime: 'Tempo über der Zeit',

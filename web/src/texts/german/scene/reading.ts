@@ -2,7 +2,7 @@ import type { TEXTS } from '../../scene/reading';
 import type { Said } from '../../table';
 
 const EXAMPLES: Readonly<Record<string, string>> = {
-  'demo-crossing': 'Rosastraße, Ecke 5. Straße',
+  'demo-crossing': 'Rosastr., Ecke 5. Str.',
   'demo-roundabout': 'Kreisverkehr, 4 Arme',
   'demo-residential': 'Schulstraße',
   'demo-arterial': 'Marktstraße am Abend',
