@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Most shares that the command divides chunks into.
 _MOST_SHARES = 100_000
+#: Between two looks at the tasks of a cluster, seconds.
+_LOOK_S = 0.05
 
 
 def batch(
@@ -58,11 +61,16 @@ def _spread(client: Client, plan: str, folder: str) -> None:
 
     count = min(int(_status(folder)["chunks"]), _MOST_SHARES)
     tasks = client.map(_chunk, _due(folder, count), plan=plan, folder=folder, count=count, pure=False)
+    finished = as_completed(tasks, with_results=True)
     try:
-        for _ in as_completed(tasks, with_results=True):
-            pass
+        # A scheduler that is lost cancels tasks, but not all of them: the rest would be waited for without end. The
+        # caller counts the chunks.
+        while client.status not in ("closing", "closed") and not finished.is_empty():
+            if not finished.has_ready():
+                time.sleep(_LOOK_S)
+            elif next(finished)[0].cancelled():
+                break
     except CancelledError:
-        # The scheduler is lost; the caller counts the chunks.
         pass
     finally:
         if client.status == "running":
