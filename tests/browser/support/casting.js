@@ -116,10 +116,12 @@ function acrossMedian(medians, { end }) {
   const left = { x: -Math.sin(end.heading), y: Math.cos(end.heading) };
   const aside = (p) => (p[0] - end.x) * left.x + (p[1] - end.y) * left.y;
   const along = (p) => (p[0] - end.x) * left.y - (p[1] - end.y) * left.x;
-  for (const [a, b] of medians) {
-    // Well inside a stretch, or the way round its end would be no detour.
-    if (Math.max(along(a), along(b)) < 15 || Math.min(along(a), along(b)) > -15) continue;
-    const side = (aside(a) + aside(b)) / 2;
+  for (const line of medians) {
+    const all = line.map(along);
+    // Well inside the median, or the way round its end would be no detour.
+    if (Math.max(...all) < 15 || Math.min(...all) > -15) continue;
+    const at = line.findIndex((_, i) => i > 0 && all[i - 1] * all[i] <= 0);
+    const side = (aside(line[at - 1]) + aside(line[at])) / 2;
     if (Math.abs(side) > BESIDE_M) continue;
     const d = side + Math.sign(side) * ACROSS_M;
     return { x: end.x + left.x * d, y: end.y + left.y * d };
@@ -130,9 +132,7 @@ function acrossMedian(medians, { end }) {
 /** A moving car that ends beside a median, and a place straight across it. */
 export async function carBesideMedian(e) {
   const { map } = await openScene(e);
-  const medians = map.road_edges
-    .filter((r) => r.type === 'median')
-    .flatMap(({ points_m: p }) => p.slice(1).map((b, i) => [p[i], b]));
+  const medians = map.road_edges.filter((r) => r.type === 'median').map((r) => r.points_m);
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
   const car = await find(
     e,

@@ -373,13 +373,9 @@ describe('letters and ranks', () => {
     expect([whyNotLikeliest(f, 1, nameOf), whyNotLikeliest(f, 0, nameOf)]).toEqual(['B is shown: A hits Car 2', null]);
     // All likelier ones are in the reason, those without a worse fault too.
     expect(whyNotLikeliest(f, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
-    expect(whyNotLikeliest(f, 2, nameOf)).toBe(
-      'C is shown: A hits Car 2; B has a higher total cost',
-    );
+    expect(whyNotLikeliest(f, 2, nameOf)).toBe('C is shown: A hits Car 2; B has a higher total cost');
     const alike = { ...f, modes: f.modes.map((m) => ({ ...m, about: f.modes[2].about })) };
-    expect(whyNotLikeliest(alike, 1, nameOf)).toBe(
-      'B is shown: lower total cost than A, the likeliest',
-    );
+    expect(whyNotLikeliest(alike, 1, nameOf)).toBe('B is shown: lower total cost than A, the likeliest');
     expect(whyAnother(f, 0, 1, nameOf)).toBe('B is shown: A hits Car 2');
     expect(whyAnother(f, 3, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
     expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: A hits Car 2; C is less likely');

@@ -83,8 +83,7 @@ export const TEXTS = table('verdicts', {
   previousIsGone: (letter: string) => `${letter} is shown: the previous future is gone`,
   isLikelier: (letter: string, was: string) => `${letter} is shown: more likely than ${was}`,
   wasInTheDrag: (letter: string, was: string) => `${letter} is shown; ${was} was shown in the drag`,
-  costsLess: (letter: string, first: string) =>
-    `${letter} is shown: lower total cost than ${first}, the likeliest`,
+  costsLess: (letter: string, first: string) => `${letter} is shown: lower total cost than ${first}, the likeliest`,
   isLessLikely: 'is less likely',
   hasHigherCost: 'has a higher total cost',
   haveHigherCost: 'have a higher total cost',
