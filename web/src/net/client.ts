@@ -9,7 +9,7 @@ import type {
   Problem,
   SceneJson,
   SceneListReply,
-  ScenePatch,
+  SceneItemChange,
   ScoreReply,
   TemplateName,
   FormatInfo,
@@ -115,7 +115,7 @@ export class Client {
   }
 
   /** Changes what the server notes beside the content of a scene. */
-  async patch(id: string, change: ScenePatch, etag: string): Promise<string | null> {
+  async patch(id: string, change: SceneItemChange, etag: string): Promise<string | null> {
     const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`, {
       method: 'PATCH',
       body: JSON.stringify(change),

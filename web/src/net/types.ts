@@ -5,7 +5,7 @@ import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/document/s
 
 export type SceneListItem = Schemas['SceneItem'];
 export type SceneShare = Schemas['SceneShare'];
-export type ScenePatch = { readonly name: string } | { readonly shared: SceneShare };
+export type SceneItemChange = { readonly name: string } | { readonly shared: SceneShare };
 export type SceneListReply = Schemas['SceneList'];
 /** Road users in document form. */
 export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };
