@@ -13,9 +13,14 @@ fn single(low: f32, high: f32) -> impl Strategy<Value = f64> {
     (low..high).prop_map(f64::from)
 }
 
+/// A state that moves along its heading, up to 0.5 rad beside it: readers tell by it whether headings are degrees.
 fn state() -> impl Strategy<Value = State> {
-    let plane = (-4e3..4e3f64, -4e3..4e3f64, single(-3.1, 3.1), single(-40.0, 40.0), single(-40.0, 40.0));
-    plane.prop_map(|(x_m, y_m, heading_rad, vx_mps, vy_mps)| State { x_m, y_m, heading_rad, vx_mps, vy_mps })
+    let plane = (-4e3..4e3f64, -4e3..4e3f64, single(-3.1, 3.1), 0.0..40.0f32, -0.5..0.5f32);
+    plane.prop_map(|(x_m, y_m, heading_rad, speed_mps, aside_rad)| {
+        let way = heading_rad as f32 + aside_rad;
+        let (vx_mps, vy_mps) = ((speed_mps * way.cos()).into(), (speed_mps * way.sin()).into());
+        State { x_m, y_m, heading_rad, vx_mps, vy_mps }
+    })
 }
 
 fn track(steps: usize) -> impl Strategy<Value = Track> {
