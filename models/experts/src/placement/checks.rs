@@ -5,8 +5,8 @@ use super::placed::PlacedAgent;
 use super::stop_lines::{LineAhead, STOP_LINE_M, StopControl};
 pub(super) use crate::tuning::placing::checks::END_M;
 use crate::tuning::placing::checks::{
-    BAND, BEFORE_M, CROSSING_M, LANE_REACH_M, LONG_M, LONG_TURN_RAD, MARGIN_M, SIDE_M, WALK_AHEAD_M,
-    WALK_SIDE_M,
+    BAND, BEFORE_M, CROSSING_M, LANE_REACH_M, LONG_M, LONG_TURN_RAD, MARGIN_M, PAST_EDGE_M, SIDE_M,
+    WALK_AHEAD_M, WALK_SIDE_M,
 };
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
@@ -110,7 +110,7 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     }
 }
 
-/// The vehicle does not overhang the edge of the map, and a long one does not stand across lanes.
+/// The vehicle does not overhang the edge of the road or of the map, and a long one does not stand across lanes.
 fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     let Some(index) = placed.lane else { return true };
     let lane = &graph.lanes()[index];
@@ -126,6 +126,11 @@ fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
         return false;
     }
     let outline = placed.outline();
+    let beyond_edge =
+        || graph.ground().box_outside_m(&outline).is_some_and(|outside_m| outside_m > PAST_EDGE_M);
+    if placed.agent_type == AgentType::Vehicle && beyond_edge() {
+        return false;
+    }
     let ends = [1.0, -1.0].map(|end| outline.center() + outline.forward() * (end * half_m));
     placed.size.length_m < LONG_M || ends.iter().all(|p| is_along(*p, outline.heading_rad(), graph))
 }

@@ -78,6 +78,8 @@ numbers! {
         SIDE_M: f64 = 0.4;
         /// The same about a driver that another one crosses, metres: a little more than the gap of a near miss.
         CROSSING_M: f64 = 1.2;
+        /// A corner of a vehicle on a lane is at most so far past the edge of the road, metres.
+        PAST_EDGE_M: f64 = 0.05;
         /// A vehicle is at least so far before the end of a lane that leaves the map, metres: it must be seen for a while.
         END_M: f64 = 8.0;
         /// Vehicles longer than this stand straight on their lane only where nose and tail are on a lane too, metres.

@@ -15,6 +15,14 @@ const BEFORE_END_M: f64 = 0.05;
 /// Length beyond a lane's end at the map's edge over which the ground is unknown, metres: a minute at urban
 /// speed.
 const BEYOND_MAP_M: f64 = 1000.0;
+/// A lane that ends there would go on straight so far where another one is nearer, metres: nine seconds at 80 km/h.
+const WAY_OUT_M: f64 = 200.0;
+/// Pieces of that, so that the index holds them in small boxes.
+const WAY_OUT_PIECES: u32 = 4;
+/// Points of a line nearer together than this have no direction, metres.
+const LEAST_PIECE_M: f64 = 0.01;
+/// Most ends of lanes for which it is looked at: the memory of a map stays in proportion to its points.
+const MOST_WAYS_OUT: usize = 4096;
 /// Lanes are looked for within this, metres: no lane is more than twice as wide.
 const LANE_NEAR_M: f64 = 4.0;
 /// A lane farther away than this says nothing about a place, metres.
@@ -57,6 +65,7 @@ pub struct Drivable {
     edges: Arc<SegmentIndex>,
     centers: Arc<SegmentIndex>,
     bands: Arc<[Band]>,
+    ways_out: Arc<WaysOut>,
     /// By road edge: its id, and whether it bounds a median.
     edge_names: Arc<[(String, bool)]>,
     assumed_width: bool,
@@ -88,12 +97,15 @@ impl Drivable {
             ],
         };
         let edges = SegmentIndex::new(edges);
+        let bands: Arc<[Band]> = map.lanes.iter().map(band).collect();
+        let ways_out = WaysOut::new(lanes().map(|(i, lane)| (&lane.points.xy[..], bands[i])));
         Self {
             areas: Arc::new(Polygons::new(&map.drivable)),
             driveways: Arc::new(Polygons::new(&map.driveways)),
             area_sides: Arc::new(SegmentIndex::new(sides(&map.drivable).collect())),
             centers: Arc::new(SegmentIndex::new(centers)),
-            bands: map.lanes.iter().map(band).collect(),
+            ways_out: Arc::new(ways_out),
+            bands,
             edge_names: map.road_edges.iter().map(|e| (e.id.clone(), e.line_type == "median")).collect(),
             assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
             edges: Arc::new(edges),
@@ -155,10 +167,12 @@ impl Drivable {
     }
 
     /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
-    /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on.
-    fn is_beyond_map(&self, point: Vec2) -> bool {
+    /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on. Or it lies in
+    /// the width of any lane that ends so, if that went on straight and no road edge closes it.
+    pub fn is_beyond_map(&self, point: Vec2) -> bool {
         self.beyond_end(point)
             .is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b, b.half_width_m))
+            || self.ways_out.over(point).any(|end| !self.crosses_an_edge(end, point))
     }
 
     /// Where a point lies that is ahead of the open end of its nearest lane.
@@ -350,6 +364,48 @@ struct BeyondEnd {
     half_width_m: f64,
 }
 
+/// Straight on from the ends of lanes to which nothing leads and that nothing follows.
+#[derive(Clone, Debug, Default)]
+struct WaysOut {
+    /// Each end with the half of its lane's width, metres.
+    ends: Vec<(Vec2, f64)>,
+    /// The ways, in pieces; the owner is the end.
+    pieces: SegmentIndex,
+}
+
+impl WaysOut {
+    /// The ways of the vehicles' lanes, [`MOST_WAYS_OUT`] at most.
+    fn new<'a>(lanes: impl Iterator<Item = (&'a [Vec2], Band)>) -> Self {
+        let (mut ends, mut pieces) = (Vec::new(), Vec::new());
+        let open = lanes.filter(|(_, band)| band.carries_vehicles).flat_map(|(points, band)| {
+            let [first, last] = band.open;
+            let first = first.and_then(|end| Some((end, out_of(points.iter(), end)?)));
+            let last = last.and_then(|end| Some((end, out_of(points.iter().rev(), end)?)));
+            [first, last].into_iter().flatten().map(move |(end, out)| (end, out, band.half_width_m))
+        });
+        for ((end, out, half_width_m), owner) in open.take(MOST_WAYS_OUT).zip(0..) {
+            ends.push((end, half_width_m));
+            let at = |k: u32| end + out * (WAY_OUT_M * f64::from(k) / f64::from(WAY_OUT_PIECES));
+            let piece = |k: u32| Segment { from: at(k), to: at(k + 1), owner, piece: k };
+            pieces.extend((0..WAY_OUT_PIECES).map(piece));
+        }
+        Self { ends, pieces: SegmentIndex::new(pieces) }
+    }
+
+    /// The ends of the lanes in whose width the point would lie, if they went on.
+    fn over(&self, point: Vec2) -> impl Iterator<Item = Vec2> {
+        self.pieces.near(point, LANE_NEAR_M).filter_map(move |piece| {
+            let (end, half_width_m) = *self.ends.get(piece.owner as usize)?;
+            ((piece.foot(point) - point).norm() <= half_width_m).then_some(end)
+        })
+    }
+}
+
+/// The direction out of an end of a line, a unit vector; `points` begin there.
+fn out_of<'a>(mut points: impl Iterator<Item = &'a Vec2>, end: Vec2) -> Option<Vec2> {
+    points.find_map(|point| (end - point).try_normalize(LEAST_PIECE_M))
+}
+
 /// Another lane comes from where this one comes from, or leads to where it leads: few maps say which lanes lead through
 /// junctions.
 fn parts_or_joins(by_id: &HashMap<&str, &Lane>, lane: &Lane) -> bool {
@@ -469,6 +525,20 @@ mod tests {
         let outside_m = |y: f64| index.box_outside_m(&OrientedBox::new(at(98.2, y), 2.3, 0.9, 0.0));
         assert_eq!(outside_m(3.5), Some(0.0));
         assert!(outside_m(5.0).unwrap() > 0.4);
+    }
+
+    #[test]
+    fn a_way_out_of_the_map_may_pass_near_another_road() {
+        // Where the first road would go on, the second one is nearer than its end.
+        let lanes =
+            || vec![lane("east", &[(0.0, 0.0), (100.0, 0.0)]), lane("other", &[(0.0, 30.0), (300.0, 30.0)])];
+        let open = Drivable::new(&LaneMap { lanes: lanes(), ..LaneMap::default() });
+        assert!(open.is_beyond_map(at(180.0, 1.0)) && open.outside_m(at(180.0, 1.0)).is_none());
+        assert!(!open.is_beyond_map(at(180.0, 8.0)) && !open.is_beyond_map(at(350.0, 1.0)));
+        assert!(open.outside_m(at(180.0, 8.0)).unwrap() > 10.0, "beside the way out");
+        let wall = edge(&[(120.0, -5.0), (120.0, 5.0)]);
+        let closed = Drivable::new(&LaneMap { lanes: lanes(), road_edges: vec![wall], ..LaneMap::default() });
+        assert!(!closed.is_beyond_map(at(180.0, 1.0)) && open.is_beyond_map(at(110.0, 1.0)));
     }
 
     #[test]
