@@ -37,7 +37,7 @@ mod wasm;
 use anyhow::{Context, bail};
 use environments::Environment;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// Outcome of a check.
 enum Outcome {
@@ -50,36 +50,51 @@ enum Outcome {
 
 type Check = (&'static str, fn() -> anyhow::Result<Outcome>);
 
-/// In the order of what is found fastest.
-const CHECKS: &[Check] = &[
-    ("web-packages", web_packages),
-    ("commits", commits::check),
-    ("fmt", || cargo(&["fmt", "--all", "--check"])),
-    ("web-lint", || npm("web", &["run", "lint"])),
-    ("web-types", || npm("web", &["run", "check"])),
-    ("web-test", browser::page),
-    ("clippy", clippy),
-    // The program of a user, which has no lab; all else is as in the check before.
-    ("plain", || cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])),
-    ("wasm", wasm::check),
-    ("test", suites::check),
-    ("schedules", suites::schedules),
-    ("openapi", || drift(&["openapi"], "assets/openapi.json")),
-    ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
-    ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),
-    ("pattern-schema", || drift(&["schema", "pattern"], "assets/schema/pattern.v1.schema.json")),
-    ("domain", || drift(&["domain"], "assets/domain.json")),
-    ("shear", || tools::check("shear", &[])),
-    ("deny", || tools::check("deny", &["check", "licenses", "bans", "sources"])),
-    ("dependencies", dependencies::check),
-    ("package", packages::check),
-    ("python", python),
-    ("maps", maps),
-    ("checkers", checkers::check),
-    ("schemathesis", schemathesis::check),
-    ("figures", figures::drag),
-    ("browser", browser::check),
+/// The checks in stages, in the order of what is found fastest. Lanes of a stage run side by side where one of them leaves
+/// cores idle: the page's checks while the lints compile, foreign programs that read what ours wrote. What measures time,
+/// or waits for it, runs alone.
+const STAGES: &[&[&[Check]]] = &[
+    &[&[
+        ("web-packages", web_packages),
+        ("commits", commits::check),
+        ("fmt", || cargo(&["fmt", "--all", "--check"])),
+    ]],
+    &[
+        &[
+            ("clippy", clippy),
+            // The program of a user, which has no lab; all else is as in the check before.
+            ("plain", || {
+                cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])
+            }),
+            ("wasm", wasm::check),
+        ],
+        &[
+            ("web-lint", || npm("web", &["run", "lint"])),
+            ("web-types", || npm("web", &["run", "check"])),
+            ("web-test", browser::page),
+        ],
+    ],
+    &[&[
+        ("test", suites::check),
+        ("schedules", suites::schedules),
+        ("openapi", || drift(&["openapi"], "assets/openapi.json")),
+        ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
+        ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),
+        ("pattern-schema", || drift(&["schema", "pattern"], "assets/schema/pattern.v1.schema.json")),
+        ("domain", || drift(&["domain"], "assets/domain.json")),
+        ("shear", || tools::check("shear", &[])),
+        ("deny", || tools::check("deny", &["check", "licenses", "bans", "sources"])),
+        ("dependencies", dependencies::check),
+        ("package", packages::check),
+        ("python", python),
+    ]],
+    &[&[("maps", maps), ("checkers", checkers::check)], &[("schemathesis", schemathesis::check)]],
+    &[&[("figures", figures::drag), ("browser", browser::check)]],
 ];
+
+fn checks() -> impl Iterator<Item = &'static Check> {
+    STAGES.iter().flat_map(|lanes| lanes.iter().flat_map(|lane| lane.iter()))
+}
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -100,7 +115,7 @@ fn main() -> ExitCode {
         Some((command, rest)) if command == "slowest" => alone(slowest::command(rest)),
         Some((command, rest)) if command == "schemathesis" => alone(schemathesis::command(rest)),
         _ => {
-            let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
+            let names: Vec<&str> = checks().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
                 "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask quick\n       cargo xtask advisories\n       cargo xtask golden [--accept]\n       \
@@ -121,7 +136,7 @@ fn test(names: &[String]) -> ExitCode {
     let (flags, names): (Vec<&String>, Vec<&String>) = names.iter().partition(is_strict);
     let strict = !flags.is_empty();
     checkers::STRICT.store(strict, std::sync::atomic::Ordering::Relaxed);
-    if let Some(unknown) = names.iter().find(|name| !CHECKS.iter().any(|check| check.0 == name.as_str())) {
+    if let Some(unknown) = names.iter().find(|name| !checks().any(|check| check.0 == name.as_str())) {
         eprintln!("no check is named {unknown}");
         return ExitCode::from(2);
     }
@@ -131,7 +146,10 @@ fn test(names: &[String]) -> ExitCode {
         eprintln!("{error:#}");
     }
     let asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked.as_str() == name);
-    report::run(CHECKS.iter().filter(|check| asked(check.0)).map(|(name, work)| (*name, work as _)), strict)
+    let lane = |lane: &&'static [Check]| -> report::Lane<'static> {
+        lane.iter().filter(|check| asked(check.0)).map(|(name, work)| (*name, work as _)).collect()
+    };
+    report::run(STAGES.iter().map(|lanes| lanes.iter().map(lane).collect()).collect(), strict)
 }
 
 /// A single piece of work, outside the list of checks.
@@ -168,7 +186,7 @@ fn root() -> &'static Path {
 
 fn run(command: &mut Command) -> anyhow::Result<Outcome> {
     let shown = format!("{command:?}").replace('"', "");
-    let status = command.stdin(Stdio::null()).status().with_context(|| format!("cannot run {shown}"))?;
+    let status = report::status(command).with_context(|| format!("cannot run {shown}"))?;
     Ok(if status.success() { Outcome::Passed } else { Outcome::Failed(format!("{shown}: {status}")) })
 }
 

@@ -35,7 +35,7 @@ pub fn run() -> ExitCode {
     };
     let (page_lint, page_types) = (page(&["lint"]), page(&["check"]));
     let page_test = page(&["test", "--", "--exclude", "test/browser/**"]);
-    let mut checks: Vec<(&str, report::Work<'_>)> = vec![("commits", &commits::check), ("fmt", &format)];
+    let mut checks: report::Lane<'_> = vec![("commits", &commits::check), ("fmt", &format)];
     if changed.page {
         checks.extend([
             ("web-lint", &page_lint as _),
@@ -46,7 +46,7 @@ pub fn run() -> ExitCode {
     if !changed.crates.is_empty() {
         checks.extend([("clippy", &clippy as _), ("units", &test as _)]);
     }
-    report::run(checks, true)
+    report::run(vec![vec![checks]], true)
 }
 
 /// Changes since the commit at which this branch began.

@@ -1,33 +1,97 @@
-//! Runs checks one after the other, and prints how each ended and how long it took.
+//! Runs checks in stages, and prints how each ended and how long it took.
 
 use crate::Outcome;
-use std::process::ExitCode;
+use std::cell::RefCell;
+use std::io::Write;
+use std::panic::resume_unwind;
+use std::process::{Command, ExitCode, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// Body of a check.
-pub type Work<'a> = &'a dyn Fn() -> anyhow::Result<Outcome>;
+pub type Work<'a> = &'a (dyn Fn() -> anyhow::Result<Outcome> + Sync);
+/// Checks that run one after the other.
+pub type Lane<'a> = Vec<(&'a str, Work<'a>)>;
+/// How a check ended, and how long it took.
+type Line<'a> = (&'a str, Duration, Outcome);
 
-/// Runs all of them: a check that fails does not stop the others. With `strict`, a skipped check fails.
-pub fn run<'a>(checks: impl IntoIterator<Item = (&'a str, Work<'a>)>, strict: bool) -> ExitCode {
+thread_local! {
+    /// Output of the commands of a check beside which another one runs.
+    static HELD: RefCell<Option<Vec<u8>>> = const { RefCell::new(None) };
+}
+
+/// Runs the stages one after the other, the lanes of each side by side: a check that fails does not stop the others. With
+/// `strict`, a skipped check fails.
+pub fn run(stages: Vec<Vec<Lane<'_>>>, strict: bool) -> ExitCode {
+    let began = Instant::now();
     let mut lines = Vec::new();
-    for (name, check) in checks {
-        println!("== {name}");
-        let began = Instant::now();
-        let outcome = match check() {
-            Ok(Outcome::Skipped(why)) if strict => Outcome::Failed(format!("skipped: {why}")),
-            Ok(outcome) => outcome,
-            Err(error) => Outcome::Failed(format!("{error:#}")),
-        };
-        lines.push((name, began.elapsed(), outcome));
+    for mut lanes in stages {
+        lanes.retain(|lane| !lane.is_empty());
+        match &lanes[..] {
+            [lane] => lines.extend(lane.iter().map(|(name, work)| ended(name, *work, strict))),
+            lanes => lines.extend(side_by_side(lanes, strict)),
+        }
     }
     let failed = lines.iter().any(|(.., outcome)| matches!(outcome, Outcome::Failed(_)));
-    println!("\n{}", table(lines));
+    println!("\n{}", table(lines, began.elapsed()));
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// A line for each check, the slowest first, and their sums.
-fn table(mut lines: Vec<(&str, Duration, Outcome)>) -> String {
-    let total: Duration = lines.iter().map(|(_, time, _)| *time).sum();
+/// Runs each lane on a thread; what the commands of a check print comes at its end.
+fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<Line<'a>> {
+    let held = move |(name, work): &(&'a str, Work<'a>)| {
+        HELD.set(Some(format!("== {name}\n").into_bytes()));
+        let line = worked(name, *work, strict);
+        let text = HELD.take().unwrap_or_default();
+        // A closed terminal is no fault of the check.
+        let _ = std::io::stdout().lock().write_all(&text);
+        line
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> =
+            lanes.iter().map(|lane| scope.spawn(move || lane.iter().map(held).collect::<Vec<_>>())).collect();
+        let ended =
+            threads.into_iter().flat_map(|thread| thread.join().unwrap_or_else(|why| resume_unwind(why)));
+        ended.collect()
+    })
+}
+
+fn ended<'a>(name: &'a str, work: Work<'_>, strict: bool) -> Line<'a> {
+    println!("== {name}");
+    worked(name, work, strict)
+}
+
+fn worked<'a>(name: &'a str, work: Work<'_>, strict: bool) -> Line<'a> {
+    let began = Instant::now();
+    let outcome = match work() {
+        Ok(Outcome::Skipped(why)) if strict => Outcome::Failed(format!("skipped: {why}")),
+        Ok(outcome) => outcome,
+        Err(error) => Outcome::Failed(format!("{error:#}")),
+    };
+    (name, began.elapsed(), outcome)
+}
+
+/// Runs a command. Its output is held where another check runs beside this one.
+///
+/// # Errors
+/// If it cannot be started.
+pub fn status(command: &mut Command) -> std::io::Result<ExitStatus> {
+    command.stdin(Stdio::null());
+    if HELD.with_borrow(Option::is_none) {
+        return command.status();
+    }
+    // One pipe for both, so that lines keep their order.
+    let (mut read, write) = std::io::pipe()?;
+    let mut child = command.stdout(write.try_clone()?).stderr(write).spawn()?;
+    // The command has the ends of the pipe until it is given others.
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut text = Vec::new();
+    std::io::Read::read_to_end(&mut read, &mut text)?;
+    HELD.with_borrow_mut(|held| held.get_or_insert_default().extend(text));
+    child.wait()
+}
+
+/// A line for each check, the slowest first, and the sums.
+fn table(mut lines: Vec<Line<'_>>, total: Duration) -> String {
     lines.sort_by_key(|(_, time, _)| std::cmp::Reverse(*time));
     let (mut passed, mut failed, mut skipped) = (0, 0, 0);
     let mut text = String::new();
@@ -48,8 +112,10 @@ fn table(mut lines: Vec<(&str, Duration, Outcome)>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Outcome, run, table};
-    use std::process::ExitCode;
+    use super::{HELD, Outcome, run, status, table};
+    use std::process::{Command, ExitCode};
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::Duration;
 
     #[test]
@@ -60,15 +126,50 @@ mod tests {
             ("wasm", Duration::from_secs(20), Outcome::Skipped("no compiler".into())),
         ];
         let expected = "test            400 s  FAILED: two\nwasm             20 s  skipped: no compiler\n\
-                        fmt               3 s  passed\ntotal           423 s\n\n\
+                        fmt               3 s  passed\ntotal           410 s\n\n\
                         checks: 1 passed, 1 failed, 1 skipped";
-        assert_eq!(table(lines), expected);
+        assert_eq!(table(lines, Duration::from_secs(410)), expected);
     }
 
     #[test]
     fn a_skipped_check_fails_where_that_is_asked_for() {
         let skips = || Ok(Outcome::Skipped("no compiler".into()));
-        assert_eq!(run([("wasm", &skips as _)], false), ExitCode::SUCCESS);
-        assert_eq!(run([("wasm", &skips as _)], true), ExitCode::FAILURE);
+        let stage = || vec![vec![vec![("wasm", &skips as _)]]];
+        assert_eq!(run(stage(), false), ExitCode::SUCCESS);
+        assert_eq!(run(stage(), true), ExitCode::FAILURE);
+    }
+
+    #[test]
+    fn lanes_run_beside_each_other_and_stages_one_after_the_other() {
+        let (here, there) = (Barrier::new(2), AtomicUsize::new(0));
+        // Each of the two waits for the other one.
+        let meets = || {
+            here.wait();
+            there.fetch_add(1, Ordering::Relaxed);
+            Ok(Outcome::Passed)
+        };
+        let both_met = || match there.load(Ordering::Relaxed) {
+            2 => Ok(Outcome::Passed),
+            met => Ok(Outcome::Failed(format!("{met} of 2"))),
+        };
+        let stages = vec![
+            vec![vec![("a", &meets as _)], vec![("b", &meets as _)], Vec::new()],
+            vec![vec![("after", &both_met as _)]],
+        ];
+        assert_eq!(run(stages, true), ExitCode::SUCCESS);
+        let fails = || anyhow::bail!("broken");
+        let passes = || Ok(Outcome::Passed);
+        let stages = vec![vec![vec![("a", &fails as _)], vec![("b", &passes as _)]]];
+        assert_eq!(run(stages, false), ExitCode::FAILURE);
+    }
+
+    #[test]
+    fn what_a_command_prints_is_held_in_its_order_where_another_check_runs() {
+        HELD.set(Some(Vec::new()));
+        let ended = status(Command::new("cargo").arg("--version")).unwrap();
+        let failed = status(Command::new("cargo").arg("no-such-command")).unwrap();
+        let text = String::from_utf8(HELD.take().unwrap()).unwrap();
+        assert!(ended.success() && !failed.success());
+        assert!(text.starts_with("cargo 1.") && text.contains("no-such-command"), "{text}");
     }
 }

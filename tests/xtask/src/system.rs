@@ -4,6 +4,15 @@ use crate::{Outcome, run};
 use anyhow::bail;
 use std::path::Path;
 use std::process::Command;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// `apt-get` refuses to work twice at a time.
+static APT: Mutex<()> = Mutex::new(());
+
+/// To be held while `apt-get` works.
+pub fn apt_lock() -> MutexGuard<'static, ()> {
+    APT.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// A program: the variable that may name it, its names on the path, and its Debian package.
 pub struct SystemProgram {
@@ -26,6 +35,7 @@ impl SystemProgram {
         if !is_root || !has_apt {
             return Ok(None);
         }
+        let _alone = apt_lock();
         let apt = |arguments: &[&str]| {
             run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
         };

@@ -3,6 +3,7 @@
 //! The standard library for WebAssembly comes from rustup. Where rustup cannot reach its server, Debian's compiler
 //! for browsers and its sources of that library are unpacked under `target/wasm`.
 
+use crate::system::apt_lock;
 use crate::{Outcome, cargo_command, root, run};
 use anyhow::{Context, ensure};
 use std::path::{Path, PathBuf};
@@ -50,6 +51,7 @@ fn unpack(folder: &Path) -> anyhow::Result<()> {
     if folder.join("complete").is_file() {
         return Ok(());
     }
+    let _alone = apt_lock();
     std::fs::create_dir_all(folder.join("packages"))?;
     // Lists that are out of date make the download fail below.
     let _ = quiet(Command::new("apt-get").args(["update", "-q"]));
