@@ -16,6 +16,8 @@ mod blocked_lane;
 mod crossing;
 #[path = "generator/driving.rs"]
 mod driving;
+#[path = "generator/late_arrivals.rs"]
+mod late_arrivals;
 #[path = "generator/leaks.rs"]
 mod leaks;
 #[path = "generator/planning.rs"]

@@ -12,6 +12,7 @@ use crate::planning::world::{AgentAtStart, Waypoint, World};
 use crate::planning::{INSTANT_S, INSTANTS, MODES};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionKind, MotionModel, Target};
+use scene::routes::LaneGraph;
 use scene::score::Drivable;
 use scene::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use std::sync::Arc;
@@ -125,6 +126,14 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
 }
 
 impl AgentPlan {
+    /// A place farther than `off_lanes_m` from every lane that the agent may use. Beyond the ends of the roads the map
+    /// does not say where lanes are, so nothing there is off them.
+    pub fn is_off_lanes(&self, graph: &LaneGraph, place: Vec2, off_lanes_m: f64) -> bool {
+        !graph.has_lane_for(place, off_lanes_m, self.present.agent_type)
+            && !self.drivable.is_beside_allowed(place)
+            && !self.drivable.is_beyond_map(place)
+    }
+
     /// The agent has neither a goal nor a via point.
     pub fn is_free(&self) -> bool {
         self.target.is_free() && self.vias.is_empty()

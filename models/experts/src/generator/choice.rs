@@ -5,6 +5,7 @@ use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
 use crate::tuning::fixed::choice::{LEAST_SPREAD_M, MOST_MOMENTS};
 use scene::HORIZON_STEPS;
+use scene::geometry::obb::overlaps;
 use scene::motion::Trajectory;
 use scene::score::{CLOSE_M, SweptBounds, SweptBoxes, Thresholds, comes_within, dangerous_moments, overlap};
 use std::sync::Arc;
@@ -30,6 +31,28 @@ impl JointOption {
     }
 }
 
+/// A motion that stays as it is.
+#[derive(Clone, Copy)]
+pub(super) struct FixedMotion<'a> {
+    pub(super) sweep: &'a Sweep,
+    /// Of a road user that comes in later, and stays out where it would meet another one then: these steps.
+    pub(super) comes_in: Option<(usize, usize)>,
+}
+
+impl FixedMotion<'_> {
+    fn boxes(&self) -> &SweptBoxes {
+        self.sweep.swept()
+    }
+
+    /// It would come in where this motion is then, or meet it sooner than it can help.
+    pub(super) fn is_kept_out_by(&self, motion: &Sweep) -> bool {
+        let touch = |step: usize| {
+            self.sweep.at(step).zip(motion.at(step)).is_some_and(|(own, other)| overlaps(own, other, 0.0))
+        };
+        self.comes_in.is_some_and(|(first, last)| (first..=last).any(touch))
+    }
+}
+
 /// Steps between the states that two motions are compared at.
 const EVERY: usize = 5;
 
@@ -50,7 +73,7 @@ pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]
 /// The scene's options and its fixed motions.
 pub(super) struct Choice<'a> {
     pub(super) agents: Vec<Vec<JointOption>>,
-    pub(super) fixed: &'a [&'a SweptBoxes],
+    pub(super) fixed: &'a [FixedMotion<'a>],
     pub(super) tuning: &'a ChoiceTuning,
 }
 
@@ -88,8 +111,8 @@ impl Choice<'_> {
         let mut out = vec![false; chosen.len()];
         let near = self.near();
         for (i, &o) in chosen.iter().enumerate() {
-            let boxes = self.agents[i][o].boxes();
-            out[i] |= self.fixed.iter().any(|f| overlap(boxes, f).close);
+            let (boxes, sweep) = (self.agents[i][o].boxes(), &self.agents[i][o].sweep);
+            out[i] |= self.fixed.iter().any(|f| overlap(boxes, f.boxes()).close && !f.is_kept_out_by(sweep));
             for &j in near[i].iter().filter(|j| **j > i) {
                 if overlap(boxes, self.agents[j][chosen[j]].boxes()).close {
                     out[i] = true;
@@ -147,8 +170,8 @@ impl Choice<'_> {
     /// Each option by itself and against what is fixed.
     fn own_costs(&self) -> Vec<Vec<f64>> {
         let against = |option: &JointOption| -> f64 {
-            let fixed = self.fixed.iter().filter(|_| !option.kept);
-            fixed.map(|f| price(option.boxes(), f, self.tuning)).sum()
+            let fixed = self.fixed.iter().filter(|f| !option.kept && !f.is_kept_out_by(&option.sweep));
+            fixed.map(|f| price(option.boxes(), f.boxes(), self.tuning)).sum()
         };
         self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
@@ -265,7 +288,7 @@ mod tests {
         let kept = ride(8.3, 8.0, 0.0);
         let choice = Choice {
             agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)],
-            fixed: &[kept.boxes()],
+            fixed: &[FixedMotion { sweep: &kept.sweep, comes_in: None }],
             tuning: &SHIPPED.choice,
         };
         assert_eq!(choice.solve(), vec![0, 1]);
@@ -277,8 +300,21 @@ mod tests {
         let choice = Choice {
             tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]],
-            fixed: &[kept.boxes()],
+            fixed: &[FixedMotion { sweep: &kept.sweep, comes_in: None }],
         };
         assert_eq!(choice.solve(), vec![1]);
+    }
+
+    #[test]
+    fn nobody_gives_way_to_a_road_user_that_would_come_in_where_it_is() {
+        let late = ride(0.0, 8.0, 0.0);
+        let of = |comes_in: Option<(usize, usize)>| {
+            let fixed = [FixedMotion { sweep: &late.sweep, comes_in }];
+            let agents = vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]];
+            let choice = Choice { tuning: &SHIPPED.choice, agents, fixed: &fixed };
+            (choice.solve(), choice.in_conflict(&[0]))
+        };
+        assert_eq!(of(Some((20, 25))), (vec![0], vec![false]));
+        assert_eq!(of(None), (vec![1], vec![true]));
     }
 }

@@ -5,7 +5,7 @@ use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::choice::{JointOption, medoid_costs};
 use super::motion::Sweep;
 use super::others::Others;
-use super::road_rules::{drives_against, is_off_lanes};
+use super::road_rules::drives_against;
 use super::slot::Slot;
 use super::stepping_out::steps_out;
 use super::via_steering::vias_missed;
@@ -193,7 +193,7 @@ fn off_road(actor: &PlannedActor, states: &Trajectory, map: &KnownMap, tuning: &
     let Some(start) = states.first().filter(|_| present.agent_type == AgentType::Vehicle) else {
         return 0.0;
     };
-    let away = |s: &MotionState| is_off_lanes(&map.graph, &actor.plan, s.position, tuning.off_lanes_m);
+    let away = |s: &MotionState| actor.plan.is_off_lanes(&map.graph, s.position, tuning.off_lanes_m);
     let beyond = |s: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(s), &present.size);
         actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)

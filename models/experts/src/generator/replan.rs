@@ -3,7 +3,6 @@
 //! It starts and meets its goal as before. Where that does not help either, it stops before what is in the way.
 
 use super::motion::Sweep;
-use super::road_rules::is_off_lanes;
 use super::slot::Slot;
 use super::trajectory::{Rollout, along_places, short_along};
 use crate::features::agent::{AgentPlan, BEYOND_M};
@@ -284,7 +283,7 @@ impl<'a> ShiftSearch<'a> {
     }
 
     fn is_off_lanes(&self, place: Vec2) -> bool {
-        is_off_lanes(self.field.graph, self.plan, place, self.field.off_lanes_m)
+        self.plan.is_off_lanes(self.field.graph, place, self.field.off_lanes_m)
     }
 
     /// Metres along the path at each step for one that brakes from a step on until it stands.

@@ -2,15 +2,14 @@
 
 use super::actor::PlannedActor;
 use super::trajectory::Rollout;
-use crate::features::agent::{AgentPlan, BEYOND_M};
+use crate::features::agent::BEYOND_M;
 use crate::planning::PER_INSTANT;
 use crate::tuning::ChoiceTuning;
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::MotionState;
-use scene::routes::LaneGraph;
 use scene::score::Drivable;
-use scene::{AgentType, STANDING_MPS, State, Vec2};
+use scene::{AgentType, STANDING_MPS, State};
 
 /// Whether the actor is a vehicle whose box lies within the road's edges at the start.
 pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) -> bool {
@@ -18,14 +17,6 @@ pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) ->
     let outline = OrientedBox::of_state(&present.start, &present.size);
     present.agent_type == AgentType::Vehicle
         && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
-}
-
-/// A place farther than `off_lanes_m` from every lane that the agent may use. Beyond the ends of the roads the map does
-/// not say where lanes are, so nothing there is off them.
-pub(super) fn is_off_lanes(graph: &LaneGraph, plan: &AgentPlan, place: Vec2, off_lanes_m: f64) -> bool {
-    !graph.has_lane_for(place, off_lanes_m, plan.present.agent_type)
-        && !plan.drivable.is_beside_allowed(place)
-        && !plan.drivable.is_beyond_map(place)
 }
 
 /// A vehicle moves against the traffic of the lane that it is in.

@@ -23,6 +23,8 @@ numbers! {
         MOST_MOMENTS: f64 = 2.0;
         /// Modes that are nearer to an option on average count as so far from it, metres.
         LEAST_SPREAD_M: f64 = 0.3;
+        /// A road user that would meet another one within so many steps of coming in does not come in.
+        COMES_IN_STEPS: usize = 5;
     }
     /// Of the future that a person has seen last. Greater faults are a reason to show another; a 5 cm move of a goal
     /// changes lesser ones.

@@ -144,6 +144,8 @@ pub enum ReactionKind {
     SpeedsUp,
     /// Takes another line.
     KeepsClear,
+    /// Comes in later than the others, and does not come in: its place is taken then.
+    StaysOut,
 }
 
 /// Why a road user gave up the motion that it had.

@@ -94,6 +94,9 @@ fn reaction(reaction: &Reaction) -> String {
         ReactionKind::Slows => "slows for",
         ReactionKind::SpeedsUp => "speeds up for",
         ReactionKind::KeepsClear => "keeps clear of",
+        ReactionKind::StaysOut => {
+            return format!("does not come in at {:.1} s: {} is there", reaction.time_s, reaction.cause);
+        }
     };
     let delay = match reaction.delay_s {
         delay if delay >= 0.05 => format!(", {delay:.1} s later"),

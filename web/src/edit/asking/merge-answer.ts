@@ -135,7 +135,7 @@ export function futuresOf(before: MotionSet, scene: Scene, e: FinalEvent, keep: 
 
 function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
   const start = firstPose(a, json);
-  if (!start || !json.modes?.length) return null;
+  if (!json.modes?.length) return null;
   const known = before.futures.get(a.id);
   const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
   if (!known || !picked) {

@@ -4092,9 +4092,11 @@ export interface components {
          *     `speeds_up`: Is faster.
          *
          *     `keeps_clear`: Takes another line.
+         *
+         *     `stays_out`: Comes in later than the others, and does not come in: its place is taken then.
          * @enum {string}
          */
-        ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear";
+        ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear" | "stays_out";
         /**
          * RedLight
          * @description A stop line is crossed while its signal says stop.

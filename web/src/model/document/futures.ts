@@ -37,10 +37,10 @@ export interface Futures {
 
 export const isSettled = (f: Futures): boolean => f.step >= f.steps;
 
-/** Futures as received; the name is empty where the answer has none. */
+/** Futures as received; the name is empty where the answer has none. Null for a start that the futures contain. */
 export function unnamedFutures(
   json: AgentFuturesJson,
-  start: Pose,
+  start: Pose | null,
   step: number,
   steps: number,
   keep?: KeepOrder,
@@ -52,7 +52,7 @@ export function unnamedFutures(
     return {
       probability: m.probability,
       name: m.name ?? '',
-      motion: motionFrom(m, start),
+      motion: motionFrom(m, start ?? undefined),
       about: readAbout(m),
       sent: sentAbout(m),
       anchor: m.anchor ?? null,

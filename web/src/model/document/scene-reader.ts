@@ -202,7 +202,10 @@ function readPins(json: unknown, logStart: Pose | null): readonly Pin[] {
   return Object.freeze(pins);
 }
 
-/** The pose before the first of the futures: the start, or for a late arrival its first recorded pose. */
+/**
+ * The pose before the first of the futures: the start, or for a late arrival its first recorded pose; null for one that
+ * comes in slower than recorded, or not at all.
+ */
 export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
   startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
 
@@ -220,10 +223,9 @@ function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | n
   const futures = new Map<string, Futures>();
   const answering = new Map<string, Answering>();
   for (const [id, f] of Object.entries(agents)) {
-    const a = scene.agents.get(id),
-      start = a && firstPose(a, f);
-    if (a && start && f.modes?.length) {
-      futures.set(id, unnamedFutures(f, start, 1, 1));
+    const a = scene.agents.get(id);
+    if (a && f.modes?.length) {
+      futures.set(id, unnamedFutures(f, firstPose(a, f), 1, 1));
       if (f.reaction) answering.set(id, readAnswering(scene, a, f.reaction));
     }
   }

@@ -48,6 +48,8 @@ export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'):
       return TEXTS.speedsUpFor(name);
     case 'keeps_clear':
       return TEXTS.keepsClearOf(name, r.ahead);
+    case 'stays_out':
+      return TEXTS.staysOut(name);
   }
 }
 

@@ -15,7 +15,7 @@ export function withNames(f: Futures, who: Naming): Futures {
 /** Futures as received, `step` of `steps`; a received name stays. */
 export function readFutures(
   json: AgentFuturesJson,
-  start: Pose,
+  start: Pose | null,
   step: number,
   steps: number,
   onFoot: boolean,

@@ -4,7 +4,7 @@ mod conflicts;
 
 use crate::features::agent::AgentPlan;
 use crate::generator::candidates::{CandidateOrigin, MotionCandidate, own, shown};
-use crate::generator::choice::{Choice, JointOption};
+use crate::generator::choice::{Choice, FixedMotion, JointOption};
 use crate::generator::costs::{Yardstick, options};
 use crate::generator::decisions::{Decided, Decisions};
 use crate::generator::guidance::guided;
@@ -22,7 +22,7 @@ use crate::tuning::fixed::following::BRAKES;
 use crate::tuning::fixed::shown_last;
 use scene::judge::{Fault, FaultKind, Judge};
 use scene::motion::{MotionKind, Smoothing};
-use scene::score::{SweptBoxes, dangerous_moments, overlap};
+use scene::score::{dangerous_moments, overlap};
 use scene::{AgentId, Future, STEP_S, State};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ const MOST_ROUNDS: usize = 2;
 pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let setting = of.setting;
     let judge = window_judge(setting);
-    let fixed: Vec<&SweptBoxes> = of.others.kept().map(Sweep::swept).collect();
+    let fixed: Vec<FixedMotion<'_>> = of.others.kept().collect();
     let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
     let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
     let mut table = OptionTable { of, judge, choice, candidates };

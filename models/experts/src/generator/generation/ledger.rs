@@ -141,6 +141,11 @@ impl Ledger {
         // It comes in, or leaves what it did, after these steps: a later window sees to that.
         let there = span.len().saturating_sub(reacted.enters);
         let agent = reacted.index;
+        if there > 0 && reacted.stays_out() {
+            let out = AgentProgress::new(window.reaction(reacted), Vec::new(), 0);
+            self.progress.insert(agent, AgentProgress { reacts: true, ..out });
+            return;
+        }
         if there == 0 || there <= reacted.own && !self.progress.contains_key(&agent) {
             return;
         }

@@ -3,10 +3,10 @@
 
 use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
-use super::reaction::reaction;
+use super::reaction::{reaction, stays_out};
 use crate::generator::motion::Sweep;
 use crate::generator::window_setting::WindowSetting;
-use scene::judge::Reaction;
+use scene::judge::{Reaction, ReactionKind};
 use scene::{AgentId, Future, State};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -38,8 +38,17 @@ pub(in crate::generator) struct Reacted {
 }
 
 impl Reacted {
-    /// Its motion as a future, as far as the call goes.
+    /// It does not come in at all.
+    pub(in crate::generator) fn stays_out(&self) -> bool {
+        self.reaction.as_ref().is_some_and(|reaction| reaction.kind == ReactionKind::StaysOut)
+    }
+
+    /// Its motion as a future, as far as the call goes. Without a state where it stays out: it is absent from the
+    /// window's start on.
     pub(in crate::generator) fn future(&self, setting: &WindowSetting<'_>) -> Future {
+        if self.stays_out() {
+            return Future::bare(1.0, setting.world.step + 1, Vec::new());
+        }
         let left = setting.steps_left().saturating_sub(self.enters);
         let states = self.states.iter().take(left).copied().collect();
         Future::bare(1.0, setting.world.step + self.enters + 1, states)
@@ -51,7 +60,7 @@ impl Others<'_> {
     pub(in crate::generator) fn burden(&self, sweep: &Sweep) -> f64 {
         let cost = |who: ReactingAgent<'_>| {
             let price = self.price(&who.other.sweep, sweep);
-            (price > 0.0).then(|| {
+            (price > 0.0 && !who.other.is_kept_out_by(sweep)).then(|| {
                 let way = self.way(who, &[SeenMotion { reactor: None, kept: false, sweep }]);
                 way.map_or(price, |way| way.cost.min(price))
             })
@@ -63,9 +72,32 @@ impl Others<'_> {
     /// the last byte.
     pub(in crate::generator) fn reactions(&self, changed: &[&ChangedMotion]) -> Vec<Reacted> {
         let reactors = self.reactors();
-        let ways = self.ways(&reactors, changed);
+        let moved = changed.iter().filter(|c| !c.kept).map(|c| (&c.id, &*c.sweep));
+        let mut out = vec![None; self.each.len()];
+        self.keep_out(&mut out, moved.clone());
+        let ways = self.ways(&reactors, changed, &out);
+        let yielding =
+            reactors.iter().zip(&ways).filter_map(|(who, way)| Some((&who.other.id, &way.as_ref()?.sweep)));
+        self.keep_out(&mut out, yielding);
+        // Some can neither come in as they are nor brake in time.
+        for (who, way) in reactors.iter().zip(&ways) {
+            let own = way.as_ref().map_or(&who.other.sweep, |way| &way.sweep);
+            let met = || moved.clone().find(|(_, motion)| who.other.comes_in_before(own, motion));
+            out[who.at] = out[who.at].or_else(|| met().map(|(id, _)| id));
+        }
         let causes = self.causes(&reactors, changed, &ways);
-        let each = reactors.into_iter().zip(ways).zip(causes);
+        let stay_out = self.each.iter().zip(&out).filter_map(|(other, cause)| {
+            let ((step, state), cause) = (other.entry()?, (*cause)?.clone());
+            Some(Reacted {
+                index: other.index,
+                enters: step,
+                states: Vec::new(),
+                own: 0,
+                reaction: Some(stays_out(state, cause, self.start_step + step)),
+            })
+        });
+        let stay_out: Vec<Reacted> = stay_out.collect();
+        let each = reactors.into_iter().zip(ways).zip(causes).filter(|((who, _), _)| out[who.at].is_none());
         let reacted = each.filter_map(|((ReactingAgent { own, .. }, way), cause)| {
             let path = &own.path;
             // The first state is known, unless the agent enters in another way.
@@ -87,14 +119,31 @@ impl Others<'_> {
                 None => own.resumed.then(|| of(&path.states, path.states.len(), None)),
             }
         });
-        reacted.collect()
+        reacted.chain(stay_out).collect()
+    }
+
+    /// Notes of each agent that would come in where one of these motions is then which agent keeps it out.
+    fn keep_out<'a, 'm>(
+        &self,
+        out: &mut [Option<&'a AgentId>],
+        motions: impl Iterator<Item = (&'a AgentId, &'m Sweep)> + Clone,
+    ) {
+        for (other, out) in
+            self.each.iter().zip(out).filter(|(other, out)| other.entry().is_some() && out.is_none())
+        {
+            let by = motions.clone().find(|(id, motion)| **id != other.id && other.is_kept_out_by(motion));
+            *out = by.map(|(id, _)| id);
+        }
     }
 
     /// Every agent's motion by id: the new motion of agents that react, the kept motion of all others.
     pub(in crate::generator) fn with(&self, reacted: &[Reacted]) -> Vec<(&AgentId, Cow<'_, Sweep>)> {
         let changed = |other: &OtherAgent| {
+            let new = reacted.iter().find(|r| r.index == other.index && r.reaction.is_some())?;
+            if new.stays_out() {
+                return Some(Sweep::new(Vec::new(), other.sweep.size()));
+            }
             let Response::Reacts(own) = &other.response else { return None };
-            let new = reacted.iter().find(|r| r.index == own.index && r.reaction.is_some())?;
             // A reaction begins at the step after the agent is first present, unless it enters in another way.
             let known = own.path.states.first().filter(|_| new.enters >= own.path.enters);
             let states = known.into_iter().chain(&new.states);
@@ -105,9 +154,16 @@ impl Others<'_> {
     }
 
     /// Resolves the earliest conflict until no agent can improve on one.
-    fn ways(&self, reactors: &[ReactingAgent<'_>], changed: &[&ChangedMotion]) -> Vec<Option<YieldOption>> {
+    fn ways(
+        &self,
+        reactors: &[ReactingAgent<'_>],
+        changed: &[&ChangedMotion],
+        out: &[Option<&AgentId>],
+    ) -> Vec<Option<YieldOption>> {
         let mut ways: Vec<Option<YieldOption>> = vec![None; reactors.len()];
-        let mut decisions = vec![0; reactors.len()];
+        // Who stays out decides nothing.
+        let decisions = |who: &ReactingAgent<'_>| if out[who.at].is_some() { MOST_DECISIONS } else { 0 };
+        let mut decisions: Vec<usize> = reactors.iter().map(decisions).collect();
         loop {
             let seen = self.seen(reactors, changed, &ways);
             let first = reactors

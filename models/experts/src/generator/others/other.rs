@@ -3,6 +3,7 @@
 use super::blocks::{Corridor, PathBlock, closed};
 use super::path_progress::PathProgress;
 use crate::generator::cast::WindowCast;
+use crate::generator::choice::FixedMotion;
 use crate::generator::motion::{KeptMotion, Sweep};
 use crate::generator::workers::WorkerPool;
 use crate::planning::STAYS_WITHIN_M;
@@ -10,6 +11,7 @@ use crate::planning::stop_line::StopLine;
 use crate::planning::world::World;
 use crate::request::Request;
 use crate::tuning::Tuning;
+use crate::tuning::fixed::choice::COMES_IN_STEPS;
 use scene::judge::Trace;
 use scene::limits::Limits;
 use scene::routes::LaneGraph;
@@ -32,6 +34,8 @@ pub(super) enum KeptFrom {
 
 /// An agent that does not act in a window.
 pub(in crate::generator) struct OtherAgent {
+    /// Index into the scene's agents.
+    pub(super) index: usize,
     pub(in crate::generator) id: AgentId,
     /// The motion that it keeps.
     pub(in crate::generator) sweep: Sweep,
@@ -41,6 +45,8 @@ pub(in crate::generator) struct OtherAgent {
     visible: bool,
     /// Names relations in place of `sweep`.
     recorded: Option<Sweep>,
+    /// The step at which it comes in, for one that stays out where its place is taken then.
+    comes_in: Option<usize>,
     pub(super) response: Response,
 }
 
@@ -133,8 +139,8 @@ impl<'g> Others<'g> {
     }
 
     /// The motions that stay as they are whatever the actors do.
-    pub(in crate::generator) fn kept(&self) -> impl Iterator<Item = &Sweep> {
-        self.each[self.reacting..].iter().map(|other| &other.sweep)
+    pub(in crate::generator) fn kept(&self) -> impl Iterator<Item = FixedMotion<'_>> {
+        self.each[self.reacting..].iter().map(OtherAgent::fixed)
     }
 
     /// The motions that drafts are compared with by name.
@@ -143,9 +149,10 @@ impl<'g> Others<'g> {
         named.map(|other| other.recorded.as_ref().unwrap_or(&other.sweep).trace(&other.id, other.agent_type))
     }
 
-    /// An agent that may react would meet this motion.
+    /// An agent that may react would meet this motion, or stay out because of it.
     pub(in crate::generator) fn would_react_to(&self, motion: &Sweep) -> bool {
         self.each[..self.reacting].iter().any(|other| overlap(other.sweep.swept(), motion.swept()).close)
+            || self.each.iter().any(|other| other.is_kept_out_by(motion))
     }
 
     /// The agents that may react.
@@ -178,6 +185,28 @@ impl<'g> Others<'g> {
 }
 
 impl OtherAgent {
+    /// It would come in where this motion is then.
+    pub(super) fn is_kept_out_by(&self, motion: &Sweep) -> bool {
+        self.fixed().is_kept_out_by(motion)
+    }
+
+    /// The motion that it keeps. One that may slow down meets nobody as long as there is room for it to come in.
+    fn fixed(&self) -> FixedMotion<'_> {
+        let steps = if matches!(self.response, Response::Keeps) { COMES_IN_STEPS } else { 0 };
+        FixedMotion { sweep: &self.sweep, comes_in: self.comes_in.map(|step| (step, step + steps)) }
+    }
+
+    /// It would meet this motion soon after it comes in with `own`.
+    pub(super) fn comes_in_before(&self, own: &Sweep, motion: &Sweep) -> bool {
+        let comes_in = self.comes_in.map(|step| (step, step + COMES_IN_STEPS));
+        FixedMotion { sweep: own, comes_in }.is_kept_out_by(motion)
+    }
+
+    /// Step and state with which it comes in, for one that may stay out.
+    pub(super) fn entry(&self) -> Option<(usize, &State)> {
+        self.comes_in.and_then(|step| Some((step, self.sweep.state(step)?)))
+    }
+
     /// An agent of the scene; `None` where it is absent in the whole window.
     fn of(world: &World<'_>, request: &Request, cast: &WindowCast, index: usize) -> Option<Self> {
         let agent = &world.scene.agents[index];
@@ -207,6 +236,7 @@ impl OtherAgent {
         let may_react = (resumed.is_some() || cast.may_react.contains(&index))
             && agent_type != AgentType::Other
             && (conditions.start == Start::default() || kept_from == KeptFrom::Future);
+        let comes_in = states.iter().position(Option::is_some).filter(|step| may_react && *step > 0);
         // An agent that stands all the time stays; one that changed its motion goes on, even standing.
         let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
         let path = may_react.then(|| PathProgress::of(&states, shortest_m)).flatten();
@@ -227,6 +257,7 @@ impl OtherAgent {
             || agent.state_at(world.step).is_some()
             || conditions.start.position.is_some();
         let sweep = Sweep::new(states, &size);
-        Some(Self { id: agent.id.clone(), sweep, kept_from, agent_type, visible, recorded, response })
+        let id = agent.id.clone();
+        Some(Self { index, id, sweep, kept_from, agent_type, visible, recorded, comes_in, response })
     }
 }

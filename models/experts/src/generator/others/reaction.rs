@@ -54,6 +54,20 @@ pub(super) fn reaction(own: &Reactor, way: &YieldOption, cause: AgentId, start_s
     .rounded()
 }
 
+/// The reaction of an agent that does not come in at a scene step, in this state, because `cause` is there.
+pub(super) fn stays_out(entry: &State, cause: AgentId, step: usize) -> Reaction {
+    Reaction {
+        kind: ReactionKind::StaysOut,
+        cause,
+        delay_s: 0.0,
+        time_s: step as f64 * STEP_S,
+        x_m: entry.x_m,
+        y_m: entry.y_m,
+        speed_mps: 0.0,
+    }
+    .rounded()
+}
+
 /// The reaction to `cause` of an agent that planned again: `kept` is its motion from the first step after
 /// `start_s` on.
 pub(in crate::generator) fn reaction_of(

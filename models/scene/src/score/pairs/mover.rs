@@ -130,14 +130,20 @@ impl Mover {
         }
         let to = self.moments.get(step + 1)?.as_ref()?.outline;
         let center = from.center() + (to.center() - from.center()) * part;
-        let heading = from.heading_rad() + wrap_angle(to.heading_rad() - from.heading_rad()) * part;
+        let heading = from.heading_rad() + turn_rad(&from, &to) * part;
         Some(OrientedBox::new(center, from.half_length_m(), from.half_width_m(), heading))
     }
 }
 
+/// The turn from one box to the next, at most a quarter: detectors take the front for the back at times, and a box that
+/// is turned by half is the same one.
+fn turn_rad(from: &OrientedBox, to: &OrientedBox) -> f64 {
+    0.5 * wrap_angle(2.0 * (to.heading_rad() - from.heading_rad()))
+}
+
 /// Bound on how far any point of the box moves from the first moment to the second, metres.
 fn displacement(from: &MoverState, to: &MoverState) -> f64 {
-    let turn = wrap_angle(to.outline.heading_rad() - from.outline.heading_rad()).abs();
+    let turn = turn_rad(&from.outline, &to.outline).abs();
     (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }
 

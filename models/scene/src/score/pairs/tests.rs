@@ -429,6 +429,17 @@ fn a_course_is_looked_at_wherever_they_may_touch() {
     assert!(meet > 20 && pass > 20, "{meet} meet, {pass} pass");
 }
 
+#[test]
+fn a_box_whose_front_and_back_are_exchanged_does_not_turn() {
+    // Beside each other with a metre between, and long: half a turn would sweep over the other one.
+    let mut flips = car("a", 0.0, 0.0, 0.0, 0.0);
+    for state in flips.track.to_mut().states.iter_mut().flatten().skip(1).step_by(2) {
+        state.heading_rad = PI;
+    }
+    let scored = scored(vec![flips, car("b", 0.0, 3.0, 0.0, 1.0)], |_| ());
+    assert!(scored.collisions.is_empty(), "{:?}", scored.collisions);
+}
+
 fn mover_at(mover: &Mover, step: usize) -> &MoverState {
     mover.moments[step].as_ref().unwrap()
 }
