@@ -87,7 +87,7 @@ describe('verdicts', () => {
     expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
     expect(word(fault('speeding', { extent: 5 }))).toBe('18 km/h over the limit');
     expect(word(fault('running', { extent: 3 }))).toBe('runs at 3.0 m/s');
-    expect(word(fault('askew', { extent: 0.52 }))).toBe('ends 30° askew');
+    expect(word(fault('askew', { extent: 0.52 }))).toBe('ends at 30° to the lane');
     expect(word(fault('fails_to_yield', { extent: 3, with: '7' }))).toMatch(/^does not give way to /);
     expect(word(fault('forces_braking', { extent: 3.4, with: '7' }))).toMatch(/^forces .* to brake 3\.4 m\/s²$/);
     expect(['off_map', 'on_carriageway', 'speeding'].map((k) => word(fault(k as never)))).toEqual([

@@ -22,6 +22,7 @@ export const TEXTS = table('keeping', {
   lastSessionRestored: 'The changes of your last session are restored.',
   thisSceneIsOpen: 'This scene is open in another tab and read-only here.',
   editHere: 'Edit here',
+  onlyOwnerChanges: (owner: string) => `Only ${owner} can change this scene.`,
   theOtherVersion: 'Other version loaded',
   mapAdded: (free: string) => `“${free}”: map added. Changes are saved automatically.`,
   newScene: 'New scene',

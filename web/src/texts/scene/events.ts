@@ -10,7 +10,7 @@ export const TEXTS = table('events', {
   onTheCarriageway: 'On the carriageway',
   speeding: 'Speeding',
   running: 'Running',
-  askew: 'Askew at the end',
+  askew: 'Angled across the lane',
   hardBraking: 'Hard braking',
   hardSteering: 'Hard steering',
   failsToYield: 'Fails to give way',

@@ -57,7 +57,7 @@ export const german: Said<typeof TEXTS> = {
   dragOverTheGround: 'Fläche ziehen setzt eine Gruppe ein',
   hideTheOthers: 'Reaktionen anderer verbergen',
   showTheOthers: 'Reaktionen anderer zeigen',
-  theFlagLagsBehind: 'Die Fahne bleibt zurück, solange ein Bordstein im Weg ist',
+  theFlagLagsBehind: 'Die Fahne bleibt zurück, solange ein Bordstein oder Mittelstreifen im Weg ist',
   othersReactWhen: 'Verkehrsteilnehmer im Konflikt reagieren beim Loslassen',
   releaseToCompute: 'Loslassen startet die Berechnung',
   dashedBoxesWhere: 'Gestrichelt: wo andere warten würden',

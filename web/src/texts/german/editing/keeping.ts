@@ -23,6 +23,7 @@ export const german: Said<typeof TEXTS> = {
   lastSessionRestored: 'Die Änderungen der letzten Sitzung sind wiederhergestellt.',
   thisSceneIsOpen: 'Diese Szene ist in einem anderen Tab offen und hier schreibgeschützt.',
   editHere: 'Hier bearbeiten',
+  onlyOwnerChanges: (owner) => `Nur ${owner} kann diese Szene ändern.`,
   theOtherVersion: 'Andere Version geladen',
   mapAdded: (free) => `„${free}“: Karte angelegt. Änderungen werden automatisch gesichert.`,
   newScene: 'Neue Szene',

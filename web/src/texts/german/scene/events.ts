@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   onTheCarriageway: 'Auf der Fahrbahn',
   speeding: 'Geschwindigkeitsüberschreitung',
   running: 'Rennen',
-  askew: 'Schräg am Ende',
+  askew: 'Schräg zur Spur',
   hardBraking: 'Starkes Bremsen',
   hardSteering: 'Starkes Lenken',
   failsToYield: 'Vorrang missachtet',
