@@ -264,7 +264,7 @@ export function groupOf(f: Futures, i: number, about: FutureFacts | null, said: 
   }
 }
 
-/** Permission for these faults: `may cross this median`, and the like. The edge has the name that the fault gives it. */
+/** Permission for these faults: `may cross this median`, and the like. The edge is called what the fault calls it. */
 export const crossingWords = (faults: readonly Fault[]): typeof TEXTS.thisMedian =>
   faults.some((f) => f.kind === 'over_median') ? TEXTS.thisMedian : TEXTS.thisKerb;
 

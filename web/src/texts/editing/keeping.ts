@@ -1,21 +1,6 @@
-import { plural, table } from '../table';
+import { table } from '../table';
 
 export const TEXTS = table('keeping', {
-  theGenerator: 'The generator is not answering.',
-  generatorComputes: (most_at_once: number) =>
-    `The generator computes at most ${most_at_once} road users at once. For more, fill one area after another.`,
-  thereIsNoRoom: 'There is no room here.',
-  roadUsersPlaced: (count: number, reason: string) =>
-    plural(count, { one: `${count} road user placed. ${reason}`, other: `${count} road users placed. ${reason}` }),
-  theServerIsNot: 'The server is not answering.',
-  mapClosed: 'Map closed.',
-  keepEditing: 'Keep editing',
-  noLongerOnALane: (count: number, lost: string) =>
-    plural(count, {
-      one: `${count} road user is no longer on a lane: ${lost}.`,
-      other: `${count} road users are no longer on a lane: ${lost}.`,
-    }),
-  otherMap: (base: undefined | string) => `${base}, other map`,
   theSceneCould: 'The server is not answering.',
   changedElsewhere: 'Changed elsewhere',
   discard: 'Discard',
@@ -44,15 +29,8 @@ export const TEXTS = table('keeping', {
   restored: (body: undefined | string) => `“${body}” restored.`,
   notRestored: 'Not restored',
   theServerIsNotAnswering: 'the server is not answering. Your changes are kept on this computer.',
-  notExported: (whyNot: string) => `Not exported: ${whyNot}`,
-  theServerIsNotThere: 'the server is not answering.',
-  files: (count: number) => `${count} files`,
-  savedWithout: (n: number, what: string) =>
-    plural(n, { one: `${what} saved, ${n} detail not exported.`, other: `${what} saved, ${n} details not exported.` }),
-  saved: (what: string) => `${what} saved.`,
   thereIsNoWhole: 'The link does not contain a complete scene.',
   sharedScene: 'Shared scene',
   thisSceneCame: 'This scene was opened from a link and is read-only.',
   makeACopy: 'Make a copy',
-  theHandlesOf: 'The map handles did not load. Open the map again when the network is back.',
 });

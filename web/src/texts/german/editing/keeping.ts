@@ -1,22 +1,7 @@
 import type { TEXTS } from '../../editing/keeping';
-import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  theGenerator: 'Der Generator antwortet nicht.',
-  generatorComputes: (most_at_once) =>
-    `Der Generator berechnet höchstens ${most_at_once} Verkehrsteilnehmer auf einmal. Für mehr eine Fläche nach der anderen füllen.`,
-  thereIsNoRoom: 'Hier ist kein Platz.',
-  roadUsersPlaced: (count, reason) => `${count} Verkehrsteilnehmer eingesetzt. ${reason}`,
-  theServerIsNot: 'Der Server antwortet nicht.',
-  mapClosed: 'Karte geschlossen.',
-  keepEditing: 'Weiter bearbeiten',
-  noLongerOnALane: (count, lost) =>
-    plural(count, {
-      one: `${count} Verkehrsteilnehmer steht nicht mehr auf einer Spur: ${lost}.`,
-      other: `${count} Verkehrsteilnehmer stehen nicht mehr auf einer Spur: ${lost}.`,
-    }),
-  otherMap: (base) => `${base}, andere Karte`,
   theSceneCould: 'Der Server antwortet nicht.',
   changedElsewhere: 'Anderswo geändert',
   discard: 'Verwerfen',
@@ -45,18 +30,8 @@ export const german: Said<typeof TEXTS> = {
   restored: (body) => `„${body}“ wiederhergestellt.`,
   notRestored: 'Nicht wiederhergestellt',
   theServerIsNotAnswering: 'der Server antwortet nicht. Die Änderungen sind auf diesem Rechner gesichert.',
-  notExported: (whyNot) => `Nicht exportiert: ${whyNot}`,
-  theServerIsNotThere: 'der Server antwortet nicht.',
-  files: (count) => `${count} Dateien`,
-  savedWithout: (n, what) =>
-    plural(n, {
-      one: `${what} gesichert, ${n} Angabe nicht exportiert.`,
-      other: `${what} gesichert, ${n} Angaben nicht exportiert.`,
-    }),
-  saved: (what) => `${what} gesichert.`,
   thereIsNoWhole: 'Der Link enthält keine vollständige Szene.',
   sharedScene: 'Geteilte Szene',
   thisSceneCame: 'Diese Szene wurde aus einem Link geöffnet und ist schreibgeschützt.',
   makeACopy: 'Kopie anlegen',
-  theHandlesOf: 'Die Griffe der Karte wurden nicht geladen. Die Karte neu öffnen, sobald das Netz wieder da ist.',
 };
