@@ -1,14 +1,7 @@
 import { table } from '../table';
 
 export const TEXTS = table('keeping', {
-  theSceneCould: 'The server is not answering.',
-  changedElsewhere: 'Changed elsewhere',
-  discard: 'Discard',
-  lastSessionRestored: 'The changes of your last session are restored.',
-  thisSceneIsOpen: 'This scene is open in another tab and read-only here.',
-  editHere: 'Edit here',
   onlyOwnerChanges: (owner: string) => `Only ${owner} can change this scene.`,
-  theOtherVersion: 'Other version loaded',
   mapAdded: (free: string) => `“${free}”: map added. Changes are saved automatically.`,
   newScene: 'New scene',
   noRoadUsersYet: (name: string) => `“${name}”: no road users yet. Changes are saved automatically.`,
@@ -17,7 +10,6 @@ export const TEXTS = table('keeping', {
   savedAs: (name: string) => `Saved as “${name}”. Changes are saved automatically.`,
   notSaved: 'Not saved',
   scene: 'Scene',
-  copyOf: (name: string) => `${name}, copy`,
   open: 'Open',
   copiedAs: (name: string) => `Copied as “${name}”.`,
   notCopied: 'Not copied',

@@ -2,14 +2,7 @@ import type { TEXTS } from '../../editing/keeping';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  theSceneCould: 'Der Server antwortet nicht.',
-  changedElsewhere: 'Anderswo geändert',
-  discard: 'Verwerfen',
-  lastSessionRestored: 'Die Änderungen der letzten Sitzung sind wiederhergestellt.',
-  thisSceneIsOpen: 'Diese Szene ist in einem anderen Tab offen und hier schreibgeschützt.',
-  editHere: 'Hier bearbeiten',
   onlyOwnerChanges: (owner) => `Nur ${owner} kann diese Szene ändern.`,
-  theOtherVersion: 'Andere Version geladen',
   mapAdded: (free) => `„${free}“: Karte angelegt. Änderungen werden automatisch gesichert.`,
   newScene: 'Neue Szene',
   noRoadUsersYet: (name: string) => `„${name}“: noch ohne Verkehrsteilnehmer. Änderungen werden automatisch gesichert.`,
@@ -18,7 +11,6 @@ export const german: Said<typeof TEXTS> = {
   savedAs: (name: string) => `Gesichert als „${name}“. Änderungen werden automatisch gesichert.`,
   notSaved: 'Nicht gesichert',
   scene: 'Szene',
-  copyOf: (name: string) => `${name}, Kopie`,
   open: 'Öffnen',
   copiedAs: (name: string) => `Kopiert als „${name}“.`,
   notCopied: 'Nicht kopiert',
