@@ -26,7 +26,7 @@ export const german: Said<typeof TEXTS> = {
   exportTheScene: 'Die Szene exportieren oder die Schritte anderer gesicherter Szenen löschen.',
   stepsOfOther: (n) =>
     plural(n, {
-      one: `Schritte von ${n} anderen Szene gelöscht. `,
+      one: 'Schritte einer anderen Szene gelöscht. ',
       other: `Schritte von ${n} anderen Szenen gelöscht. `,
     }),
   stillNoSpace: 'Noch immer kein Speicherplatz: diese Szene exportieren.',

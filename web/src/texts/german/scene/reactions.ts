@@ -11,6 +11,6 @@ export const german: Said<typeof TEXTS> = {
   waits: (long, whom, behind) => `wartet${long} ${behind ? 'hinter' : 'auf'} ${whom}`,
   slowsTo: (speed, whom, behind) => `bremst auf ${speed} ${behind ? 'hinter' : 'wegen'} ${whom}`,
   stopsBriefly: (whom, behind) => `hält kurz ${behind ? 'hinter' : 'wegen'} ${whom}`,
-  speedsUpFor: (name) => `beschleunigt wegen ${name}`,
+  speedsUpFor: (name) => `beschleunigt vor ${name}`,
   keepsClearOf: (name, behind) => (behind ? `bleibt hinter ${name}` : `weicht ${name} aus`),
 };
