@@ -10,7 +10,7 @@ import type { Session } from './session';
 import { TEXTS } from '../../texts/editing/keeping';
 
 /** An ETag that no scene has, and the status of a change that names another version than the stored one. */
-const NO_VERSION = '"none"';
+const NO_VERSION = '"0"';
 const STALE = 412;
 
 /**

@@ -175,6 +175,7 @@ const SMALL = 0.5;
 
 type ManoeuvreName = NonNullable<FutureFacts['manoeuvre']>;
 
+/** What a future does: as the generator says, else by its shape. */
 export const manoeuvreOf = ({ motion, about }: Nameable, onFoot: boolean): ManoeuvreName =>
   about?.manoeuvre ?? shapeOf(motion, onFoot);
 
