@@ -3,6 +3,7 @@ import type { Editor } from '../edit/session/editor';
 import type { Library } from '../edit/document/library';
 import type { Importing } from '../edit/tools/importing/importing';
 import type { Saving } from '../edit/document/saving';
+import type { Ownership } from '../edit/document/ownership';
 import type { SceneCare } from '../edit/document/scene-care';
 import type { Journal } from '../edit/document/journal';
 import type { SceneFile } from '../edit/document/scene-file';
@@ -38,6 +39,7 @@ export interface Opening {
 export interface Context extends Opening, Tools {
   readonly generation: Generation;
   readonly care: SceneCare;
+  readonly ownership: Ownership;
   readonly sharing: Sharing;
   readonly importing: Importing;
   readonly playback: Playback;

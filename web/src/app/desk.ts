@@ -7,6 +7,7 @@ import { Gestures } from '../edit/gestures/pointer';
 import { Importing } from '../edit/tools/importing/importing';
 import { Overlay } from '../edit/overlay/overlay';
 import { Playback } from '../edit/session/playback';
+import { Ownership } from '../edit/document/ownership';
 import { SceneCare } from '../edit/document/scene-care';
 import { Sharing } from '../edit/document/sharing';
 import { localReach } from '../model/words/reach-words';
@@ -59,6 +60,7 @@ function makeParts(o: Opening): Context {
     ...o,
     ...named,
     care,
+    ownership: new Ownership(editor, file, scenes, care, client, library.opened),
     importing,
     generation,
     sharing: new Sharing(editor, file, library, care, client, (at) => {

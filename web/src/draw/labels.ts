@@ -1,8 +1,8 @@
 // Labels on pills. Each takes the first free place around its object; without one it is omitted, unless it is
 // mandatory.
-import type { Pen } from './pen';
+import type { Pen, Sprite } from './pen';
 import { clamp } from '../model/base/geometry';
-import { colours, font } from './theme';
+import { colours, font, paletteStamp } from './theme';
 import { roundRect } from './sprites';
 
 export interface Rect {
@@ -12,6 +12,13 @@ export interface Rect {
   h: number;
 }
 export type Offset = readonly [number, number];
+
+/** The picture that labels are on: its size, and device pixels for each pixel. */
+export interface Sheet {
+  readonly w: number;
+  readonly h: number;
+  readonly dpr: number;
+}
 
 /** Cell size of `Taken`, pixels. */
 const CELL = 64;
@@ -53,14 +60,17 @@ export class Labels {
   private taken = NOTHING_TAKEN;
 
   constructor(
-    private w = 0,
-    private h = 0,
+    private sheet: Sheet = { w: 0, h: 0, dpr: 1 },
     private inset = { left: 0, right: 0, top: 0, bottom: 0 },
   ) {}
 
-  reset(w: number, h: number, inset = this.inset): void {
-    this.w = w;
-    this.h = h;
+  /** Device pixels for each pixel. */
+  get dpr(): number {
+    return this.sheet.dpr;
+  }
+
+  reset({ w, h, dpr }: Sheet, inset = this.inset): void {
+    this.sheet = { w, h, dpr };
     this.inset = inset;
     this.used = [];
     this.avoided = [];
@@ -97,7 +107,7 @@ export class Labels {
 
   /** Is a point outside the picture? Then it gets no label. */
   outside(x: number, y: number): boolean {
-    return x < -8 || y < -8 || x > this.w + 8 || y > this.h + 8;
+    return x < -8 || y < -8 || x > this.sheet.w + 8 || y > this.sheet.h + 8;
   }
 
   block(x: number, y: number, w: number, h: number): void {
@@ -112,9 +122,10 @@ export class Labels {
   }
 
   place(x: number, y: number, w: number, h: number, tries: readonly Offset[], must: boolean): Rect | null {
+    const { sheet, inset } = this;
     const at = (o: Offset): Rect => ({
-      x: clamp(x + o[0], 6 + this.inset.left, Math.max(6, this.w - w - 6 - this.inset.right)),
-      y: clamp(y + o[1], 6, this.h - h - 6),
+      x: clamp(x + o[0], 6 + inset.left, Math.max(6, sheet.w - w - 6 - inset.right)),
+      y: clamp(y + o[1], 6, sheet.h - h - 6),
       w,
       h,
     });
@@ -192,32 +203,50 @@ export function pill(g: Pen, labels: Labels, x: number, y: number, text: string,
   const r = labels.place(x, y, w, h, places(w, h, s), s.must ?? true);
   if (!r) return null;
   if (s.leader) leaderLine(g, x, y, r, s.leader);
-  labels.onTop(() => paintPill(g, r, text, f, s));
+  labels.onTop(() => paintPill(g, r, text, f, s, labels.dpr));
   return r;
 }
 
-function paintPill(g: Pen, r: Rect, text: string, f: string, s: PillStyle): void {
+/** How far the shadow of a pill reaches, pixels. */
+const SHADOW_PX = 6;
+
+/** A pill without its words. A sprite, because the shadow costs more than all the rest of a label. */
+function pillBody({ w, h }: Rect, { bg = colours().surface, border }: PillStyle, dpr: number): Sprite {
+  const [width, height] = [w, h].map((px) => Math.ceil((px + 2 * SHADOW_PX) * dpr));
+  return {
+    key: `pill|${w}|${h}|${bg}|${border}|${dpr}|${paletteStamp()}`,
+    width,
+    height,
+    paint(g) {
+      g.setTransform(dpr, 0, 0, dpr, SHADOW_PX * dpr, SHADOW_PX * dpr);
+      roundRect(g, 0, 0, w, h, h / 2);
+      g.save();
+      g.shadowColor = 'rgba(16,20,26,.22)';
+      g.shadowBlur = 4;
+      g.shadowOffsetY = 1;
+      g.fillStyle = bg;
+      g.fill();
+      g.restore();
+      if (!border) return;
+      g.strokeStyle = border;
+      g.lineWidth = 1.25;
+      g.stroke();
+    },
+  };
+}
+
+function paintPill(g: Pen, r: Rect, text: string, f: string, s: PillStyle, dpr: number): void {
   const c = colours();
-  const { w, h } = r;
-  roundRect(g, r.x, r.y, w, h, h / 2);
-  g.save();
-  g.shadowColor = 'rgba(16,20,26,.22)';
-  g.shadowBlur = 4;
-  g.shadowOffsetY = 1;
-  g.fillStyle = s.bg ?? c.surface;
-  g.fill();
-  g.restore();
-  if (s.border) {
-    g.strokeStyle = s.border;
-    g.lineWidth = 1.25;
-    g.stroke();
-  }
-  if (s.icon) paintIcon(g, s.icon, r.x + 12, r.y + h / 2, s.fg ?? c.ink);
+  const body = pillBody(r, s, dpr);
+  // On whole device pixels the body stays sharp.
+  const [x, y] = [r.x, r.y].map((at) => Math.round(at * dpr) / dpr);
+  g.stamp(body, x - SHADOW_PX, y - SHADOW_PX, body.width / dpr, body.height / dpr);
+  if (s.icon) paintIcon(g, s.icon, x + 12, y + r.h / 2, s.fg ?? c.ink);
   g.font = f;
   g.fillStyle = s.fg ?? c.ink;
   g.textBaseline = 'middle';
   g.textAlign = 'left';
-  g.fillText(text, r.x + 7 + (s.icon ? ICON_PX : 0), r.y + h / 2 + 0.5);
+  g.fillText(text, x + 7 + (s.icon ? ICON_PX : 0), y + r.h / 2 + 0.5);
 }
 
 function leaderLine(g: Pen, x: number, y: number, r: Rect, colour: string): void {

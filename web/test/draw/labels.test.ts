@@ -11,7 +11,7 @@ const place = (l: Labels, must = true) => l.place(100, 100, 50, 20, TRIES, must)
 
 describe('a label', () => {
   it('avoids objects below it while there is another place', () => {
-    const labels = new Labels(400, 400);
+    const labels = new Labels({ w: 400, h: 400, dpr: 1 });
     labels.keepOff({ x: 110, y: 100, w: 20, h: 20 });
     expect(place(labels)).toMatchObject({ x: 40, y: 100 });
     expect(place(labels)).toMatchObject({ x: 100, y: 140 });

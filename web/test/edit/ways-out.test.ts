@@ -116,11 +116,11 @@ describe('permission to cross an edge', () => {
     answer();
     const leave = leaveToCross(e, agent())!;
     expect([leave.words, leave.command.name]).toEqual(['Allow crossing this median', 'Car 1 may cross this median']);
-    expect(leaveGiven(e, agent())).toBeNull();
+    expect(leaveGiven(agent())).toBeNull();
     e.commits.run(leave.command);
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: ['m0'] });
-    const given = leaveGiven(e, agent())!;
-    expect([given.words, given.command.name]).toEqual(['May cross this median', 'Car 1 may not cross this median']);
+    const given = leaveGiven(agent())!;
+    expect([given.words, given.command.name]).toEqual(['Crossing allowed', 'Car 1 may no longer cross']);
     e.commits.run(given.command);
     expect(agent().goal.mayCross).toEqual([]);
     e.commits.undo();
@@ -128,8 +128,11 @@ describe('permission to cross an edge', () => {
     expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: [] });
   });
 
-  it('calls an edge a kerb where it is no median', () => {
-    answer({ change: (modes) => modes.map((m) => ({ ...m, faults: m.faults?.map((f) => ({ ...f, edge: 'e1' })) })) });
+  it('calls an edge a median only where the fault does', () => {
+    answer({
+      change: (modes) =>
+        modes.map((m) => ({ ...m, faults: m.faults?.map((f) => ({ ...f, kind: 'off_road' as const })) })),
+    });
     expect(leaveToCross(e, agent())!.words).toBe('Allow crossing this kerb');
   });
 

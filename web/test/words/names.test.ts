@@ -134,7 +134,7 @@ describe('the speed words of a name', () => {
       list.map((motion) => ({ motion, about })),
       who,
     ).map((n) => n.name);
-    expect(names.join()).not.toContain('softer');
+    expect(names.join()).not.toContain('brakes less');
   });
 });
 
@@ -146,23 +146,23 @@ describe("names of a generator's answer", () => {
       'Behind Car 23, more left',
       'Behind Car 23, faster',
       'Behind Car 19',
-      'Before Car 31',
+      'Left lane, before Car 31',
     ]);
     expect(namesOf('crossing')).toEqual([
       'Waits for Car 3',
-      'After Car 3',
-      'Waits for Car 4',
-      'After Car 3, slower',
-      'After Car 3, faster',
-      'Before Car 4',
+      'Left, after Car 3',
+      'Left, waits for Car 4',
+      'Left, after Car 3, slower',
+      'Left, after Car 3, faster',
+      'Left, before Car 4',
     ]);
     expect(namesOf('motorway')).toEqual([
       'Behind Car 11',
       'Behind Car 11, slower',
       'Behind Car 11, faster',
+      'Right lane, behind Car 11',
       'Behind Car 11, more right',
-      'Behind Car 11, later',
-      'Before Car 9',
+      'Left lane, before Car 9',
     ]);
     expect(namesOf('residential')).toEqual([
       'Straight on',
@@ -174,11 +174,11 @@ describe("names of a generator's answer", () => {
     ]);
     expect(namesOf('roundabout')).toEqual([
       'Turns right',
-      'Turns right, slower start',
-      'Waits for Car 15',
-      'Waits for Car 15, slower',
-      'After Car 15',
-      'After Car 3',
+      'Turns right, slower',
+      'Left, waits for Car 15',
+      'Left, after Car 3',
+      'Left, after Car 15',
+      'U-turn, after Car 3',
     ]);
   });
 
@@ -238,7 +238,9 @@ describe('names of nearly equal futures', () => {
       'Straight on, more left',
       'Straight on',
     ]);
-    expect(names(drives(9), drives(9.15))).toEqual(['Straight on', 'Straight on, 0.1 s earlier']);
+    expect(names(drives(9), drives(9.4))).toEqual(['Straight on', 'Straight on, faster']);
+    // 0.1 s at half time is noise.
+    expect(names(drives(9), drives(9.2))).toEqual(['Straight on', 'Straight on']);
   });
 
   it('do not mention the road or a stop where that is false', () => {

@@ -79,7 +79,7 @@ describe('a change', () => {
     expect(changes(waits)[0].at).toBeCloseTo(2, 1);
     const slows = along((t) => (t > 2 && t < 4 ? 3 : 10));
     expect(changes(slows)[0].words).toMatch(/^slows to 11 km\/h (behind|for) Car 1$/);
-    expect(changes(along(() => 14))[0].words).toBe('speeds up for Car 1');
+    expect(changes(along(() => 14))[0].words).toBe('speeds up ahead of Car 1');
   });
 
   it('names no cause without conditions', () => {
@@ -107,7 +107,7 @@ describe('words', () => {
     expect(said({ kind: 'slows', ahead: true })).toBe('slows to 8 km/h behind Car 7');
     expect(said({ kind: 'slows' }, walker(scene))).toBe('slows to 2.2 m/s for Car 7');
     expect(said({ kind: 'slows', place: { x: 0, y: 0, heading: 0, speed: 0.1 } })).toBe('stops briefly for Car 7');
-    expect(said({ kind: 'speeds_up' })).toBe('speeds up for Car 7');
+    expect(said({ kind: 'speeds_up' })).toBe('speeds up ahead of Car 7');
     expect(said({ kind: 'keeps_clear' })).toBe('keeps clear of Car 7');
     expect(said({ kind: 'keeps_clear', ahead: true })).toBe('stays behind Car 7');
   });

@@ -87,7 +87,7 @@ describe('verdicts', () => {
     expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
     expect(word(fault('speeding', { extent: 5 }))).toBe('18 km/h over the limit');
     expect(word(fault('running', { extent: 3 }))).toBe('runs at 3.0 m/s');
-    expect(word(fault('askew', { extent: 0.52 }))).toBe('ends 30° askew');
+    expect(word(fault('askew', { extent: 0.52 }))).toBe('ends at 30° to the lane');
     expect(word(fault('fails_to_yield', { extent: 3, with: '7' }))).toMatch(/^does not give way to /);
     expect(word(fault('forces_braking', { extent: 3.4, with: '7' }))).toMatch(/^forces .* to brake 3\.4 m\/s²$/);
     expect(['off_map', 'on_carriageway', 'speeding'].map((k) => word(fault(k as never)))).toEqual([
@@ -222,10 +222,10 @@ describe('names', () => {
 
   it('contain the other road user, else the manoeuvre', () => {
     expect(six().modes.map((m) => m.name)).toEqual([
-      'Before Car 2',
-      'After Car 2',
-      'Slows for Pedestrian 17',
-      expect.stringMatching(/^After Car 2, /),
+      'Left, before Car 2',
+      'Left, after Car 2',
+      'Left, slows for Ped. 17',
+      expect.stringMatching(/^Left, after Car 2, /),
       'By road',
       'Straight on',
     ]);
@@ -235,7 +235,7 @@ describe('names', () => {
         mode({ manoeuvre: 'lane_left' }),
         mode({ manoeuvre: 'straight', stopAt: 3 }),
       ),
-    ).toEqual(['Behind Bus 4', 'To the left lane', 'Stops']);
+    ).toEqual(['Left, behind Bus 4', 'To the left lane', 'Stops']);
   });
 
   it('omit what all have in common', () => {
@@ -302,12 +302,12 @@ describe('names during a drag', () => {
     const frozen = new FrozenNames();
     let shown = list('before');
     const next = (f: Futures, now: number) => (shown = frozen.keep(shown, f, naming, now)).modes.map((m) => m.name);
-    expect(next(list('after'), 1000)).toEqual(['Before Car 2', 'Straight on']);
-    expect(next(list('before'), 1100)[0]).toBe('Before Car 2');
+    expect(next(list('after'), 1000)).toEqual(['Left, before Car 2', 'Straight on']);
+    expect(next(list('before'), 1100)[0]).toBe('Left, before Car 2');
     // It came and went: the time starts again.
-    expect(next(list('after'), 1300)[0]).toBe('Before Car 2');
-    expect(next(list('after'), 1600)[0]).toBe('Before Car 2');
-    expect(next(list('after'), 1700)[0]).toBe('After Car 2');
+    expect(next(list('after'), 1300)[0]).toBe('Left, before Car 2');
+    expect(next(list('after'), 1600)[0]).toBe('Left, before Car 2');
+    expect(next(list('after'), 1700)[0]).toBe('Left, after Car 2');
   });
 
   it('move with the idea, and new ideas differ from those that stay', () => {

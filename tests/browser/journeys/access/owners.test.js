@@ -34,6 +34,7 @@ journeys('owners', (stage) => {
       const chosen = () => access.locator('[aria-checked="true"]').innerText();
       assert.equal(await chosen(), 'Owner only');
       assert.match(await anna.text('.share'), /Owner: anna/);
+      assert.match(await anna.text('.share .dfoot'), /^Anyone with the link can view the scene/);
       await access.getByRole('radio', { name: 'Everyone can view' }).click();
       await anna.until(
         () => document.querySelector('.share [aria-checked="true"]').textContent === 'Everyone can view',
@@ -53,6 +54,32 @@ journeys('owners', (stage) => {
         (await found(maria)).map((s) => [s.id, s.shared]),
         [[id, 'read']],
       );
+
+      // She may view it: the page says whose it is, and refuses changes; her copy is her own.
+      await maria.page.goto(new URL(`/?scene=${id}`, program.url).href);
+      await maria.ready();
+      await maria.until(() => document.querySelector('.banner b')?.textContent === 'Only anna can change this scene.');
+      await maria.picture('view-only');
+      assert.equal(await maria.text('.title small'), 'Read-only');
+      await maria.page.locator('[data-action="share"]').click();
+      const radios = maria.page.getByRole('radiogroup', { name: 'Access on this server' }).getByRole('radio');
+      assert.equal(await radios.first().getAttribute('aria-disabled'), 'true');
+      await maria.key('Escape');
+      const sent = [];
+      maria.page.on('response', (r) => r.request().method() === 'PUT' && sent.push(r.status()));
+      await maria.begin();
+      await maria.choose(someone);
+      await maria.key('Delete');
+      await maria.settled();
+      assert.ok(
+        (await maria.roadUsers()).some((u) => u.id === someone),
+        'nothing is removed',
+      );
+      await maria.page.getByRole('button', { name: 'Make a copy' }).click();
+      await maria.until(() => /Saved as/.test(document.querySelector('.toast')?.textContent));
+      await maria.until(() => !document.querySelector('.banner'));
+      assert.deepEqual(sent, []);
+      assert.equal((await maria.get('/v1/scenes')).scenes.filter((s) => s.owner === 'maria').length, 1);
     } finally {
       await program.stop();
     }

@@ -25,7 +25,9 @@ journeys('kerbs', (stage) => {
     const behind = async () => distance(await e.goal(), across) * zoom;
 
     await e.drag(await flag(car.end), await flag(across));
-    await e.until(() => document.querySelector('.helpbar')?.textContent.includes('while a kerb is in the way'));
+    await e.until(() =>
+      document.querySelector('.helpbar')?.textContent.includes('while a kerb or median is in the way'),
+    );
     // The panel shows the flag's place a moment later than the picture.
     await e.settled();
     assert.ok(Math.abs((await behind()) - LAG_PX) < ROUNDING_PX, `${await behind()} px behind the hand`);
@@ -73,7 +75,7 @@ journeys('kerbs', (stage) => {
     await e.key('Alt+Enter');
     await e.settled();
     assert.deepEqual(e.wire.last().body.conditions[car.id].goal.may_cross, edges);
-    await e.page.getByRole('button', { name: /^May cross this .*: undo$/ }).click();
+    await e.page.getByRole('button', { name: /^Crossing allowed: undo$/ }).click();
     await e.settled();
     assert.equal(await e.page.locator('.leave').count(), 0);
     await leave.waitFor();

@@ -4,7 +4,7 @@ import { placedBy } from '../../actions/place';
 import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
 import { Icon } from '../parts/icons';
-import { coversHand } from './keep-clear';
+import { coveredInHand } from './keep-clear';
 import { TEXTS } from '../../texts/desk/hud';
 
 const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.releaseToReact];
@@ -58,7 +58,8 @@ function placeOf(c: Context): '' | 'above' | 'below' | 'left' | 'right' {
     form,
     stage: { view: v },
   } = c;
-  const covers = coversHand(c);
+  const covered = coveredInHand(c);
+  const covers = (...card: Parameters<typeof covered>): boolean => covered(...card) > 0;
   const mid = v.w / 2;
   if (!form.sheet.value) return covers(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, v.h - REACHES_PX, v.h) ? 'above' : '';
   if (form.small.value) return covers(0, v.w, 0, REACHES_PX) ? 'below' : '';

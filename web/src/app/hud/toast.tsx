@@ -2,24 +2,27 @@
 import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
-import { coversHand } from './keep-clear';
+import { coveredInHand } from './keep-clear';
 import { TEXTS } from '../../texts/desk/hud';
 
-/** Room of the notice at the lower edge: half its width, and how far it reaches up. */
-const HALF_WIDTH_PX = 270;
-const REACHES_PX = 130;
+/** Half the width of a usual notice, its height, and its distances from the lower and the upper edge. */
+const HALF_WIDTH_PX = 240;
+const HEIGHT_PX = 40;
+const ABOVE_EDGE_PX = 56;
+const BELOW_EDGE_PX = 12;
 /** The panels' edge is this far below the clear part of the picture. */
 const EDGE_PX = 56;
 
 export function Toast() {
   const c = useApp();
   const { editor, ui, stage } = c;
-  // It never lies on what was just dragged.
+  // It lies where it covers less of what was just dragged.
   const high = useComputed(() => {
     const { w, h, inset } = stage.view;
     const mid = w / 2 + (ui.drawer.value ? inset.left / 2 : 0);
-    const bottom = h - inset.bottom + EDGE_PX;
-    return coversHand(c)(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, bottom - REACHES_PX, bottom);
+    const covered = coveredInHand(c);
+    const at = (top: number): number => covered(mid - HALF_WIDTH_PX, mid + HALF_WIDTH_PX, top, top + HEIGHT_PX);
+    return at(BELOW_EDGE_PX) < at(h - inset.bottom + EDGE_PX - ABOVE_EDGE_PX - HEIGHT_PX);
   }).value;
   const { notices } = editor;
   const toast = notices.toast.value;

@@ -140,7 +140,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
 /** Road edges that it may cross, with a button to withdraw that. */
 function LeaveLine({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const leave = useComputed(() => leaveGiven(editor, agent.value)).value;
+  const leave = useComputed(() => leaveGiven(agent.value)).value;
   if (!leave) return null;
   return (
     <p class="leave">

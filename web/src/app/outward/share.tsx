@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import type { Link, SharedParts } from '../../edit/document/sharing';
 import { MOST_LINK_BYTES } from '../../edit/document/share-link';
-import type { SceneShare } from '../../net/types';
+import type { SceneListItem, SceneShare } from '../../net/types';
 import { download } from '../../edit/tools/outward/download';
 import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';
@@ -23,6 +23,7 @@ export default function Share() {
   const link = useSignal<Link | null>(null);
   const copied = useSignal(false);
   const time = editor.playhead.time.value;
+  const item = c.scenes.list.value.find((s) => s.id === editor.resting.value?.id);
   useEffect(() => {
     let newest = true;
     void sharing.link(parts.value, { time, camera: stage.view.camera }).then((made) => {
@@ -51,7 +52,7 @@ export default function Share() {
   return (
     <Flyout label={TEXTS.share} under="share" class="share">
       <div class="pad">
-        <Access />
+        {item?.shared ? <Access item={item} /> : null}
         <h2>{TEXTS.shareALink}</h2>
         <p>
           {TEXTS.theLinkHolds} <b>{TEXTS.makeACopy}</b>.
@@ -100,7 +101,7 @@ export default function Share() {
         <Switch label={TEXTS.history} note={TEXTS.staysHereToo} on={false} />
       </div>
       <div class="dfoot">
-        <span class="mut">{TEXTS.noAccountNothing}</span>
+        <span class="mut">{item?.shared ? TEXTS.whateverTheAccess : TEXTS.nothingUploaded}</span>
         <span class="grow" />
         <button type="button" class="btn line" onClick={() => void download(c, 'dragtraffic')}>
           {TEXTS.saveAsFile}
@@ -112,11 +113,10 @@ export default function Share() {
 
 const MAY: readonly SceneShare[] = ['nobody', 'read', 'edit'];
 
-/** What others may do with the scene on a server whose scenes have owners; elsewhere nothing. */
-function Access() {
-  const { care, editor, scenes } = useApp();
-  const item = scenes.list.value.find((s) => s.id === editor.resting.value?.id);
-  if (!item?.shared) return null;
+/** What others may do with the scene, on a server whose scenes have owners; only the owner changes it. */
+function Access({ item }: { item: SceneListItem }) {
+  const { care, ownership } = useApp();
+  const foreign = ownership.foreign.value.has(item.id);
   return (
     <div class="access">
       <h2>
@@ -130,8 +130,9 @@ function Access() {
             type="button"
             role="radio"
             aria-checked={may === item.shared}
-            class={`btn ${may === item.shared ? 'on' : ''}`}
-            onClick={() => void care.share(may)}
+            aria-disabled={foreign}
+            class={`btn ${may === item.shared ? 'on' : ''} ${foreign ? 'off' : ''}`}
+            onClick={() => !foreign && void care.share(may)}
           >
             {TEXTS.mayOthers[may]}
           </button>

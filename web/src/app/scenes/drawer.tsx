@@ -175,9 +175,10 @@ function NewName({ item }: { item: SceneListItem }) {
   );
 }
 
-/** `29 road users · example` */
+/** `29 road users · example`; a stored scene has its owner, where scenes have owners. */
 export function about(s: SceneListItem): string {
   const n = countAll(s.counts);
-  const kind = s.source && isRecorded(s.source) ? TEXTS.recordedWithin : s.readonly ? TEXTS.example : TEXTS.own;
+  const kind =
+    s.source && isRecorded(s.source) ? TEXTS.recordedWithin : s.readonly ? TEXTS.example : (s.owner ?? TEXTS.own);
   return [n ? TEXTS.roadUsers(n) : TEXTS.noRoadUsers, kind].join(' · ');
 }

@@ -132,7 +132,7 @@ function paintersOf(stage: Stage, { editor }: Context, shown: { readonly current
   stage.painter('overlay', (g, v) => {
     const { left, right, comparison } = shown.current;
     const time = editor.playhead.time.peek();
-    labels.reset(v.w, v.h, { left: 0, right: 0, top: 44, bottom: 0 });
+    labels.reset(v, { left: 0, right: 0, top: 44, bottom: 0 });
     paintBeside(
       g,
       v,

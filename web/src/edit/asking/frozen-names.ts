@@ -1,7 +1,7 @@
 // Names of futures during a drag: an idea keeps its name until rest, unless the basis of the name is gone and another
 // relation has held for a while.
 import { ideas, type Future, type Futures } from '../../model/document/futures';
-import { nameAll, nameRest, type FutureName, type Naming } from '../../model/words/future-names';
+import { manoeuvreOf, nameAll, nameRest, type FutureName, type Naming } from '../../model/words/future-names';
 
 /** A new relation must hold for this long before it changes a name, in milliseconds. */
 const HOLDS_MS = 400;
@@ -19,7 +19,7 @@ export class FrozenNames {
     const was = new Map(ideas(shown.modes).map((k, i) => [k, shown.modes[i]]));
     const fresh = nameAll(next.modes, who);
     const keys = ideas(next.modes);
-    const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], now));
+    const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], { now, onFoot: who.onFoot }));
     // Names of new futures must differ from the kept names.
     const names = nameRest(
       next.modes,
@@ -35,9 +35,15 @@ export class FrozenNames {
   }
 
   /** The future on screen, if its name is kept. */
-  #kept(key: string, old: Future | undefined, next: Future, fresh: FutureName, now: number): Future | null {
+  #kept(
+    key: string,
+    old: Future | undefined,
+    next: Future,
+    fresh: FutureName,
+    { now, onFoot }: { readonly now: number; readonly onFoot: boolean },
+  ): Future | null {
     if (!old?.basis) return null;
-    if (fresh.basis === old.basis || stillHolds(old.basis, next)) {
+    if (fresh.basis === old.basis || relationHolds(old.basis, next, onFoot)) {
       this.#pending.delete(key);
       return old;
     }
@@ -50,6 +56,9 @@ export class FrozenNames {
   }
 }
 
-/** Is the relation that a name rests on still there? */
-const stillHolds = (basis: string, f: Future): boolean =>
-  f.about?.relations.some((r) => `${r.kind}:${r.with}` === basis) ?? false;
+/** Does a future still have the relation, and the manoeuvre before it, on which a name is based? */
+function relationHolds(basis: string, f: Future, onFoot: boolean): boolean {
+  const [manoeuvre, relation] = basis.split('|');
+  const holds = f.about?.relations.some((r) => `${r.kind}:${r.with}` === relation) ?? false;
+  return holds && (manoeuvre === '' || manoeuvre === manoeuvreOf(f, onFoot));
+}

@@ -15,7 +15,7 @@ import { sceneKey, shortFor, type Scene } from '../../model/document/scene';
 import type { GeneratedJson } from '../../model/document/scene-json';
 import { ofAgents, variantsJson } from '../../model/document/scene-writer';
 import { isFull, type KeptScene, type Place, type StepStore, type Synced } from '../../net/step-store';
-import { TEXTS } from '../../texts/editing/keeping';
+import { TEXTS } from '../../texts/editing/opening';
 
 /** `kept`: stored on this computer. `full`: the storage is full. `off`: this browser stores nothing for this page. */
 export type Keeping = 'kept' | 'full' | 'off';

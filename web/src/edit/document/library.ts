@@ -16,7 +16,7 @@ import { atMost, type Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 import type { Session } from './session';
-import { TEXTS } from '../../texts/editing/keeping';
+import { TEXTS } from '../../texts/editing/opening';
 
 const WELCOME_BACK_MS = 9000;
 /** Shorter than the time that a waiting tab allows. */

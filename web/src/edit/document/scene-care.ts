@@ -79,7 +79,7 @@ export class SceneCare {
   /** Copies any scene; the open one in its shown state. */
   async duplicate(id: string): Promise<void> {
     if (id === this.session.document.scene.peek()?.id) return this.saveCopy();
-    const name = this.#freeName(TEXTS.copyOf(this.list.find(id)?.name ?? TEXTS.scene));
+    const name = this.#freeName(TEXTS.copy(this.list.find(id)?.name ?? TEXTS.scene));
     try {
       const { id: copy } = await this.client.duplicate(id, name);
       await this.list.refresh().catch(() => undefined);

@@ -10,7 +10,6 @@ import { crossingWords } from '../../model/words/verdict-words';
 import type { Editor } from '../session/editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
-import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/editing/moves';
 
 /** The route by the road: to the nearest goal it leads to, else the future that reaches the goal by it. */
@@ -82,26 +81,27 @@ export interface Leave {
   readonly command: Command;
 }
 
+/** Faults of the shown future at road edges that it crosses without permission. */
+const crossings = (e: Editor, a: Agent): readonly Fault[] =>
+  brokenRules(e, a).filter((f) => f.edge !== null && leavesRoad(f) && !a.goal.mayCross.includes(f.edge));
+
 /** Ids of the road edges that the shown future crosses without permission; none where the generator names none. */
-export function edgesInTheWay(e: Editor, a: Agent): readonly string[] {
-  const over = brokenRules(e, a).flatMap((f) => (f.edge !== null && leavesRoad(f) ? [f.edge] : []));
-  return [...new Set(over)].filter((id) => !a.goal.mayCross.includes(id));
-}
+export const edgesInTheWay = (e: Editor, a: Agent): readonly string[] => [
+  ...new Set(crossings(e, a).map((f) => f.edge!)),
+];
 
 /** Permission to cross the edges of the shown future, for this goal only. */
 export function leaveToCross(e: Editor, a: Agent): Leave | null {
   const edges = edgesInTheWay(e, a);
   if (!edges.length) return null;
-  const words = crossingWords(e.scene.value!.map, edges);
+  const words = crossingWords(crossings(e, a));
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([...a.goal.mayCross, ...edges]) };
   return { words: words.allow, command: goalStep(a, goal, `${a.name} ${words.may}`) };
 }
 
 /** The edges that the goal may cross, and the command that withdraws this; null where there are none. */
-export function leaveGiven(e: Editor, a: Agent): Leave | null {
+export function leaveGiven(a: Agent): Leave | null {
   if (!a.goal.mayCross.length) return null;
-  const { may, mayNot } = crossingWords(e.scene.value!.map, a.goal.mayCross);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([]) };
-  const command = goalStep(a, goal, `${a.name} ${mayNot}`);
-  return { words: capitalised(may), command };
+  return { words: TEXTS.crossingAllowed, command: goalStep(a, goal, TEXTS.crossingNotAllowed(a.name)) };
 }

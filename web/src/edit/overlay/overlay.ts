@@ -105,7 +105,7 @@ export class Overlay {
     const alone = this.tools.find((t) => t.isAlone);
     if (!scene && !alone) return;
     const { left, right } = v.inset;
-    this.labels.reset(v.w, v.h, {
+    this.labels.reset(v, {
       left: left > 20 ? left - 12 : 0,
       right: right > 20 ? right - 12 : 0,
       top: 0,
@@ -310,7 +310,7 @@ export class Overlay {
     if (f.sketch) {
       const m = f.modes[0].motion,
         i = m.x.length >> 1;
-      pill(g, this.labels, ...v.to(m.x[i], m.y[i]), 'sketch', { fg: colours()['ink-2'] });
+      pill(g, this.labels, ...v.to(m.x[i], m.y[i]), TEXTS.sketch, { fg: colours()['ink-2'] });
       return;
     }
   }

@@ -249,7 +249,7 @@ export class Picture {
   private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): Rect[] {
     const names: Rect[] = [];
     const reacting = new Set(labelledChanges(this.editor).map((c) => c.id));
-    const labels = new Labels(v.w, v.h);
+    const labels = new Labels(v);
     for (const [, p] of shown) {
       const [x, y] = v.to(p.x, p.y);
       labels.block(x - 9, y - 7, 18, 14);

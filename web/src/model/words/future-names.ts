@@ -24,7 +24,7 @@ export interface Naming {
   readonly log?: Motion | null;
 }
 
-/** A name and its basis: `after:12`, or a manner such as `Turns left`. */
+/** A name and its basis: `|after:12`, `left|after:12`, or a manner such as `Turns left`. */
 export interface FutureName {
   readonly name: string;
   readonly basis: string;
@@ -82,7 +82,7 @@ function nameInOrder(modes: readonly Nameable[], who: Naming, kept: readonly (Fu
     for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
   }
   // A small true difference is more informative than a similarity.
-  for (const part of SMALL) for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c, part));
+  for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c));
   for (const i of list.unnamed) list.repeat(i, said[i][0]);
   return list.names;
 }
@@ -140,22 +140,24 @@ class NameList {
     }
   }
 
-  /** Named by a small difference from the first of its group; `part` of the visible threshold is enough. */
-  tellSlightly(i: number, c: Candidate, part: number): boolean {
+  /** Named by a small difference from the first of its group. */
+  tellSlightly(i: number, c: Candidate): boolean {
     const named = this.#names.flatMap((n, j) => (n?.basis === c.basis ? [j] : []));
     if (!named.length) return false;
     const [first] = named;
-    const { traits, halfway } = traitsOf(this.modes, [...named, i], c.basis);
-    const differs = [...new Set([...traits, halfway, brakingTime(this.modes, [...named, i])])]
+    const all = [...named, i];
+    const { traits, halfway } = traitsOf(this.modes, all, c.basis);
+    // A trait in which another named one is alike distinguishes less.
+    const isShared = ({ values, least }: VisibleTrait): boolean =>
+      named.some((j) => j !== first && Math.abs(values.get(j)! - values.get(i)!) < SMALL * least);
+    const differs = [...new Set([...traits, halfway, brakingTime(this.modes, all)])]
       .map((t) => ({ t, by: (t.values.get(i)! - t.values.get(first)!) / t.least }))
-      .filter(({ by }) => Math.abs(by) >= part)
-      .sort((p, q) => Math.abs(q.by) - Math.abs(p.by));
+      // Less than the visible difference in time is noise.
+      .filter(({ t, by }) => Math.abs(by) >= (t === halfway ? 1 : SMALL))
+      .sort((p, q) => Number(isShared(p.t)) - Number(isShared(q.t)) || Math.abs(q.by) - Math.abs(p.by));
     for (const { t, by } of differs) {
       const word = by > 0 ? t.more : lessOf(t, i);
-      const exact = t.amount?.(by * t.least) ?? word;
-      if (this.#give(i, c, exact) || (exact !== word && this.#give(i, c, word))) return true;
-      const short = by > 0 || word === t.less ? t.short?.[by > 0 ? 0 : 1] : undefined;
-      if (short && this.#give(i, c, short)) return true;
+      if (this.#give(i, c, t.amount?.(by * t.least) ?? word)) return true;
     }
     return false;
   }
@@ -166,21 +168,35 @@ class NameList {
   }
 }
 
-/** Shares of the visible threshold, used where nothing else distinguishes. */
-const SMALL = [0.5, 0.2] as const;
+/** Share of the visible threshold, used where nothing else distinguishes. */
+const SMALL = 0.5;
 
 // -------------------------------------------------------------- properties of each
 
+type ManoeuvreName = NonNullable<FutureFacts['manoeuvre']>;
+
+/** What a future does: as the generator says, else by its shape. */
+export const manoeuvreOf = ({ motion, about }: Nameable, onFoot: boolean): ManoeuvreName =>
+  about?.manoeuvre ?? shapeOf(motion, onFoot);
+
+/** Manoeuvres that the eye sees before any relation, as they begin a name; lanes are only those of vehicles. */
+const TURNS: Partial<Record<ManoeuvreName, string>> = { left: TEXTS.left, right: TEXTS.right, turn_round: TEXTS.uTurn };
+const LANES: Partial<Record<ManoeuvreName, string>> = { lane_left: TEXTS.leftLane, lane_right: TEXTS.rightLane };
+
 function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
-  const relations = modes.map((m) => relationsOf(m, who));
+  const words = who.onFoot ? TURNS : { ...TURNS, ...LANES };
+  const manoeuvres = modes.map((m) => manoeuvreOf(m, who.onFoot));
+  // A manoeuvre of all distinguishes none.
+  const differ = new Set(manoeuvres.map((name) => words[name])).size > 1;
+  const relations = modes.map((m, i) => relationsOf(m, who, differ ? (words[manoeuvres[i]] ?? '') : ''));
   const count = new Map<string, number>();
   const kinds = new Map<string, Set<string>>();
   for (const list of relations)
     for (const r of list) {
-      count.set(r.basis, (count.get(r.basis) ?? 0) + 1);
-      kinds.set(r.other, (kinds.get(r.other) ?? new Set()).add(r.basis));
+      count.set(r.relation, (count.get(r.relation) ?? 0) + 1);
+      kinds.set(r.other, (kinds.get(r.other) ?? new Set()).add(r.relation));
     }
-  const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.basis)! < modes.length;
+  const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.relation)! < modes.length;
   // A road user that one future passes before and another after is the most informative for both.
   const contrast = (r: RelationCandidate): number => Number(kinds.get(r.other)!.size > 1);
   const onRoad = modes.map((m) => !!m.about && m.about.faults.every((f) => faultMark(f) === 'near'));
@@ -213,24 +229,29 @@ function isLike(m: Motion, log: Motion): boolean {
 const STOPS = TEXTS.stops;
 
 interface RelationCandidate extends Candidate {
+  /** `after:12`, whatever the manoeuvre. */
+  readonly relation: string;
   readonly other: string;
 }
 
-function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
+/** `first`: the manoeuvre that begins the name, or nothing. */
+function relationsOf(m: Nameable, who: Naming, first: string): RelationCandidate[] {
   const out = new Map<string, RelationCandidate>();
   // A future does not wait for a road user that it hits.
   const hit = new Set(m.about?.faults.flatMap((f) => (f.kind === 'collision' && f.with !== null ? [f.with] : [])));
   for (const r of m.about?.relations ?? []) {
     const name = hit.has(r.with) ? null : who.nameOf(r.with);
-    const basis = `${r.kind}:${r.with}`;
-    if (!name || out.has(basis)) continue;
+    const relation = `${r.kind}:${r.with}`;
+    if (!name || out.has(relation)) continue;
     // Giving way at speed is not waiting.
     const rolls = r.kind === 'gives_way_to' && !waitsBy(m.motion, r.time, who.onFoot);
     const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
     const short = shortName(name);
-    const forms = [`${word} ${name}`, `${word} ${short}`];
-    if (r.kind === 'gives_way_to') forms.push(TEXTS.yieldsTo(short));
-    if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
+    const words = [`${word} ${name}`, `${word} ${short}`];
+    if (r.kind === 'gives_way_to') words.push(TEXTS.yieldsTo(short));
+    const forms = first ? words.map((w) => `${first}, ${w.charAt(0).toLowerCase()}${w.slice(1)}`) : words;
+    const basis = `${first && manoeuvreOf(m, who.onFoot)}|${relation}`;
+    if (forms.some((f) => f.length <= LONGEST)) out.set(relation, { basis, forms, relation, other: r.with });
   }
   return [...out.values()];
 }
@@ -256,22 +277,19 @@ const SHORT = [
 const CREEPS_M = 0.4;
 
 /** One that stops after its turn is named by the turn, which the eye sees first. */
-function hasTurned({ motion, about }: Nameable, onFoot: boolean): boolean {
-  return ['left', 'right', 'turn_round'].includes(about?.manoeuvre ?? shapeOf(motion, onFoot));
+const hasTurned = (m: Nameable, onFoot: boolean): boolean => manoeuvreOf(m, onFoot) in TURNS;
+
+function endsStanding(m: Nameable, onFoot: boolean): boolean {
+  if (manoeuvreOf(m, onFoot) === 'stays' || pathLength(m.motion) < JUDGING.stays_m) return false;
+  return Math.abs(endPose(m.motion).speed) < JUDGING.standing_mps;
 }
 
-function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
-  const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
-  if (manoeuvre === 'stays' || pathLength(m) < JUDGING.stays_m) return false;
-  return Math.abs(endPose(m).speed) < JUDGING.standing_mps;
-}
-
-function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
-  const forms = mannerWords(motion, about?.manoeuvre ?? shapeOf(motion, onFoot), onFoot);
+function manner(m: Nameable, onFoot: boolean): Candidate {
+  const forms = mannerWords(m.motion, manoeuvreOf(m, onFoot), onFoot);
   return { basis: forms[0], forms };
 }
 
-function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>, onFoot: boolean): string[] {
+function mannerWords(m: Motion, manoeuvre: ManoeuvreName, onFoot: boolean): string[] {
   switch (manoeuvre) {
     case 'left':
     case 'right': {
@@ -298,7 +316,7 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<FutureFacts['manoeuvre']>
 // -------------------------------------------------------------- shapes
 
 /** The manoeuvre, from the shape only. */
-function shapeOf(m: Motion, onFoot: boolean): NonNullable<FutureFacts['manoeuvre']> {
+function shapeOf(m: Motion, onFoot: boolean): ManoeuvreName {
   const n = m.x.length - 1;
   if (n < 2 || pathLength(m) < JUDGING.stays_m) return 'stays';
   const turn = totalTurn(m);
@@ -341,8 +359,6 @@ interface VisibleTrait {
   readonly least: number;
   readonly more: string;
   readonly less: string;
-  /** Shorter words for more and for less of it. */
-  readonly short?: readonly [more: string, less: string];
   /** The difference in numbers, signed. */
   readonly amount?: (by: number) => string;
   /** The word for almost nothing of it, in place of "less". */
@@ -418,6 +434,10 @@ interface Traits {
 /** Differences of slower ones are not converted to seconds by their own speed, m/s. */
 const LEAST_PACE_MPS = 0.5;
 
+/** Smaller differences in time are invisible: seconds, and metres of those that are slow. */
+const LEAST_APART_S = 0.3;
+const LEAST_APART_M = 0.8;
+
 /** All visible traits in which members of a group may differ. */
 function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
   const motion = (i: number): Motion => modes[i].motion;
@@ -434,9 +454,10 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const far = Math.max(1, 0.03 * Math.max(...ends));
   const together = Math.max(...ends) - Math.min(...ends) < far;
   const speed = Math.max(LEAST_PACE_MPS, distances(motion(group[0]))[n] / (n * STEP_S));
+  const apart = Math.max(LEAST_APART_M, LEAST_APART_S * speed);
   const halfway: VisibleTrait = {
-    ...trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later),
-    amount: (by) => (by > 0 ? TEXTS.earlierBy : TEXTS.laterBy)(seconds(Math.max(0.1, Math.abs(by) / speed))),
+    ...trait(at(0.5), apart, TEXTS.earlier, TEXTS.later),
+    amount: (by) => (by > 0 ? TEXTS.earlierBy : TEXTS.laterBy)(seconds(Math.abs(by) / speed)),
   };
   const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
   // With a goal all get equally far, so progress is compared on the way.
@@ -454,11 +475,10 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const offset = (i: number): number => side.get(i)!;
   const traits: VisibleTrait[] = [
     pace,
-    trait(at(0.25), 0.8, TEXTS.fasterStart, TEXTS.slowerStart),
+    trait(at(0.25), apart, TEXTS.fasterStart, TEXTS.slowerStart),
     trait((i) => Math.abs(motion(i).speed[n]), 1.5, TEXTS.fasterEnd, TEXTS.slowerEnd),
     {
-      ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.harderBraking, TEXTS.softerBraking),
-      short: [TEXTS.brakesMore, TEXTS.brakesLess],
+      ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.brakesHarder, TEXTS.brakesLess),
       none: { below: BRAKES_MPS2, word: TEXTS.noBraking },
     },
     turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),

@@ -10,7 +10,6 @@ import {
 } from '../document/future-facts';
 import { THRESHOLDS } from '../base/domain';
 import { LETTERS, type Futures } from '../document/futures';
-import type { LaneMap } from '../document/lanemap';
 import type { NameOf } from '../document/scene';
 import { endPose, endsBefore, lastStep, STEP_S } from '../base/motion';
 import type { AgentType } from '../base/kinds';
@@ -265,11 +264,9 @@ export function groupOf(f: Futures, i: number, about: FutureFacts | null, said: 
   }
 }
 
-/** `may cross this median`, and the like. An island has several edges but counts as one median. */
-export function crossingWords(map: LaneMap, edges: readonly string[]): typeof TEXTS.thisMedian {
-  const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
-  return edges.every((id) => medians.has(id)) ? TEXTS.thisMedian : TEXTS.thisKerb;
-}
+/** Permission for these faults: `may cross this median`, and the like. The edge is called what the fault calls it. */
+export const crossingWords = (faults: readonly Fault[]): typeof TEXTS.thisMedian =>
+  faults.some((f) => f.kind === 'over_median') ? TEXTS.thisMedian : TEXTS.thisKerb;
 
 /** What a future with this fault does, as a verb. */
 const doesWhat = (f: Fault, nameOf: NameOf): string =>

@@ -52,7 +52,7 @@ export const TEXTS = table('hud', {
   dragOverTheGround: 'Drag an area to place a group',
   hideTheOthers: 'hide others’ reactions',
   showTheOthers: 'show others’ reactions',
-  theFlagLagsBehind: 'The flag lags behind while a kerb is in the way',
+  theFlagLagsBehind: 'The flag lags behind while a kerb or median is in the way',
   othersReactWhen: 'Road users in conflict react on release',
   releaseToCompute: 'Release to compute',
   dashedBoxesWhere: 'Dashed boxes: where others would wait',

@@ -11,7 +11,7 @@ export const TEXTS = table('scenes', {
   noSceneOfThat: 'No scene with that name.',
   loading: 'Loading …',
   recent: 'Recent',
-  mine: 'Mine',
+  mine: 'Saved',
   examples: 'Examples',
   recorded: 'Recorded',
   newName: 'New name',

@@ -1,28 +1,7 @@
-import { plural, table } from '../table';
+import { table } from '../table';
 
 export const TEXTS = table('keeping', {
-  theGenerator: 'The generator is not answering.',
-  generatorComputes: (most_at_once: number) =>
-    `The generator computes at most ${most_at_once} road users at once. For more, fill one area after another.`,
-  thereIsNoRoom: 'There is no room here.',
-  roadUsersPlaced: (count: number, reason: string) =>
-    plural(count, { one: `${count} road user placed. ${reason}`, other: `${count} road users placed. ${reason}` }),
-  theServerIsNot: 'The server is not answering.',
-  mapClosed: 'Map closed.',
-  keepEditing: 'Keep editing',
-  noLongerOnALane: (count: number, lost: string) =>
-    plural(count, {
-      one: `${count} road user is no longer on a lane: ${lost}.`,
-      other: `${count} road users are no longer on a lane: ${lost}.`,
-    }),
-  otherMap: (base: undefined | string) => `${base}, other map`,
-  theSceneCould: 'The server is not answering.',
-  changedElsewhere: 'Changed elsewhere',
-  discard: 'Discard',
-  lastSessionRestored: 'The changes of your last session are restored.',
-  thisSceneIsOpen: 'This scene is open in another tab and read-only here.',
-  editHere: 'Edit here',
-  theOtherVersion: 'Other version loaded',
+  onlyOwnerChanges: (owner: string) => `Only ${owner} can change this scene.`,
   mapAdded: (free: string) => `“${free}”: map added. Changes are saved automatically.`,
   newScene: 'New scene',
   noRoadUsersYet: (name: string) => `“${name}”: no road users yet. Changes are saved automatically.`,
@@ -31,7 +10,6 @@ export const TEXTS = table('keeping', {
   savedAs: (name: string) => `Saved as “${name}”. Changes are saved automatically.`,
   notSaved: 'Not saved',
   scene: 'Scene',
-  copyOf: (name: string) => `${name}, copy`,
   open: 'Open',
   copiedAs: (name: string) => `Copied as “${name}”.`,
   notCopied: 'Not copied',
@@ -43,15 +21,8 @@ export const TEXTS = table('keeping', {
   restored: (body: undefined | string) => `“${body}” restored.`,
   notRestored: 'Not restored',
   theServerIsNotAnswering: 'the server is not answering. Your changes are kept on this computer.',
-  notExported: (whyNot: string) => `Not exported: ${whyNot}`,
-  theServerIsNotThere: 'the server is not answering.',
-  files: (count: number) => `${count} files`,
-  savedWithout: (n: number, what: string) =>
-    plural(n, { one: `${what} saved, ${n} detail not exported.`, other: `${what} saved, ${n} details not exported.` }),
-  saved: (what: string) => `${what} saved.`,
   thereIsNoWhole: 'The link does not contain a complete scene.',
   sharedScene: 'Shared scene',
   thisSceneCame: 'This scene was opened from a link and is read-only.',
   makeACopy: 'Make a copy',
-  theHandlesOf: 'The map handles did not load. Open the map again when the network is back.',
 });

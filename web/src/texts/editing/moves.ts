@@ -55,6 +55,8 @@ export const TEXTS = table('moves', {
   thereIsNoRoom: 'No room for a point here.',
   atYourSpeed: 'At your speed',
   goalOfMovedOntoRoad: (name: string) => `Goal of ${name} moved onto the road`,
+  crossingAllowed: 'Crossing allowed',
+  crossingNotAllowed: (name: string) => `${name} may no longer cross`,
   byRoad: (letter: string) => `By road: ${letter}`,
   position: 'position',
   headingWithin: 'heading',

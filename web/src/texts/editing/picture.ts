@@ -19,6 +19,7 @@ export const TEXTS = table('picture', {
   holdToCross: 'Hold: cross',
   altToCross: 'Alt: cross',
   atAhead: (time: string, along: string) => `at ${time} · ${along} ahead`,
+  sketch: 'sketch',
   occupied: 'Occupied',
   stopsHereFor: (lasts: string, place: string | null) => `stops ${place ?? 'here'} for ${lasts}`,
   log: 'Log',

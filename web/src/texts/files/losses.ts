@@ -2,7 +2,7 @@ import { plural, table } from '../table';
 
 export const TEXTS = table('losses', {
   asPlainVehicles: (all: string) => `${all}: exported as plain vehicles`,
-  kindsInTheFile: 'the file knows vehicle, pedestrian and cyclist only',
+  kindsInTheFile: 'the format has only vehicle, pedestrian and cyclist',
   goalsAsMotion: (many: string) => `${many}: exported as fixed motion`,
   startsAsMotion: 'starts: exported as fixed motion',
   namesAndTags: (many: string) => `${many}, names and tags`,
@@ -18,7 +18,7 @@ export const TEXTS = table('losses', {
   otherFutures: 'Other futures',
   theChosenOnes: 'only the chosen ones are exported',
   generatedMotion: 'Generated motion',
-  allMotionCounts: 'all motion counts as recorded',
+  allMotionCounts: 'all motion is marked as recorded',
   otherGoals: 'Other goals',
   oneGoalOnly: 'only one road user has a goal',
   lateRoadUsers: 'Late road users',

@@ -52,7 +52,7 @@ export const SENTENCES = table('messages', {
     },
     // Of a goal that is relative to another road user.
     'relation-gone': {
-      title: (v: Values) => `Road user ${v.agent} is not there at ${v.time_s}`,
+      title: (v: Values) => `Road user ${v.agent} is not in the scene at ${v.time_s}`,
       rest: 'The goal is relative to it.',
     },
     'relation-lane-ends': {
@@ -73,7 +73,7 @@ export const SENTENCES = table('messages', {
     },
     'relation-off-lanes': {
       title: (v: Values) => `Road user ${v.agent} is on no lane at ${v.time_s}`,
-      rest: 'So there is no lane beside it.',
+      rest: 'No lane is beside it.',
     },
     'relation-outside': {
       title: (v: Values) => `The goal would be due at ${v.time_s}`,

@@ -15,7 +15,7 @@ import { ANY_SPEED, type EntryArm, type FillAnswer, type FillWish } from './fill
 import { inTheWay, standing } from '../../moves/room';
 import type { SceneFile } from '../../document/scene-file';
 import { MOST_AT_ONCE } from '../../moves/several';
-import { TEXTS } from '../../../texts/editing/keeping';
+import { TEXTS } from '../../../texts/editing/filling';
 
 /** Road users for each kilometre of lane, from those for each 100 m. */
 const PER_KM = 10;

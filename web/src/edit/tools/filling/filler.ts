@@ -8,7 +8,7 @@ import type { FillAnswers } from './fill-answer';
 import { NO_ANSWER, type Filling, type FillWish } from './filling';
 import type { SceneFile } from '../../document/scene-file';
 import { addThem, tooMany } from '../../moves/several';
-import { TEXTS } from '../../../texts/editing/keeping';
+import { TEXTS } from '../../../texts/editing/filling';
 
 /** A moving slider sends a request after this rest. */
 const REST_MS = 80;

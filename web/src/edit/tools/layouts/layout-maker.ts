@@ -17,7 +17,7 @@ import type { LateTools } from './late-tools';
 import type { Layouts, MapWish } from './layouts';
 import type { SceneCare } from '../../document/scene-care';
 import type { SceneFile } from '../../document/scene-file';
-import { TEXTS } from '../../../texts/editing/keeping';
+import { TEXTS } from '../../../texts/editing/map-making';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
 /** An unreachable server is retried after this. */

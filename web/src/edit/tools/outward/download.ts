@@ -5,7 +5,7 @@ import type { Scene } from '../../../model/document/scene';
 import type { Editor } from '../../session/editor';
 import type { Loss } from './losses';
 import type { SceneFile } from '../../document/scene-file';
-import { TEXTS } from '../../../texts/editing/keeping';
+import { TEXTS } from '../../../texts/files/download';
 
 interface Source {
   readonly editor: Editor;

@@ -26,7 +26,7 @@ export const german: Said<typeof TEXTS> = {
   exportTheScene: 'Die Szene exportieren oder die Schritte anderer gesicherter Szenen löschen.',
   stepsOfOther: (n) =>
     plural(n, {
-      one: `Schritte von ${n} anderen Szene gelöscht. `,
+      one: 'Schritte einer anderen Szene gelöscht. ',
       other: `Schritte von ${n} anderen Szenen gelöscht. `,
     }),
   stillNoSpace: 'Noch immer kein Speicherplatz: diese Szene exportieren.',
@@ -57,7 +57,7 @@ export const german: Said<typeof TEXTS> = {
   dragOverTheGround: 'Fläche ziehen setzt eine Gruppe ein',
   hideTheOthers: 'Reaktionen anderer verbergen',
   showTheOthers: 'Reaktionen anderer zeigen',
-  theFlagLagsBehind: 'Die Fahne bleibt zurück, solange ein Bordstein im Weg ist',
+  theFlagLagsBehind: 'Die Fahne bleibt zurück, solange ein Bordstein oder Mittelstreifen im Weg ist',
   othersReactWhen: 'Verkehrsteilnehmer im Konflikt reagieren beim Loslassen',
   releaseToCompute: 'Loslassen startet die Berechnung',
   dashedBoxesWhere: 'Gestrichelt: wo andere warten würden',

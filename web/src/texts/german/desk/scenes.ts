@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   noSceneOfThat: 'Keine Szene mit diesem Namen.',
   loading: 'Lädt …',
   recent: 'Zuletzt',
-  mine: 'Eigene',
+  mine: 'Gesichert',
   examples: 'Beispiele',
   recorded: 'Aufgezeichnet',
   newName: 'Neuer Name',

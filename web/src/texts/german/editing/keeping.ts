@@ -1,29 +1,8 @@
 import type { TEXTS } from '../../editing/keeping';
-import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  theGenerator: 'Der Generator antwortet nicht.',
-  generatorComputes: (most_at_once) =>
-    `Der Generator berechnet höchstens ${most_at_once} Verkehrsteilnehmer auf einmal. Für mehr eine Fläche nach der anderen füllen.`,
-  thereIsNoRoom: 'Hier ist kein Platz.',
-  roadUsersPlaced: (count, reason) => `${count} Verkehrsteilnehmer eingesetzt. ${reason}`,
-  theServerIsNot: 'Der Server antwortet nicht.',
-  mapClosed: 'Karte geschlossen.',
-  keepEditing: 'Weiter bearbeiten',
-  noLongerOnALane: (count, lost) =>
-    plural(count, {
-      one: `${count} Verkehrsteilnehmer steht nicht mehr auf einer Spur: ${lost}.`,
-      other: `${count} Verkehrsteilnehmer stehen nicht mehr auf einer Spur: ${lost}.`,
-    }),
-  otherMap: (base) => `${base}, andere Karte`,
-  theSceneCould: 'Der Server antwortet nicht.',
-  changedElsewhere: 'Anderswo geändert',
-  discard: 'Verwerfen',
-  lastSessionRestored: 'Die Änderungen der letzten Sitzung sind wiederhergestellt.',
-  thisSceneIsOpen: 'Diese Szene ist in einem anderen Tab offen und hier schreibgeschützt.',
-  editHere: 'Hier bearbeiten',
-  theOtherVersion: 'Andere Version geladen',
+  onlyOwnerChanges: (owner) => `Nur ${owner} kann diese Szene ändern.`,
   mapAdded: (free) => `„${free}“: Karte angelegt. Änderungen werden automatisch gesichert.`,
   newScene: 'Neue Szene',
   noRoadUsersYet: (name: string) => `„${name}“: noch ohne Verkehrsteilnehmer. Änderungen werden automatisch gesichert.`,
@@ -32,7 +11,6 @@ export const german: Said<typeof TEXTS> = {
   savedAs: (name: string) => `Gesichert als „${name}“. Änderungen werden automatisch gesichert.`,
   notSaved: 'Nicht gesichert',
   scene: 'Szene',
-  copyOf: (name: string) => `${name}, Kopie`,
   open: 'Öffnen',
   copiedAs: (name: string) => `Kopiert als „${name}“.`,
   notCopied: 'Nicht kopiert',
@@ -44,18 +22,8 @@ export const german: Said<typeof TEXTS> = {
   restored: (body) => `„${body}“ wiederhergestellt.`,
   notRestored: 'Nicht wiederhergestellt',
   theServerIsNotAnswering: 'der Server antwortet nicht. Die Änderungen sind auf diesem Rechner gesichert.',
-  notExported: (whyNot) => `Nicht exportiert: ${whyNot}`,
-  theServerIsNotThere: 'der Server antwortet nicht.',
-  files: (count) => `${count} Dateien`,
-  savedWithout: (n, what) =>
-    plural(n, {
-      one: `${what} gesichert, ${n} Angabe nicht exportiert.`,
-      other: `${what} gesichert, ${n} Angaben nicht exportiert.`,
-    }),
-  saved: (what) => `${what} gesichert.`,
   thereIsNoWhole: 'Der Link enthält keine vollständige Szene.',
   sharedScene: 'Geteilte Szene',
   thisSceneCame: 'Diese Szene wurde aus einem Link geöffnet und ist schreibgeschützt.',
   makeACopy: 'Kopie anlegen',
-  theHandlesOf: 'Die Griffe der Karte wurden nicht geladen. Die Karte neu öffnen, sobald das Netz wieder da ist.',
 };

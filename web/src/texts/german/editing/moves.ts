@@ -58,6 +58,8 @@ export const german: Said<typeof TEXTS> = {
   thereIsNoRoom: 'Hier ist kein Platz für einen Punkt.',
   atYourSpeed: 'Mit diesem Tempo',
   goalOfMovedOntoRoad: (name) => `Ziel von ${name} auf die Straße verschoben`,
+  crossingAllowed: 'Queren erlaubt',
+  crossingNotAllowed: (name) => `${name} darf nicht mehr queren`,
   byRoad: (letter) => `Auf der Straße: ${letter}`,
   position: 'Ort',
   headingWithin: 'Richtung',

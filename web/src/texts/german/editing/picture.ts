@@ -19,6 +19,7 @@ export const german: Said<typeof TEXTS> = {
   holdToCross: 'Halten: queren',
   altToCross: 'Alt: queren',
   atAhead: (time, along) => `bei ${time} · ${along} Weg`,
+  sketch: 'Skizze',
   occupied: 'Belegt',
   stopsHereFor: (lasts, place) => `hält ${place ?? 'hier'}, ${lasts} lang`,
   log: 'Aufzeichnung',

@@ -11,7 +11,7 @@ export const german: Said<typeof TEXTS> = {
   waits: (long, whom, behind) => `wartet${long} ${behind ? 'hinter' : 'auf'} ${whom}`,
   slowsTo: (speed, whom, behind) => `bremst auf ${speed} ${behind ? 'hinter' : 'wegen'} ${whom}`,
   stopsBriefly: (whom, behind) => `hält kurz ${behind ? 'hinter' : 'wegen'} ${whom}`,
-  speedsUpFor: (name) => `beschleunigt wegen ${name}`,
+  speedsUpFor: (name) => `beschleunigt vor ${name}`,
   staysOut: (name) => `erscheint nicht, dort ist ${name}`,
   keepsClearOf: (name, behind) => (behind ? `bleibt hinter ${name}` : `weicht ${name} aus`),
 };
