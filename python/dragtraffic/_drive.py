@@ -133,7 +133,7 @@ def _film(scene: Scene, steps: Sequence[Step], first: int) -> Scene:
         if moved:
             # A start or size that was fixed is part of the motion now; a goal is shown.
             goal = (agent.get("conditions") or {}).get("goal")
-            agents.append({**agent, "track": _track(moved), "conditions": {"goal": goal} if goal else {}})
+            agents.append({**agent, "track": track_of(moved), "conditions": {"goal": goal} if goal else {}})
     last, there = first + len(steps), {agent["id"] for agent in agents}
     meta = {**document.get("meta", {}), "timestamps_s": None}
     meta["objects_of_interest"] = [id for id in meta.get("objects_of_interest") or [] if id in there]
@@ -166,7 +166,7 @@ def _recorded(track: dict[str, Any], until: int) -> list[tuple[int, Any]]:
     return [(step, state) for step, state in numbered if step < until and is_seen(step)]
 
 
-def _track(moved: list[tuple[int, Any]]) -> dict[str, Any]:
+def track_of(moved: list[tuple[int, Any]]) -> dict[str, Any]:
     """Steps and states as a document has them; gaps are not valid."""
     first, length = moved[0][0], moved[-1][0] - moved[0][0] + 1
     states = np.zeros((length, 5))
