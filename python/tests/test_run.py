@@ -52,6 +52,26 @@ def test_equal_egos_and_seeds_give_equal_steps(scene: Scene) -> None:
     assert not (states(3) == states(4)).all()
 
 
+def test_a_run_goes_on_with_equal_bytes_from_a_snapshot_of_twenty_moments(scene: Scene) -> None:
+    def drive(run: Run, until: int) -> list[bytes]:
+        """States, changes and snapshot of each step to a number: the ego stands."""
+        told = []
+        while run.present.number < until:
+            step = run.step({"4": run.present["4"]._replace(vx_mps=0.0, vy_mps=0.0)})
+            told.append(step.states.tobytes() + repr((step.changes, step.entered, step.left)).encode() + run.snapshot())
+        return told
+
+    whole = Run(scene, "4", seed=7)
+    saved, told = [], []
+    for moment in range(3, 63, 3):
+        told += drive(whole, moment)
+        saved.append(whole.snapshot())
+    told += drive(whole, 66)
+    assert len(saved) == 20
+    for moment, snapshot in zip(range(3, 63, 3), saved):
+        assert drive(Run.restore(scene, snapshot), moment + 6) == told[moment : moment + 6], f"from step {moment}"
+
+
 def test_a_snapshot_goes_on_as_the_run_does(scene: Scene) -> None:
     run = Run(scene, seed=7)
     for _ in range(7):
