@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from .._errors import DragTrafficError
 from .._goals import asked_goal, recorded_state, recorded_steps
-from .._run import Run, State, Step
-from .._scene import Scene, open
+from .._run import Run, State, StateLike, Step
+from .._scene import AgentId, Scene, open
 from ._driver import Actions, Driver, drive
 from ._gpudrive import GpudriveView, gpudrive_space
 from ._observe import Seen, View, observation_space
@@ -128,6 +128,7 @@ class Episode:
         self.run = Run(scene, egos, seed=seed, step_s=step_s)
         self.view = GpudriveView(scene) if observation == "gpudrive" else View(scene)
         self.horizon_s = horizon_s
+        self._before: dict[str, tuple[float, float]] = {}
         self.drivers = {id: self._driver(id, goal) for id, goal in goals.items()}
 
     def _driver(self, id: str, goal: State) -> Driver:
@@ -135,18 +136,26 @@ class Episode:
         return Driver(id, goal, start, self.view.route(id, start, goal))
 
     def step(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[str, dict[str, Any]]:
-        """Makes a step, and says of each ego that drove what came of it. An ego that is done stands where it is."""
+        """Makes a step, and says of each ego that drove what came of it."""
+        return self.told(self.run.step(self.moved(actions, kind)))
+
+    def moved(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[AgentId, StateLike]:
+        """Where the egos are at the end of the next step. An ego that is done stands where it is."""
         dt = self.run.step_s
-        before = {id: (driver.left_m(), driver.action[0]) for id, driver in self.drivers.items()}
+        self._before = {id: (driver.left_m(), driver.action[0]) for id, driver in self.drivers.items()}
         for id, driver in self.drivers.items():
             if driver.over:
                 driver.state = driver.state._replace(vx_mps=0.0, vy_mps=0.0)
             else:
                 drive(driver, actions[id], kind, dt)
-        step = self.run.step({id: driver.state for id, driver in self.drivers.items()})
-        return {id: self._told(driver, step, *before[id]) for id, driver in self.drivers.items() if not driver.over}
+        return {id: driver.state for id, driver in self.drivers.items()}
 
-    def _told(self, driver: Driver, step: Step, left_m: float, acceleration: float) -> dict[str, Any]:
+    def told(self, step: Step) -> dict[str, dict[str, Any]]:
+        """What came of the step that the egos moved for, of each ego that drove."""
+        driving = [(id, driver) for id, driver in self.drivers.items() if not driver.over]
+        return {id: self._came(driver, step, *self._before[id]) for id, driver in driving}
+
+    def _came(self, driver: Driver, step: Step, left_m: float, acceleration: float) -> dict[str, Any]:
         faults = [fault["fault"] for fault in step.faults if driver.id in _involved(fault)]
         driver.collided = any(fault["kind"] == "collision" for fault in faults)
         driver.reached = driver.distance_m() <= AT_GOAL_M
