@@ -22,7 +22,7 @@ os.environ.setdefault("CANDLE_NUM_THREADS", "1")
 
 from ._batch import batch  # noqa: E402
 from ._conditions import Condition, Goal, Relation, Start, Velocity, Via  # noqa: E402
-from ._drive import Drive, drive  # noqa: E402
+from ._drive import Drive, drive, film  # noqa: E402
 from ._errors import DragTrafficError  # noqa: E402
 from ._native import version  # noqa: E402
 from ._run import Peek, Run, State, Step  # noqa: E402
@@ -47,6 +47,7 @@ __all__ = [
     "Via",
     "batch",
     "drive",
+    "film",
     "open",
     "open_all",
     "version",

@@ -100,7 +100,7 @@ def drive(
             break
         plans: dict[AgentId, Plan] = {ego: plan for ego, (_, plan) in answers.items() if plan is not None}
         steps.append(run.step({ego: state for ego, (state, _) in answers.items()}, plans))
-    return Drive(_film(scene, steps, first), driven, steps)
+    return Drive(film(scene, steps), driven, steps)
 
 
 def _egos(scene: Scene, egos: AgentId | Iterable[AgentId] | None) -> list[str]:
@@ -119,8 +119,19 @@ def _answer(given: Any) -> tuple[StateLike, Plan | None]:
     return given, None
 
 
-def _film(scene: Scene, steps: Sequence[Step], first: int) -> Scene:
-    """The scene with what happened as tracks, without futures."""
+def film(scene: Scene, steps: Sequence[Step]) -> Scene:
+    """The scene with what happened in a run as tracks, without futures. ``steps``: the run's start and each step after
+    it, 0.1 s apart; what was recorded before the start is kept.
+
+    Raises:
+        ValueError: there are no steps, they are not 0.1 s apart, or a scene cannot be so long.
+    """
+    numbers = [step.time_s / _STEP_S for step in steps]
+    first = round(numbers[0]) if steps else 0
+    if not steps or any(abs(number - first - i) > 1e-3 for i, number in enumerate(numbers)):
+        raise ValueError(f"a start and steps {_STEP_S} s apart expected")
+    if first + len(steps) > _MOST_STEPS:
+        raise ValueError(f"{_MOST_STEPS} steps at most expected, found {first + len(steps)}")
     document = json.loads(scene.bytes())
     rows: dict[str, list[tuple[int, Any]]] = {}
     for number, step in enumerate(steps):
@@ -133,7 +144,7 @@ def _film(scene: Scene, steps: Sequence[Step], first: int) -> Scene:
         if moved:
             # A start or size that was fixed is part of the motion now; a goal is shown.
             goal = (agent.get("conditions") or {}).get("goal")
-            agents.append({**agent, "track": _track(moved), "conditions": {"goal": goal} if goal else {}})
+            agents.append({**agent, "track": track_of(moved), "conditions": {"goal": goal} if goal else {}})
     last, there = first + len(steps), {agent["id"] for agent in agents}
     meta = {**document.get("meta", {}), "timestamps_s": None}
     meta["objects_of_interest"] = [id for id in meta.get("objects_of_interest") or [] if id in there]
@@ -144,8 +155,8 @@ def _film(scene: Scene, steps: Sequence[Step], first: int) -> Scene:
     name = f"{scene.name}, driven"
     # The engine checks the document, so that a film is a scene or an error names what is not.
     parts = {"agents": agents, "signals": [signal for signal in signals if signal["states"]], "generated": None}
-    film = Scene({**document, **parts, "name": name[:200], "meta": meta, "time": timing})
-    return Scene._of(film.native())
+    made = Scene({**document, **parts, "name": name[:200], "meta": meta, "time": timing})
+    return Scene._of(made.native())
 
 
 def _until(signal: dict[str, Any], last: int) -> dict[str, Any]:
@@ -166,7 +177,7 @@ def _recorded(track: dict[str, Any], until: int) -> list[tuple[int, Any]]:
     return [(step, state) for step, state in numbered if step < until and is_seen(step)]
 
 
-def _track(moved: list[tuple[int, Any]]) -> dict[str, Any]:
+def track_of(moved: list[tuple[int, Any]]) -> dict[str, Any]:
     """Steps and states as a document has them; gaps are not valid."""
     first, length = moved[0][0], moved[-1][0] - moved[0][0] + 1
     states = np.zeros((length, 5))

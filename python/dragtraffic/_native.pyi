@@ -42,6 +42,11 @@ class Run:
     def step(
         self, ids: Sequence[str], states: NDArray[np.float64], plans: Sequence[NDArray[np.float64]]
     ) -> Stepped: ...
+    @staticmethod
+    def step_together(
+        runs: Sequence[Run],
+        said: Sequence[tuple[Sequence[str], NDArray[np.float64], Sequence[NDArray[np.float64]]]],
+    ) -> list[Stepped]: ...
     def peek(
         self, ids: Sequence[str], plans: Sequence[NDArray[np.float64]]
     ) -> tuple[list[str], list[NDArray[np.float64]], bytes]: ...

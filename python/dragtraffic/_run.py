@@ -148,13 +148,22 @@ class Run:
             DragTrafficError: an ego is missing, or a state is out of its range.
             ValueError: a state has not five numbers.
         """
-        ids = [str(id) for id in egos or {}]
-        announced = {str(id): _rows(plan) for id, plan in (plans or {}).items()}
-        if unknown := announced.keys() - set(ids):
-            raise ValueError(f"a plan of {', '.join(sorted(unknown))}, which egos does not name")
-        states = _rows(list((egos or {}).values()))
-        self._present = _step(self._run.step(ids, states, [announced.get(id, _NONE) for id in ids]))
+        self._present = _step(self._run.step(*_said(egos or {}, plans or {})))
         return self._present
+
+    @staticmethod
+    def step_together(runs: Sequence[Run], egos: Sequence[Mapping[AgentId, StateLike]]) -> list[Step]:
+        """Makes a step of each of several runs, on as many threads as there are processors (``RAYON_NUM_THREADS``).
+        ``egos``: for each run the state of each ego at its end. The steps are those of :meth:`step`, to the last bit.
+
+        Raises:
+            DragTrafficError: as :meth:`step`; then no run is stepped.
+            ValueError: there are not as many ``egos`` as runs, or a state has not five numbers.
+        """
+        said = [_said(states, {}) for states in egos]
+        for run, stepped in zip(runs, _native.Run.step_together([run._run for run in runs], said)):
+            run._present = _step(stepped)
+        return [run._present for run in runs]
 
     def peek(self, plans: Mapping[AgentId, Plan] | None = None) -> Peek:
         """What the others would do over nine seconds if egos drove these plans; nothing changes. An ego without a plan
@@ -182,6 +191,17 @@ class Run:
         run = Run.__new__(Run)._of(self.scene, self._run.branch())
         run._present = self._present
         return run
+
+
+def _said(
+    egos: Mapping[AgentId, StateLike], plans: Mapping[AgentId, Plan]
+) -> tuple[list[str], NDArray[np.float64], list[NDArray[np.float64]]]:
+    """Egos as the native module takes them."""
+    ids = [str(id) for id in egos]
+    announced = {str(id): _rows(plan) for id, plan in plans.items()}
+    if unknown := announced.keys() - set(ids):
+        raise ValueError(f"a plan of {', '.join(sorted(unknown))}, which egos does not name")
+    return ids, _rows(list(egos.values())), [announced.get(id, _NONE) for id in ids]
 
 
 def _rows(states: Plan) -> NDArray[np.float64]:

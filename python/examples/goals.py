@@ -6,6 +6,8 @@ Each run takes a recorded scene and prescribes nobody: all are driven by the eng
 state on. The goal of each is where its recording ends, due when it ends. A road user counts if its goal is more than
 2 m away from where it comes in. It succeeds if it comes within 2 m of its goal and has no fault of its own: no
 collision in which it drove into the other, and as a vehicle no corner off the road (faults of the steps, docs/runs.md).
+Stop lines crossed at red and driving against the lanes are told beside this: they are of the score of the whole run, by
+the rules of every scene (docs/metrics.md).
 """
 
 from __future__ import annotations
@@ -20,16 +22,18 @@ from pathlib import Path
 
 import dragtraffic
 import numpy as np
-from dragtraffic import Run, Scene
+from dragtraffic import Run, Scene, film
 
 #: Metres within which a goal is reached, and length of a run in seconds.
 AT_GOAL_M, RUN_S = 2.0, 20.0
+#: Rules of vehicles that the score of a run judges, as it names them.
+RULES = ("red_lights", "wrong_way")
 
 
 @dataclass
 class Outcome:
     """What became of a road user in a run. ``lost`` is empty if it succeeded; ``nearest_m`` is its least distance to
-    the goal."""
+    the goal; ``rules`` are the rules of the road that it broke, of the score of the run."""
 
     scene: str
     seed: int
@@ -38,6 +42,7 @@ class Outcome:
     way_m: float
     nearest_m: float
     lost: str
+    rules: list[str]
 
 
 def with_goals(scene: Scene) -> tuple[Scene, dict[str, tuple[float, float]]]:
@@ -61,6 +66,7 @@ def drive(path: Path, seed: int) -> list[Outcome]:
     kinds = {str(agent["id"]): str(agent["type"]) for agent in scene.document["agents"]}
     run = Run(scene, seed=seed)
     step = run.present
+    steps = [step]
     ways: dict[str, float] = {}
     nearest: dict[str, float] = {}
     faults: dict[str, str] = {}
@@ -76,6 +82,12 @@ def drive(path: Path, seed: int) -> list[Outcome]:
         if step.time_s >= RUN_S - 1e-9:
             break
         step = run.step()
+        steps.append(step)
+    score = film(scene, steps).score()["scene"]
+
+    def rules(id: str) -> list[str]:
+        broken = [name for name in RULES if any(str(one["agent"]) == id for one in score[name])]
+        return broken if kinds[id] == "vehicle" else []
 
     def lost(id: str) -> str:
         if id in faults:
@@ -86,7 +98,7 @@ def drive(path: Path, seed: int) -> list[Outcome]:
         return "left the map" if gone.get(id) == "left_the_map" else "goal missed"
 
     return [
-        Outcome(path.name, seed, id, kinds[id], way, nearest[id], lost(id))
+        Outcome(path.name, seed, id, kinds[id], way, nearest[id], lost(id), rules(id))
         for id, way in ways.items()
         if way > AT_GOAL_M and kinds[id] != "other"
     ]
@@ -117,6 +129,12 @@ def report(outcomes: Sequence[Outcome]) -> Iterator[str]:
         lost = Counter(one.lost for one in ones)
         told = ", ".join(f"{name or 'success'} {count / len(ones):.1%}" for name, count in lost.most_common())
         yield f"{kind:10} {len(ones):6}: {told}"
+    driven = kinds.get("vehicle", [])
+    for name in RULES:
+        broke = sum(name in one.rules for one in driven)
+        yield f"vehicles, {name.replace('_', ' ')}: {broke} of {len(driven)}"
+    obey = sum(not one.lost and not one.rules for one in outcomes)
+    yield f"goal without fault and by these rules: {obey / len(outcomes):.1%}"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -10,7 +10,7 @@ import dragtraffic.envs
 import gymnasium
 import numpy
 import pytest
-from dragtraffic.envs import Drive
+from dragtraffic.envs import Drive, VectorDrive
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test.parallel_test import parallel_api_test
 
@@ -33,6 +33,34 @@ def test_gymnasiums_own_check() -> None:
 def test_pettingzoos_own_check(observation: Any) -> None:
     env = dragtraffic.envs.parallel_env(CROSSING, ["4", "6"], horizon_s=2.0, observation=observation)
     parallel_api_test(env, num_cycles=60)
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_several_at_once_are_as_one_after_the_other(mode: str) -> None:
+    settings: dict[str, Any] = {"scene": CROSSING, "horizon_s": 0.6}
+    mode_of = gymnasium.vector.AutoresetMode(mode)
+    ours = gymnasium.make_vec(ID, num_envs=3, autoreset_mode=mode_of, **settings)
+    theirs = gymnasium.vector.SyncVectorEnv([lambda: Drive(**settings)] * 3, autoreset_mode=mode_of)
+    assert isinstance(ours.unwrapped, VectorDrive) and ours.metadata == theirs.metadata
+    assert (ours.observation_space, ours.action_space) == (theirs.observation_space, theirs.action_space)
+    actions = numpy.array([[0.1, 0.0], [-1.0, 0.0], [1.0, 0.3]], dtype=numpy.float32)
+    told: list[tuple[Any, Any]] = [(ours.reset(seed=5), theirs.reset(seed=5))]
+    told += [(ours.step(actions), theirs.step(actions)) for _ in range(16)]
+    for own, other in told:
+        assert all(same(*parts) for parts in zip(own, other))
+    over = numpy.array([own[2] | own[3] for own, _ in told[1:]])
+    assert (over.sum(axis=0) >= 2).all(), "each began anew"
+
+
+def same(own: Any, other: Any) -> bool:
+    """Whether arrays, or dictionaries and arrays of these, have equal bytes and types."""
+    if isinstance(own, dict):
+        return own.keys() == other.keys() and all(same(own[name], other[name]) for name in own)
+    if isinstance(own, numpy.ndarray) and own.dtype != object:
+        return bool(own.dtype == other.dtype) and own.tobytes() == other.tobytes()
+    if isinstance(own, numpy.ndarray):
+        return len(own) == len(other) and all(same(*parts) for parts in zip(own, other))
+    return bool(own == other)
 
 
 def test_what_is_seen_has_one_of_two_forms() -> None:

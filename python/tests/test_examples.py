@@ -15,6 +15,7 @@ sys.path.insert(0, str(ROOT / "python/examples"))
 
 import goals  # noqa: E402
 import ppo  # noqa: E402
+import vector  # noqa: E402
 
 
 def test_gradients_of_the_example_are_those_of_its_networks() -> None:
@@ -63,6 +64,12 @@ def test_the_example_trains_tests_and_draws(
     heads = [" ".join(line.split(":")[0].split()) for line in told]
     assert heads == ["step 0", "unseen maps, step 0", "step 16", "step 32", "unseen maps, step 32"]
     assert "<svg" in figure.read_text()
+
+
+def test_environments_are_timed_alone_and_together(capsys: pytest.CaptureFixture[str]) -> None:
+    vector.main([str(SCENES / "demo-crossing.json"), "--envs", "1", "2", "--steps", "2"])
+    rows = [line.strip("| ").split(" | ") for line in capsys.readouterr().out.splitlines()[2:]]
+    assert [row[0] for row in rows] == ["1", "2"] and all(float(cell) > 0 for row in rows for cell in row[1:])
 
 
 def test_a_run_says_what_became_of_each_who_had_a_way_to_go(monkeypatch: pytest.MonkeyPatch) -> None:

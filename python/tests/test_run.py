@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 import multiprocessing
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import dragtraffic
@@ -50,6 +53,72 @@ def test_equal_egos_and_seeds_give_equal_steps(scene: Scene) -> None:
 
     assert (states(3) == states(3)).all()
     assert not (states(3) == states(4)).all()
+
+
+#: Four runs of two scenes, stepped together or each alone: a digest of all states and of the snapshots.
+TOGETHER = """
+import hashlib, sys
+import dragtraffic
+from dragtraffic import Run
+
+scenes = [dragtraffic.open(path) for path in sys.argv[2:]]
+runs = [Run(scenes[number % 2], "4" if number % 2 == 0 else (), seed=number) for number in range(4)]
+digest = hashlib.sha256()
+for _ in range(12):
+    egos = [{ego: run.present[ego] for ego in run.egos} for run in runs]
+    alone = sys.argv[1] == "alone"
+    steps = [run.step(own) for run, own in zip(runs, egos)] if alone else Run.step_together(runs, egos)
+    for step in steps:
+        digest.update(step.states.tobytes())
+        digest.update(repr((step.number, step.ids, step.changes, step.faults)).encode())
+for run in runs:
+    digest.update(run.snapshot())
+print(digest.hexdigest())
+"""
+
+
+def test_runs_that_are_stepped_together_have_equal_bytes_whatever_the_threads() -> None:
+    scenes = [str(CROSSING), str(ROOT / "assets/scenes/demo-roundabout.json")]
+    found = set()
+    for how, threads in (("alone", "1"), ("together", "1"), ("together", "2"), ("together", "7")):
+        env = {**os.environ, "RAYON_NUM_THREADS": threads, "PYTHONPATH": str(ROOT / "python")}
+        command = [sys.executable, "-c", TOGETHER, how, *scenes]
+        found.add(subprocess.run(command, env=env, capture_output=True, text=True, check=True).stdout)
+    assert len(found) == 1, found
+
+
+def test_runs_are_stepped_together_or_not_at_all(scene: Scene) -> None:
+    runs = [Run(scene, "4", seed=seed) for seed in (1, 2)]
+    start = runs[0].present["4"]
+    with pytest.raises(dragtraffic.DragTrafficError):
+        Run.step_together(runs, [{"4": start}, {"4": [math.nan] * 5}])
+    with pytest.raises(ValueError, match="for each run"):
+        Run.step_together(runs, [{"4": start}])
+    with pytest.raises(ValueError, match="each run once"):
+        Run.step_together([runs[0], runs[0]], [{"4": start}] * 2)
+    steps = Run.step_together(runs, [{"4": start}] * 2)
+    assert [step.number for step in steps] == [1, 1] and runs[1].present is steps[1]
+    assert Run.step_together([], []) == []
+
+
+def test_a_run_goes_on_with_equal_bytes_from_a_snapshot_of_twenty_moments(scene: Scene) -> None:
+    def drive(run: Run, until: int) -> list[bytes]:
+        """States, changes and snapshot of each step to a number: the ego stands."""
+        told = []
+        while run.present.number < until:
+            step = run.step({"4": run.present["4"]._replace(vx_mps=0.0, vy_mps=0.0)})
+            told.append(step.states.tobytes() + repr((step.changes, step.entered, step.left)).encode() + run.snapshot())
+        return told
+
+    whole = Run(scene, "4", seed=7)
+    saved, told = [], []
+    for moment in range(3, 63, 3):
+        told += drive(whole, moment)
+        saved.append(whole.snapshot())
+    told += drive(whole, 66)
+    assert len(saved) == 20
+    for moment, snapshot in zip(range(3, 63, 3), saved):
+        assert drive(Run.restore(scene, snapshot), moment + 6) == told[moment : moment + 6], f"from step {moment}"
 
 
 def test_a_snapshot_goes_on_as_the_run_does(scene: Scene) -> None:

@@ -117,6 +117,52 @@ fn a_run_is_stepped_over_a_websocket() {
 }
 
 #[test]
+fn a_run_is_looked_at_and_followed_while_somebody_else_steps_it() {
+    let server = Server::start(&["--limit", "run_idle_s=4"]).unwrap();
+    let run = begun(&server, &json!({}));
+    let path = format!("/v1/runs/{}", run["run"].as_str().unwrap());
+    let follow = |accept: &str| {
+        let request = Request::new("GET", &path).header("Accept", accept);
+        let (head, events) = request.stream(server.address).unwrap();
+        assert_eq!((head.status, head.header("content-type")), (200, accept));
+        events
+    };
+    let mut lines = follow("application/x-ndjson");
+    let mut event = || loop {
+        let event: Value = serde_json::from_str(&lines.next().unwrap()).unwrap();
+        if event["event"] != "heartbeat" {
+            return event;
+        }
+    };
+    let first = event();
+    assert_eq!((&first["event"], &first["run"]["present"]["number"]), (&json!("run"), &json!(0)), "{first}");
+    for number in 1..=3 {
+        let stepped = step(&server, &run, number).json();
+        assert_eq!(event(), json!({"event": "step", "step": stepped}));
+    }
+    let seen = server.get(&path).unwrap().json();
+    assert_eq!((&seen["present"]["number"], &seen["egos"]), (&json!(3), &json!(["2"])));
+    assert_eq!(seen["steps_left"], json!(36_000 - 3));
+    assert!(seen["unused_s"].as_u64().unwrap() <= 4, "{seen}");
+    let scene = server.get(&format!("{path}/scene")).unwrap();
+    assert_eq!((scene.status, scene.json()["agents"].as_array().unwrap().len()), (200, 4));
+    // Server-sent events begin with the run as it is now.
+    let mut sse = follow("text/event-stream");
+    let head: Vec<String> = sse.by_ref().take(2).collect();
+    assert_eq!(head, ["event: run", "id: 3"]);
+    // Who looks on does not use the run: it is forgotten, and that is the end.
+    std::thread::sleep(std::time::Duration::from_millis(4_500));
+    for what in ["", "/scene"] {
+        let gone = server.get(&format!("{path}{what}")).unwrap();
+        assert_eq!((gone.status, gone.code().as_str()), (404, "not-found"), "{}", gone.text());
+    }
+    assert_eq!(event(), json!({"event": "end"}));
+    assert_eq!(lines.next(), None, "nothing follows the end");
+    let wrong = Request::new("GET", "/v1/runs/nothing").header("Accept", "text/html").send(server.address);
+    assert_eq!(wrong.unwrap().code(), "not-acceptable");
+}
+
+#[test]
 fn the_example_of_the_document_begins_a_run() {
     let server = Server::with_demos().unwrap();
     let document = server.get("/openapi.json").unwrap().json();

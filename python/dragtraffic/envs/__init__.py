@@ -18,13 +18,18 @@ import gymnasium
 
 from ._drive import Drive
 from ._episode import SceneSource, default_reward
+from ._vector import VectorDrive
 
 if TYPE_CHECKING:
     from ._parallel import ParallelDrive
 
-__all__ = ["Drive", "SceneSource", "default_reward", "parallel_env"]
+__all__ = ["Drive", "SceneSource", "VectorDrive", "default_reward", "parallel_env"]
 
-gymnasium.register("dragtraffic/Drive-v0", entry_point="dragtraffic.envs:Drive")
+gymnasium.register(
+    "dragtraffic/Drive-v0",
+    entry_point="dragtraffic.envs:Drive",
+    vector_entry_point="dragtraffic.envs:VectorDrive",
+)
 
 
 def parallel_env(*args: Any, **kwargs: Any) -> ParallelDrive:

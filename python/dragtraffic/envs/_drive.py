@@ -9,6 +9,8 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
+from .._run import StateLike, Step
+from .._scene import AgentId
 from ._driver import Actions, action_space
 from ._episode import (
     Episode,
@@ -99,8 +101,16 @@ class Drive(gymnasium.Env[Any, NDArray[Any]]):
         self, action: NDArray[Any]
     ) -> tuple[Seen, float, bool, bool, dict[str, Any]]:
         """Drives one step."""
+        return self.came(self.episode.run.step(self.moved(action)))
+
+    def moved(self, action: NDArray[Any]) -> dict[AgentId, StateLike]:
+        """The ego at the end of the next step."""
+        return self.episode.moved({self._id: np.asarray(action)}, self._kind)
+
+    def came(self, step: Step) -> tuple[Seen, float, bool, bool, dict[str, Any]]:
+        """What came of the step that the ego moved for."""
         episode = self.episode
-        info = episode.step({self._id: np.asarray(action)}, self._kind)[self._id]
+        info = episode.told(step)[self._id]
         over = episode.drivers[self._id].over
         observation = episode.observation(self._id)
         return observation, self._reward(info), over, episode.late and not over, info

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._errors import DragTrafficError
-from .._run import Run, State, Step
-from .._scene import Scene, open
+from .._goals import asked_goal, recorded_state, recorded_steps
+from .._run import Run, State, StateLike, Step
+from .._scene import AgentId, Scene, open
 from ._driver import Actions, Driver, drive
 from ._gpudrive import GpudriveView, gpudrive_space
 from ._observe import Seen, View, observation_space
@@ -82,10 +83,10 @@ def movers(scene: Scene, types: Sequence[str] = ("vehicle",)) -> list[str]:
     """Road users of these types that are there at the start and move, or will."""
     found = []
     for agent in scene._peek()["agents"]:
-        steps = _recorded(agent)
+        steps = recorded_steps(agent)
         if agent["type"] not in types or not steps or steps[0] > 0:
             continue
-        if _state(agent, 0).speed_mps >= MOVES_MPS or _way_m(agent, _asked(agent)) >= MOVES_M:
+        if recorded_state(agent, 0).speed_mps >= MOVES_MPS or _way_m(agent, asked_goal(agent)) >= MOVES_M:
             found.append(str(agent["id"]))
     return found
 
@@ -94,9 +95,9 @@ def goal_of(scene: Scene, id: str, seed: int) -> State | None:
     """The goal of a road user: that of its conditions, else where its recording ends, else where its likeliest future
     does, on the lanes. None where it goes nowhere."""
     agent = next(agent for agent in scene._peek()["agents"] if agent["id"] == id)
-    if not _recorded(agent):
+    if not recorded_steps(agent):
         return None
-    goal = _asked(agent)
+    goal = asked_goal(agent)
     if _way_m(agent, goal) < MOVES_M:
         futures = scene.generate([id], seed=seed).samples[0]["agents"][id]
         future = np.array([futures["modes"][futures["chosen"]][name] for name in State._fields], dtype=float).T
@@ -106,33 +107,8 @@ def goal_of(scene: Scene, id: str, seed: int) -> State | None:
     return goal if _way_m(agent, goal) >= MOVES_M else None
 
 
-def _recorded(agent: Mapping[str, Any]) -> list[int]:
-    """Scene steps at which a road user was seen."""
-    track = agent["track"]
-    first = int(track["first_step"])
-    ranges = track.get("valid") or [[first, first + len(track["x_m"])]]
-    return [step for begin, end in ranges for step in range(begin, end)]
-
-
-def _state(agent: Mapping[str, Any], step: int) -> State:
-    """The recorded state at a scene step."""
-    track = agent["track"]
-    return State(*(float(track[name][step - int(track["first_step"])]) for name in State._fields))
-
-
-def _asked(agent: Mapping[str, Any]) -> State:
-    """The goal of the conditions, else where the recording ends."""
-    goal = (agent.get("conditions") or {}).get("goal") or {}
-    last = _state(agent, _recorded(agent)[-1])
-    if goal.get("x_m") is None:
-        return last
-    heading, speed = goal.get("heading_rad"), goal.get("speed_mps") or 0.0
-    heading = last.heading_rad if heading is None else heading
-    return State(goal["x_m"], goal["y_m"], heading, speed * np.cos(heading), speed * np.sin(heading))
-
-
 def _way_m(agent: Mapping[str, Any], goal: State) -> float:
-    start = _state(agent, _recorded(agent)[0])
+    start = recorded_state(agent, recorded_steps(agent)[0])
     return float(np.hypot(goal.x_m - start.x_m, goal.y_m - start.y_m))
 
 
@@ -152,6 +128,7 @@ class Episode:
         self.run = Run(scene, egos, seed=seed, step_s=step_s)
         self.view = GpudriveView(scene) if observation == "gpudrive" else View(scene)
         self.horizon_s = horizon_s
+        self._before: dict[str, tuple[float, float]] = {}
         self.drivers = {id: self._driver(id, goal) for id, goal in goals.items()}
 
     def _driver(self, id: str, goal: State) -> Driver:
@@ -159,18 +136,26 @@ class Episode:
         return Driver(id, goal, start, self.view.route(id, start, goal))
 
     def step(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[str, dict[str, Any]]:
-        """Makes a step, and says of each ego that drove what came of it. An ego that is done stands where it is."""
+        """Makes a step, and says of each ego that drove what came of it."""
+        return self.told(self.run.step(self.moved(actions, kind)))
+
+    def moved(self, actions: Mapping[str, NDArray[Any]], kind: Actions) -> dict[AgentId, StateLike]:
+        """Where the egos are at the end of the next step. An ego that is done stands where it is."""
         dt = self.run.step_s
-        before = {id: (driver.left_m(), driver.action[0]) for id, driver in self.drivers.items()}
+        self._before = {id: (driver.left_m(), driver.action[0]) for id, driver in self.drivers.items()}
         for id, driver in self.drivers.items():
             if driver.over:
                 driver.state = driver.state._replace(vx_mps=0.0, vy_mps=0.0)
             else:
                 drive(driver, actions[id], kind, dt)
-        step = self.run.step({id: driver.state for id, driver in self.drivers.items()})
-        return {id: self._told(driver, step, *before[id]) for id, driver in self.drivers.items() if not driver.over}
+        return {id: driver.state for id, driver in self.drivers.items()}
 
-    def _told(self, driver: Driver, step: Step, left_m: float, acceleration: float) -> dict[str, Any]:
+    def told(self, step: Step) -> dict[str, dict[str, Any]]:
+        """What came of the step that the egos moved for, of each ego that drove."""
+        driving = [(id, driver) for id, driver in self.drivers.items() if not driver.over]
+        return {id: self._came(driver, step, *self._before[id]) for id, driver in driving}
+
+    def _came(self, driver: Driver, step: Step, left_m: float, acceleration: float) -> dict[str, Any]:
         faults = [fault["fault"] for fault in step.faults if driver.id in _involved(fault)]
         driver.collided = any(fault["kind"] == "collision" for fault in faults)
         driver.reached = driver.distance_m() <= AT_GOAL_M

@@ -2,14 +2,15 @@
 
 use crate::calls::{ProcessEngine, cancellable, raised, reply, request};
 use crate::scene::NativeScene;
-use api::Problem;
 use api::runs::{PeekReply, RunBody, StepReply};
+use api::{Operations, Problem};
 use experts::run::{EgoState, RunStep};
-use experts::{Cancel, Run};
+use experts::{Cancel, Run, RunError};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use rayon::prelude::*;
 use scene::State;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,6 +21,9 @@ const COLUMNS: usize = 5;
 /// What a step came to: its number, the time at its end, who is there, their states, and the rest as JSON where there
 /// is any.
 type Stepped<'py> = (u64, f64, Vec<String>, Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyBytes>>);
+
+/// Egos by their ids, a row of a state for each, and what each announces: no rows for nothing.
+type SaidEgos<'py> = (Vec<String>, PyReadonlyArray2<'py, f64>, Vec<PyReadonlyArray2<'py, f64>>);
 
 /// The others and the states of each, and the rest as JSON.
 type Peeked<'py> = (Vec<String>, Vec<Bound<'py, PyArray2<f64>>>, Bound<'py, PyBytes>);
@@ -82,18 +86,45 @@ impl NativeRun {
         states: PyReadonlyArray2<'py, f64>,
         plans: Vec<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Stepped<'py>> {
-        let states = rows(&states)?;
-        if states.len() != ids.len() || plans.len() != ids.len() {
-            return Err(PyValueError::new_err("one row of states and one plan for each ego expected"));
-        }
-        let mut egos = Vec::with_capacity(ids.len());
-        for ((id, state), plan) in ids.into_iter().zip(states).zip(&plans) {
-            egos.push(EgoState { id, state, plan: rows(plan)? });
-        }
+        let egos = egos((ids, states, plans))?;
         let (engine, run) = (ProcessEngine::here()?, &mut self.run);
         let none = Cancel::default();
         let step = py.detach(|| engine.run(|operations| run.step(&operations.generator, &egos, &none)));
         stepped(py, step.map_err(|error| raised(py, Problem::from(error)))?)
+    }
+
+    /// A step of each of several runs, on several threads; what each takes is that of [`step`](Self::step). All are
+    /// stepped or, when one is refused, none.
+    #[staticmethod]
+    #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
+    fn step_together<'py>(
+        py: Python<'py>,
+        runs: Vec<Bound<'py, Self>>,
+        said: Vec<SaidEgos<'py>>,
+    ) -> PyResult<Vec<Stepped<'py>>> {
+        if runs.len() != said.len() {
+            return Err(PyValueError::new_err("egos for each run expected"));
+        }
+        let held: Result<Vec<_>, _> = runs.iter().map(Bound::try_borrow_mut).collect();
+        let mut held = held.map_err(|_| PyValueError::new_err("each run once expected"))?;
+        let all = said.into_iter().map(egos).collect::<PyResult<Vec<_>>>()?;
+        let works: Vec<(&Run, Vec<EgoState>)> = held.iter().map(|own| &own.run).zip(all).collect();
+        let engine = ProcessEngine::here()?;
+        let step = |operations: &Operations, (run, egos): (&Run, Vec<EgoState>)| {
+            let mut next = run.clone();
+            let step = next.step(&operations.generator, &egos, &Cancel::default())?;
+            Ok::<_, RunError>((next, step))
+        };
+        let made: Result<Vec<_>, _> = py.detach(|| {
+            engine.run(|operations| works.into_par_iter().map(|work| step(operations, work)).collect())
+        });
+        let made = made.map_err(|error| raised(py, Problem::from(error)))?;
+        let mut steps = Vec::with_capacity(made.len());
+        for (own, (next, step)) in held.iter_mut().zip(made) {
+            own.run = next;
+            steps.push(stepped(py, step)?);
+        }
+        Ok(steps)
     }
 
     /// What the others would do if egos drove these plans.
@@ -119,6 +150,15 @@ impl NativeRun {
         }
         Ok((others, futures, reply(py, &PeekReply::of(&self.run, &peek))?))
     }
+}
+
+fn egos((ids, states, plans): SaidEgos<'_>) -> PyResult<Vec<EgoState>> {
+    let states = rows(&states)?;
+    if states.len() != ids.len() || plans.len() != ids.len() {
+        return Err(PyValueError::new_err("one row of states and one plan for each ego expected"));
+    }
+    let all = ids.into_iter().zip(states).zip(&plans);
+    all.map(|((id, state), plan)| Ok(EgoState { id, state, plan: rows(plan)? })).collect()
 }
 
 fn stepped(py: Python<'_>, mut step: RunStep) -> PyResult<Stepped<'_>> {

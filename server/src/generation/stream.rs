@@ -5,11 +5,10 @@ use super::outbox::{EventMessage, JobEnd};
 use crate::http::accept::ReplyFormat;
 use api::Problem;
 use axum::body::{Body, Bytes};
-use axum::http::{HeaderValue, header};
+use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use base::problem::Refusal;
 use futures_util::stream::unfold;
-use std::convert::Infallible;
 use std::time::Duration;
 use work::{Stop, superseded};
 
@@ -60,14 +59,10 @@ async fn stream(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> Res
     let second = if waits { within(pace.together).await } else { None };
     let begun = first.into_iter().chain(second).collect();
     let source = EventSource { reader, form, heartbeat: pace.heartbeat, begun, done: false };
-    let events = unfold(source, |mut source| async move {
-        source.next().await.map(|bytes| (Ok::<_, Infallible>(bytes), source))
-    });
-    let mut response = Body::from_stream(events).into_response();
-    let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(form.media_type()));
-    headers.insert("x-accel-buffering", HeaderValue::from_static("no"));
-    response
+    form.streamed(unfold(
+        source,
+        |mut source| async move { source.next().await.map(|bytes| (bytes, source)) },
+    ))
 }
 
 struct EventSource {
@@ -88,29 +83,14 @@ impl EventSource {
         if messages.is_empty() {
             match tokio::time::timeout(self.heartbeat, self.reader.next()).await {
                 Ok(message) => messages.push(message?),
-                Err(_) => return Some(self.sign_of_life()),
+                Err(_) => return Some(self.form.sign_of_life()),
             }
         }
         self.done = messages.iter().any(|message| message.end.is_some());
         let mut bytes = Vec::with_capacity(messages.iter().map(|message| message.json.len() + 64).sum());
-        messages.iter().for_each(|message| self.write(message, &mut bytes));
+        for EventMessage { event, seq, json, .. } in &messages {
+            self.form.write(event, seq, json, &mut bytes);
+        }
         Some(bytes.into())
-    }
-
-    fn sign_of_life(&self) -> Bytes {
-        match self.form {
-            ReplyFormat::Sse => Bytes::from_static(b": heartbeat\n\n"),
-            _ => Bytes::from_static(b"{\"event\":\"heartbeat\"}\n"),
-        }
-    }
-
-    fn write(&self, message: &EventMessage, bytes: &mut Vec<u8>) {
-        if self.form == ReplyFormat::Sse {
-            bytes.extend_from_slice(
-                format!("event: {}\nid: {}\ndata: ", message.event, message.seq).as_bytes(),
-            );
-        }
-        bytes.extend_from_slice(&message.json);
-        bytes.extend_from_slice(if self.form == ReplyFormat::Sse { b"\n\n" } else { b"\n" });
     }
 }

@@ -7,6 +7,7 @@ pub mod below;
 pub mod body;
 pub mod coding;
 pub mod embed;
+pub mod events;
 pub mod extract;
 mod frames;
 pub mod guard;

@@ -2,20 +2,23 @@
 
 use super::scene_ref::WithScene;
 use crate::app::App;
+use crate::http::accept::ReplyFormat;
 use crate::http::body::{Json, JsonText};
 use crate::http::extract::{Connection, Id};
 use crate::http::line;
 use crate::http::net::Carrier;
-use crate::runs::HeldRun;
+use crate::runs::{Follower, HeldRun};
 use api::home::Subject;
 use api::runs::{PeekBody, PeekReply, RunBody, RunReply, SnapshotReply, StepBody, StepReply};
 use api::{Code, Problem};
 use axum::Extension;
+use axum::body::Bytes;
 use axum::extract::{Request, State};
-use axum::http::StatusCode;
-use axum::response::Response;
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
 use base::id;
 use base::problem::Refusal;
+use formats::native::{MapForm, SceneDoc, write_doc};
 use std::time::Duration;
 use tokio::sync::OwnedMutexGuard;
 use work::{JobKind, JobRequest};
@@ -47,11 +50,54 @@ pub async fn begin(
     let name = id.clone();
     let work = move |cancel: &_| {
         let run = operations.begin_run(&body, &scene, cancel)?;
-        Ok((JsonText::of(&RunReply::of(&name, &run, idle_s))?, run))
+        Ok((JsonText::of(&RunReply::of(&name, &run, 0, idle_s))?, run))
     };
     let (reply, run) = app.pool.run(asked, work).await?;
     app.runs.add(&id, run, connection.party)?;
     Ok((StatusCode::CREATED, reply))
+}
+
+refusals!(Unseen: , NotFound, NotAcceptable);
+
+/// Says how a run is: who is where, how long it may go on, when it was used. By Accept, NDJSON or SSE follow it: the run
+/// first, then each step as it is made, until the run is forgotten. Looking at a run and following it are no use of it,
+/// and change nothing.
+#[utoipa::path(get, path = "/v1/runs/{id}", operation_id = "readRun", tag = "runs",
+    params(("id" = String, Path)),
+    responses((status = 200, description = "the run", content(
+        (ref("#/components/schemas/RunReply") = "application/json"),
+        (ref("#/components/schemas/RunEvent") = "application/x-ndjson", extensions(("x-stream-item" = json!(true)))),
+        (ref("#/components/schemas/RunEvent") = "text/event-stream", extensions(("x-stream-item" = json!(true)))))),
+        Unseen))]
+pub async fn read(
+    State(app): State<App>,
+    Id(id): Id,
+    carrier: Option<Extension<Carrier>>,
+    headers: HeaderMap,
+) -> Result<Response, Refusal> {
+    let form = ReplyFormat::negotiate(&headers)?;
+    let (run, unused_s) = app.runs.look(&id)?;
+    let held = run.lock().await;
+    let reply = RunReply::of(&id, &held.run, unused_s, app.runs.idle_s());
+    if form == ReplyFormat::Json {
+        return Ok(JsonText::of(&reply)?.into_response());
+    }
+    let heartbeat = Duration::from_secs(app.limits.heartbeat_s.max(1));
+    let carrier = carrier.map(|Extension(carrier)| carrier);
+    Ok(Follower::new(reply, held.last.subscribe(), (form, heartbeat), carrier)?.reply())
+}
+
+refusals!(Unshown: WORK, NotFound);
+
+/// Gives the scene of a run as it was when the run began.
+#[utoipa::path(get, path = "/v1/runs/{id}/scene", operation_id = "readRunScene", tag = "runs",
+    params(("id" = String, Path)),
+    responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene")), Unshown))]
+pub async fn scene(State(app): State<App>, connection: Connection, Id(id): Id) -> Result<JsonText, Refusal> {
+    let (run, _) = app.runs.look(&id)?;
+    let scene = run.lock().await.run.scene().clone();
+    let work = move |_: &_| Ok(write_doc(&SceneDoc::from_scene(&scene, MapForm::Inline)).into());
+    Ok(app.pool.run(asked(connection), work).await.map(|text: Bytes| JsonText::from(text))?)
 }
 
 refusals!(Unstepped: CHANGES BODY WORK, NotFound, StepOrder, UnknownAgent, NonFiniteOutput);
@@ -73,14 +119,14 @@ pub async fn step(
     Json(body): Json<StepBody>,
 ) -> Result<JsonText, Refusal> {
     let mut held = taken(&app, &id).await?;
-    if let Some((_, reply)) = held.last.as_ref().filter(|(number, _)| *number == body.number) {
+    if let Some((_, reply)) = held.last.borrow().as_ref().filter(|(number, _)| *number == body.number) {
         return Ok(JsonText::from(reply.clone()));
     }
     let operations = app.operations.clone();
     let work = move |cancel: &_| {
         let step = operations.step_run(&body, &mut held.run, cancel)?;
         let reply = JsonText::of(&StepReply::from(&step))?;
-        held.last = Some((step.number, reply.bytes()));
+        held.last.send_replace(Some((step.number, reply.bytes())));
         Ok(reply)
     };
     Ok(app.pool.run(asked(connection), work).await?)

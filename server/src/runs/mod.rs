@@ -1,5 +1,9 @@
 //! Runs that clients step: in memory, bounded in number, bytes and share of one party, and forgotten when idle.
 
+mod follow;
+
+pub use follow::Follower;
+
 use crate::scenes::bytes_of;
 use api::runs::unknown_run;
 use api::{Code, Problem, english};
@@ -13,16 +17,20 @@ use std::collections::BTreeMap;
 use std::mem::size_of;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use tokio::sync::watch;
 
 /// States that a road user of a run keeps at most, on average: a plan of nine seconds and what it is carried on by.
 const STATES: usize = 130;
+
+/// The reply to the step with this number, as it was sent.
+pub type LastStep = Option<(u64, Bytes)>;
 
 /// A run with the reply to its last step.
 pub struct HeldRun {
     /// The run.
     pub run: Run,
-    /// The reply to the step with this number, as it was sent.
-    pub last: Option<(u64, Bytes)>,
+    /// Its last step, which followers wait for.
+    pub last: watch::Sender<LastStep>,
 }
 
 /// A run that one request at a time has for itself.
@@ -70,7 +78,7 @@ impl RunStore {
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
         let memory = self.check(&entries, party, bytes)?;
-        let run = Arc::new(tokio::sync::Mutex::new(HeldRun { run, last: None }));
+        let run = Arc::new(tokio::sync::Mutex::new(HeldRun { run, last: watch::Sender::new(None) }));
         entries.insert(id.to_owned(), RunEntry { run, party, _memory: memory, used: Instant::now() });
         Ok(())
     }
@@ -85,6 +93,17 @@ impl RunStore {
         let entry = entries.get_mut(id).ok_or_else(unknown_run)?;
         entry.used = Instant::now();
         Ok(Arc::clone(&entry.run))
+    }
+
+    /// The run of an id, and the seconds since it was used. Looking is no use.
+    ///
+    /// # Errors
+    /// `not-found`.
+    pub fn look(&self, id: &str) -> Result<(SharedRun, u64), Problem> {
+        let mut entries = self.lock();
+        self.drop_idle(&mut entries);
+        let entry = entries.get(id).ok_or_else(unknown_run)?;
+        Ok((Arc::clone(&entry.run), entry.used.elapsed().as_secs()))
     }
 
     /// Memory of runs for a run that is kept elsewhere, where there is so much.
@@ -175,6 +194,7 @@ mod tests {
         assert_eq!(add(&few, "d", 2), Err(Some(3)));
         assert!(few.expects(party(3)).unwrap_err().members.retry_after_s.is_some());
         few.remove("a").unwrap();
+        assert_eq!(few.look("a").err().map(|problem| problem.code), Some(Code::NotFound));
         assert_eq!(few.get("a").err().map(|problem| problem.code), Some(Code::NotFound));
         assert_eq!(add(&few, "d", 2), Ok(()));
         let small = store(Limits { run_bytes: 10, ..Limits::default() });

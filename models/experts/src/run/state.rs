@@ -4,7 +4,7 @@ use super::agents::{PLAN_STEP_MS, Presence, RunAgent};
 use super::borders::DepartureReason;
 use super::contacts::RunFault;
 use super::error::RunError;
-use super::settings::RunSettings;
+use super::settings::{MOST_RUN_MS, RunSettings};
 use scene::judge::Reaction;
 use scene::{AgentId, ContentHash, HORIZON_STEPS, STEP_S, Scene, State};
 use std::collections::BTreeMap;
@@ -111,6 +111,11 @@ impl Run {
     /// Scene time, seconds.
     pub fn time_s(&self) -> f64 {
         self.settings.start_step as f64 * STEP_S + self.elapsed_ms as f64 / 1e3
+    }
+
+    /// Steps that may still be made.
+    pub fn steps_left(&self) -> u64 {
+        MOST_RUN_MS.saturating_sub(self.elapsed_ms) / u64::from(self.settings.step_ms)
     }
 
     /// How it goes.

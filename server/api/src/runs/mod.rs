@@ -3,7 +3,7 @@
 mod reply;
 mod request;
 
-pub use reply::{PeekReply, RunReply, SnapshotReply, StepReply};
+pub use reply::{PeekReply, RunEvent, RunReply, SnapshotReply, StepReply};
 pub use request::{EgoDoc, MotionDoc, PeekBody, RunBody, StateDoc, StepBody};
 
 use crate::code::Code;
@@ -129,6 +129,7 @@ fn snapshot(error: SnapshotError) -> scene::message::Message {
 /// Adds the schemas of the replies.
 pub fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<RunReply>();
+    generator.subschema_for::<RunEvent>();
     generator.subschema_for::<StepReply>();
     generator.subschema_for::<PeekReply>();
     generator.subschema_for::<SnapshotReply>();

@@ -140,13 +140,17 @@ pub struct RunReply {
     pub plan_interval_s: f64,
     /// Seconds without a request after which the server forgets the run.
     pub idle_s: u64,
+    /// Seconds since the last request that used the run; looking at it is no use.
+    pub unused_s: u64,
+    /// Steps that may still be made.
+    pub steps_left: u64,
     /// The present.
     pub present: StepReply,
 }
 
 impl RunReply {
-    /// Of a run under this id.
-    pub fn of(id: &str, run: &Run, idle_s: u64) -> Self {
+    /// Of a run under this id, which was used so many seconds ago and is forgotten after so many without a use.
+    pub fn of(id: &str, run: &Run, unused_s: u64, idle_s: u64) -> Self {
         let settings = run.settings();
         Self {
             run: id.to_owned(),
@@ -155,9 +159,32 @@ impl RunReply {
             step_s: f64::from(settings.step_ms) / 1e3,
             plan_interval_s: f64::from(settings.plan_interval_ms) / 1e3,
             idle_s,
+            unused_s,
+            steps_left: run.steps_left(),
             present: (&run.present()).into(),
         }
     }
+}
+
+/// What a follower of a run is told: the run first, then each step as it is made, the end when the run is forgotten.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(tag = "event", rename_all = "snake_case")]
+#[schemars(rename = "RunEvent")]
+pub enum RunEvent<S = StepReply> {
+    /// The run as it is when following begins.
+    Run {
+        /// The run.
+        run: Box<RunReply>,
+    },
+    /// A step was made. Of steps that follow each other faster than they are read, the last one is told.
+    Step {
+        /// The reply to the step.
+        step: S,
+    },
+    /// Nothing was told for a while.
+    Heartbeat,
+    /// The run is forgotten.
+    End,
 }
 
 /// What the others would do.

@@ -31,6 +31,10 @@ pub struct RunLatency {
     peek: Percentiles,
     /// Of the last moment.
     snapshot_bytes: usize,
+    /// Of the snapshot of each tenth moment, milliseconds.
+    save: Percentiles,
+    /// From that snapshot to a run, milliseconds.
+    restore: Percentiles,
     collisions: usize,
 }
 
@@ -77,6 +81,7 @@ fn measured(scene: &Scene, threads: usize, engine: &Engine) -> Result<RunLatency
     let mut run = began(&egos).map_err(failed)?;
     let begin_ms = 1e3 * start.elapsed().as_secs_f64();
     let (mut steps, mut peeks, mut collisions) = (Vec::new(), Vec::new(), 0);
+    let (mut saves, mut restores) = (Vec::new(), Vec::new());
     for i in 0..STEPS {
         let states = egos.iter().filter_map(|id| Some((id, free.futures.get(id)?)));
         let at = |states: &[State]| states.get(i).or(states.last()).copied().unwrap_or_default();
@@ -89,6 +94,12 @@ fn measured(scene: &Scene, threads: usize, engine: &Engine) -> Result<RunLatency
             let start = Instant::now();
             run.peek(&engine.generator, &BTreeMap::new(), &none).map_err(failed)?;
             peeks.push(1e3 * start.elapsed().as_secs_f64());
+            let start = Instant::now();
+            let saved = run.snapshot();
+            saves.push(1e3 * start.elapsed().as_secs_f64());
+            let start = Instant::now();
+            Run::restore(Arc::clone(&scene), &saved).map_err(failed)?;
+            restores.push(1e3 * start.elapsed().as_secs_f64());
         }
     }
     Ok(RunLatency {
@@ -99,6 +110,8 @@ fn measured(scene: &Scene, threads: usize, engine: &Engine) -> Result<RunLatency
         step: Percentiles::of(steps),
         peek: Percentiles::of(peeks),
         snapshot_bytes: run.snapshot().len(),
+        save: Percentiles::of(saves),
+        restore: Percentiles::of(restores),
         collisions,
     })
 }

@@ -1,0 +1,1 @@
+"""Adapters to the simulators of others; each needs the packages of its simulator."""

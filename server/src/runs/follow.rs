@@ -1,0 +1,96 @@
+//! Steps of a run as somebody else makes them.
+
+use super::LastStep;
+use crate::http::accept::ReplyFormat;
+use crate::http::net::Carrier;
+use api::Problem;
+use api::runs::{RunEvent, RunReply};
+use axum::body::Bytes;
+use axum::response::Response;
+use futures_util::stream::unfold;
+use serde_json::value::RawValue;
+use std::time::Duration;
+use tokio::sync::watch;
+
+/// Whoever follows a run. It holds no run: one that is forgotten ends here too.
+pub struct Follower {
+    /// What is said first.
+    begun: Option<Bytes>,
+    steps: watch::Receiver<LastStep>,
+    form: ReplyFormat,
+    heartbeat: Duration,
+    carrier: Option<Carrier>,
+    done: bool,
+}
+
+impl Follower {
+    /// Of a run as it is now, and the steps from now on.
+    ///
+    /// # Errors
+    /// When the run cannot be written as JSON.
+    pub fn new(
+        run: RunReply,
+        steps: watch::Receiver<LastStep>,
+        (form, heartbeat): (ReplyFormat, Duration),
+        carrier: Option<Carrier>,
+    ) -> Result<Self, Problem> {
+        let number = run.present.number;
+        let event = RunEvent::<StepText<'_>>::Run { run: Box::new(run) };
+        let begun = Some(written(form, "run", number, &event)?);
+        Ok(Self { begun, steps, form, heartbeat, carrier, done: false })
+    }
+
+    /// The stream of events.
+    pub fn reply(self) -> Response {
+        let form = self.form;
+        form.streamed(unfold(self, |mut of| async move { of.next().await.map(|bytes| (bytes, of)) }))
+    }
+
+    async fn next(&mut self) -> Option<Bytes> {
+        if let Some(begun) = self.begun.take() {
+            return Some(begun);
+        }
+        if self.done {
+            return None;
+        }
+        let changed = tokio::select! {
+            changed = tokio::time::timeout(self.heartbeat, self.steps.changed()) => changed,
+            () = closing(&mut self.carrier) => return None,
+        };
+        match changed {
+            Err(_) => Some(self.form.sign_of_life()),
+            Ok(Err(_)) => {
+                self.done = true;
+                let number = self.steps.borrow().as_ref().map_or(0, |(number, _)| *number);
+                written(self.form, "end", number, &RunEvent::<StepText<'_>>::End).ok()
+            }
+            Ok(Ok(())) => {
+                let (number, reply) = self.steps.borrow_and_update().clone()?;
+                let step = serde_json::from_slice(&reply).ok()?;
+                written(self.form, "step", number, &RunEvent::<StepText<'_>>::Step { step }).ok()
+            }
+        }
+    }
+}
+
+/// The reply to a step, as it was sent.
+type StepText<'a> = &'a RawValue;
+
+/// When the server ends; never without a carrier.
+async fn closing(carrier: &mut Option<Carrier>) {
+    match carrier {
+        Some(carrier) => carrier.closes().await,
+        None => std::future::pending().await,
+    }
+}
+
+fn written(
+    form: ReplyFormat,
+    name: &str,
+    number: u64,
+    event: &RunEvent<StepText<'_>>,
+) -> Result<Bytes, Problem> {
+    let mut bytes = Vec::new();
+    form.write(name, number, &serde_json::to_vec(event).map_err(Problem::internal)?, &mut bytes);
+    Ok(bytes.into())
+}
