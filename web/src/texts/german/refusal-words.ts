@@ -236,8 +236,8 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a file packed with xz': 'Eine mit xz gepackte Datei',
     'a file packed with Zstandard': 'Eine mit Zstandard gepackte Datei',
     'an HDF5 file': 'Eine HDF5-Datei',
-    'an SQLite database, as nuPlan and rosbag2 use them,':
-      'Eine SQLite-Datenbank, wie nuPlan und rosbag2 sie verwenden,',
+    'an SQLite database that is no log and no map of nuPlan':
+      'Eine SQLite-Datenbank, die weder Aufzeichnung noch Karte von nuPlan ist,',
     'a recording of ROS (rosbag)': 'Eine ROS-Aufzeichnung (rosbag)',
     'an MCAP recording': 'Eine MCAP-Aufzeichnung',
     'an array of NumPy': 'Ein NumPy-Array',
