@@ -3,6 +3,7 @@
 use super::database::Database;
 use super::geometry::Geometry;
 use crate::around::Chosen;
+use crate::limits::MAX_POLYLINES;
 use crate::polyline::{length, ring_area_m2, simplify};
 use crate::problem::{ImportWarning, ReadError};
 use crate::projection::UtmZone;
@@ -28,6 +29,9 @@ const GROUND: [&str; 4] =
 const STOP_SIGN: i64 = 1;
 /// A stop polygon is of the lanes that end within or this far from it, metres.
 const STOPS_WITHIN_M: f64 = 2.0;
+/// Most stop signs of a part, and corners of one.
+const MOST_STOPS: usize = 500;
+const MOST_CORNERS: usize = 32;
 /// Widths that lanes can have, metres.
 const WIDTHS_M: (f64, f64) = (1.5, 8.0);
 /// Limits that lanes can have, m/s.
@@ -68,7 +72,8 @@ pub(super) struct CityMap {
     without_line: usize,
     boundaries: HashMap<i64, Vec<Vec2>>,
     crossings: Vec<Ground>,
-    stops: Vec<Vec<Vec2>>,
+    /// Stop signs by their numbers.
+    stops: Vec<(i64, Vec<Vec2>)>,
     ground: Vec<Ground>,
 }
 
@@ -236,10 +241,11 @@ impl CityMap {
         };
         map.crosswalks = areas(&self.crossings);
         map.drivable = areas(&self.ground);
-        for stop in &self.stops {
-            if beside.takes(stop) {
-                map.stop_signs.extend(stop_sign(&kept, &lanes, stop, origin, &mut ids));
-            }
+        let stops = self.stops.iter().filter(|(_, ring)| beside.takes(ring)).take(MOST_STOPS);
+        // A map of more lanes than a scene holds is refused.
+        for (number, ring) in stops.filter(|_| kept.len() <= MAX_POLYLINES) {
+            map.stop_signs
+                .extend(stop_sign(&kept, &lanes, ring, origin, || ids.take(&format!("stop-{number}"))));
         }
         let mut warnings = Vec::new();
         let message = || sentences::lanes_without_line(self.without_line);
@@ -257,7 +263,7 @@ fn stop_sign(
     lanes: &HashMap<LaneKey, String>,
     stop: &[Vec2],
     origin: Vec2,
-    ids: &mut Ids,
+    id: impl FnOnce() -> String,
 ) -> Option<StopSign> {
     let area = Area { id: String::new(), polygon: stop.to_vec().into(), holes: Vec::new() };
     let of_lane = |lane: &&&LaneFeature| {
@@ -267,7 +273,7 @@ fn stop_sign(
     let stopped: Vec<&&LaneFeature> = kept.iter().filter(of_lane).collect();
     let position = *stopped.first()?.line.last()? - origin;
     let lanes = stopped.iter().filter_map(|lane| lanes.get(&lane.key).cloned()).collect();
-    Some(StopSign { id: ids.take("stop"), position, z_m: None, lanes })
+    Some(StopSign { id: id(), position, z_m: None, lanes })
 }
 
 /// Links lanes through their connectors, and lanes of a group side by side.
@@ -356,21 +362,24 @@ impl<'a> MapReader<'a> {
         let mut list = Vec::new();
         if self.database.has(table) {
             self.database.rows(table, &[self.geometry(table)], |row| {
-                for rings in self.geometries(row.bytes(0)).polygons {
-                    list.push(Ground { id: format!("{table}-{}", row.id()), rings });
+                for (i, rings) in self.geometries(row.bytes(0)).polygons.into_iter().enumerate() {
+                    let part = if i > 0 { format!(".{i}") } else { String::new() };
+                    list.push(Ground { id: format!("{table}-{}{part}", row.id()), rings });
                 }
             })?;
         }
         Ok(list)
     }
 
-    fn stops(&self) -> Result<Vec<Vec<Vec2>>, ReadError> {
+    fn stops(&self) -> Result<Vec<(i64, Vec<Vec2>)>, ReadError> {
         let mut list = Vec::new();
         if self.database.has(STOPS) {
             self.database.rows(STOPS, &[self.geometry(STOPS), "stop_polygon_type_fid"], |row| {
                 let polygons = self.geometries(row.bytes(0)).polygons;
                 let rings = polygons.into_iter().filter_map(|rings| rings.into_iter().next());
-                list.extend(rings.filter(|ring| row.whole(1) == Some(STOP_SIGN) && ring.len() > 2));
+                let few = |ring: &Vec<Vec2>| (3..=MOST_CORNERS).contains(&ring.len());
+                let signs = rings.filter(|ring| row.whole(1) == Some(STOP_SIGN) && few(ring));
+                list.extend(signs.map(|ring| (row.id(), ring)));
             })?;
         }
         Ok(list)

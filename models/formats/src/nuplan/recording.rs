@@ -12,8 +12,9 @@ use crate::refusals::{self, what};
 use crate::sentences;
 use crate::source::Source;
 use scene::geometry::direction;
+use scene::map::Lane;
 use scene::{AgentType, Meta, Origin, SignalState, Subtype};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Licence of the data set.
 pub(super) const LICENCE: &str = "cc-by-nc-sa-4.0";
@@ -149,18 +150,21 @@ impl NuPlan {
         for (sweep, seen) in self.log.lights.within(&scene.sweeps) {
             lights.entry(seen.connector).or_default().insert(*sweep, seen.state);
         }
-        for (connector, states) in lights {
+        let lanes: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
+        for (connector, seen) in lights {
             let id = part.ids.get(&LaneKey::Connector(connector));
-            let lane = id.and_then(|id| map.lanes.iter().find(|lane| lane.id == *id));
-            let Some(lane) = lane else { continue };
-            // At sweeps without a state of it the light is unknown.
-            let at = |sweep: usize| (time_s(sweep), states.get(&sweep).copied().unwrap_or_default());
+            let Some(lane) = id.and_then(|id| lanes.get(id.as_str())) else { continue };
+            let mut states = Vec::new();
+            let mut seen = seen.into_iter().peekable();
+            while let Some((sweep, state)) = seen.next() {
+                states.push((time_s(sweep), state));
+                // At sweeps without a state of it the light is unknown.
+                if seen.peek().is_none_or(|(next, _)| *next > sweep + 1) && sweep + 1 < scene.sweeps.end {
+                    states.push((time_s(sweep + 1), SignalState::Unknown));
+                }
+            }
             let stop = lane.points.xy.first().copied();
-            said.lights.push(RecordedLight {
-                lane: lane.id.clone(),
-                stop,
-                states: scene.sweeps.clone().map(at).collect(),
-            });
+            said.lights.push(RecordedLight { lane: lane.id.clone(), stop, states });
         }
         said.map = map.into();
         let crs = Some(city.zone.name());
