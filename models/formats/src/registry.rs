@@ -182,12 +182,11 @@ pub fn scenes<'a>(
         Some(net) if found.takes_columns() => Some(ground(net, options)?),
         _ => None,
     };
-    let laid = move |(mut scene, mut warnings): Imported| {
-        warnings
-            .extend(ground.as_ref().map(|ground| underlay::lay(&mut scene, ground)).into_iter().flatten());
-        (scene, warnings)
+    let laid = move |read: Imported| match &ground {
+        Some(ground) => underlay::lay(read, ground),
+        None => Ok(read),
     };
-    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named).map(&laid))))
+    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named).and_then(&laid))))
 }
 
 /// The map that lies beside a table.
