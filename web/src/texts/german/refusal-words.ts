@@ -262,8 +262,6 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'scenes are files of data, not pictures of them': 'Szenen sind Dateien mit Daten, keine Bilder davon',
     'unpack it, and import what is in it': 'entpacken und den Inhalt importieren',
     'write its tracks as a table, and import that': 'die Trajektorien als Tabelle schreiben und diese importieren',
-    'ScenarioNet turns nuPlan logs into scenarios (pkl) that are read':
-      'ScenarioNet macht aus nuPlan-Aufzeichnungen Szenarien (pkl), die gelesen werden',
     'import the scene from which it was made': 'die Szene importieren, aus der sie entstand',
     'write it as a table, and import that': 'es als Tabelle schreiben und diese importieren',
   },
