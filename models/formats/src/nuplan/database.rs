@@ -67,7 +67,7 @@ impl Database {
         &self,
         table: &str,
         columns: &[&str],
-        mut take: impl FnMut(&TableRow<'_>),
+        mut take: impl FnMut(&DatabaseRow<'_>),
     ) -> Result<(), ReadError> {
         let missing = || ReadError::other_content(refusals::no_table(table));
         let known = self.tables.get(table).ok_or_else(missing)?;
@@ -81,7 +81,7 @@ impl Database {
         let mut statement = self.connection.prepare(&query).map_err(broken)?;
         let mut rows = statement.query([]).map_err(broken)?;
         while let Some(row) = rows.next().map_err(broken)? {
-            let row = TableRow { row };
+            let row = DatabaseRow { row };
             let bytes: u64 = (0..columns.len()).map(|i| row.bytes(i).len() as u64).sum();
             let Some(left) = self.bytes_left.get().checked_sub(bytes) else {
                 let message = more_than(self.bytes_left.get(), what::BYTES);
@@ -95,11 +95,11 @@ impl Database {
 }
 
 /// A row of a table.
-pub(super) struct TableRow<'a> {
+pub(super) struct DatabaseRow<'a> {
     row: &'a Row<'a>,
 }
 
-impl TableRow<'_> {
+impl DatabaseRow<'_> {
     /// Its number in the table.
     pub fn id(&self) -> i64 {
         self.row.get(0).unwrap_or_default()

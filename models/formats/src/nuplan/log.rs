@@ -1,6 +1,6 @@
 //! The tables of a log that scenes are made of.
 
-use super::database::{Database, TableRow};
+use super::database::{Database, DatabaseRow};
 use crate::frame::yaw;
 use crate::problem::ReadError;
 use crate::projection::UtmZone;
@@ -23,7 +23,7 @@ pub(super) struct LogPose {
 }
 
 /// A sweep of the lidar, at which everything was seen.
-pub(super) struct Sweep {
+pub(super) struct LogSweep {
     /// Microseconds.
     pub time: i64,
     /// Rear axle of the ego.
@@ -39,7 +39,7 @@ pub(super) struct LogScene {
 }
 
 /// A road user.
-pub(super) struct Track {
+pub(super) struct LogTrack {
     pub token: String,
     pub category: String,
     /// Length, width and height, metres.
@@ -60,7 +60,7 @@ pub(super) struct SeenLight {
 }
 
 /// A kind of situation that begins at a sweep, and the road user that it is about.
-pub(super) struct Tag {
+pub(super) struct LogTag {
     pub kind: String,
     /// Index of the track.
     pub track: Option<usize>,
@@ -85,19 +85,19 @@ impl<T> BySweep<T> {
 }
 
 /// A log.
-pub(super) struct Log {
+pub(super) struct LogTables {
     /// City whose map belongs to it.
     pub city: String,
     pub zone: Option<UtmZone>,
     pub scenes: Vec<LogScene>,
-    pub sweeps: Vec<Sweep>,
-    pub tracks: Vec<Track>,
+    pub sweeps: Vec<LogSweep>,
+    pub tracks: Vec<LogTrack>,
     pub boxes: BySweep<SeenBox>,
     pub lights: BySweep<SeenLight>,
-    pub tags: BySweep<Tag>,
+    pub tags: BySweep<LogTag>,
 }
 
-impl Log {
+impl LogTables {
     /// # Errors
     /// Those of [`Database`].
     pub fn read(database: &Database) -> Result<Self, ReadError> {
@@ -115,7 +115,7 @@ impl Log {
         let mut log = Self {
             city,
             zone: None,
-            sweeps: order.times.iter().map(|time| Sweep { time: *time, ego: None }).collect(),
+            sweeps: order.times.iter().map(|time| LogSweep { time: *time, ego: None }).collect(),
             scenes: order.scenes,
             tracks: Vec::new(),
             boxes: BySweep(Vec::new()),
@@ -157,7 +157,7 @@ impl Log {
         let mut numbers = HashMap::new();
         database.rows("track", &["token", "category_token", "length", "width", "height"], |row| {
             numbers.insert(row.bytes(0).to_vec(), self.tracks.len());
-            self.tracks.push(Track {
+            self.tracks.push(LogTrack {
                 token: hex(row.bytes(0)),
                 category: categories.get(row.bytes(1)).cloned().unwrap_or_default(),
                 size_m: [2, 3, 4].map(|column| row.positive(column)),
@@ -173,8 +173,8 @@ impl Log {
         sweeps: &HashMap<Vec<u8>, usize>,
         tracks: &HashMap<Vec<u8>, usize>,
     ) -> Result<(), ReadError> {
-        let sweep = |row: &TableRow<'_>| sweeps.get(row.bytes(0)).copied();
-        let track = |row: &TableRow<'_>, column: usize| tracks.get(row.bytes(column)).copied();
+        let sweep = |row: &DatabaseRow<'_>| sweeps.get(row.bytes(0)).copied();
+        let track = |row: &DatabaseRow<'_>, column: usize| tracks.get(row.bytes(column)).copied();
         let mut boxes = Vec::new();
         let columns =
             ["lidar_pc_token", "track_token", "x", "y", "z", "yaw", "vx", "vy", "length", "width", "height"];
@@ -213,7 +213,7 @@ impl Log {
         if database.has("scenario_tag") {
             database.rows("scenario_tag", &["lidar_pc_token", "type", "agent_track_token"], |row| {
                 if let Some(sweep) = sweep(row) {
-                    tags.push((sweep, Tag { kind: row.text(1), track: track(row, 2) }));
+                    tags.push((sweep, LogTag { kind: row.text(1), track: track(row, 2) }));
                 }
             })?;
         }

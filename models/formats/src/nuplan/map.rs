@@ -60,7 +60,7 @@ struct LaneFeature {
 }
 
 /// A polygon of a table.
-struct Ground {
+struct CityArea {
     id: String,
     rings: Vec<Vec<Vec2>>,
 }
@@ -71,10 +71,10 @@ pub(super) struct CityMap {
     lanes: Vec<LaneFeature>,
     without_line: usize,
     boundaries: HashMap<i64, Vec<Vec2>>,
-    crossings: Vec<Ground>,
+    crossings: Vec<CityArea>,
     /// Stop signs by their numbers.
     stops: Vec<(i64, Vec<Vec2>)>,
-    ground: Vec<Ground>,
+    ground: Vec<CityArea>,
 }
 
 /// A part of a city as a scene has it.
@@ -229,10 +229,10 @@ impl CityMap {
                 list.push(Boundary { line: id.clone(), from: 0, to: last, kind: None });
             }
         }
-        let mut areas = |list: &[Ground]| -> Vec<Area> {
+        let mut areas = |list: &[CityArea]| -> Vec<Area> {
             let reached =
                 list.iter().filter(|area| area.rings.first().is_some_and(|ring| beside.takes(ring)));
-            let area = |area: &Ground| {
+            let area = |area: &CityArea| {
                 let mut rings = area.rings.iter().map(|ring| placed(ring)).filter(|ring| ring.len() > 2);
                 let polygon = rings.next()?.into();
                 Some(Area { id: ids.take(&area.id), polygon, holes: rings.map(Points::from).collect() })
@@ -358,13 +358,13 @@ impl<'a> MapReader<'a> {
     }
 
     /// The polygons of a table, where it is there.
-    fn grounds(&self, table: &str) -> Result<Vec<Ground>, ReadError> {
+    fn grounds(&self, table: &str) -> Result<Vec<CityArea>, ReadError> {
         let mut list = Vec::new();
         if self.database.has(table) {
             self.database.rows(table, &[self.geometry(table)], |row| {
                 for (i, rings) in self.geometries(row.bytes(0)).polygons.into_iter().enumerate() {
                     let part = if i > 0 { format!(".{i}") } else { String::new() };
-                    list.push(Ground { id: format!("{table}-{}{part}", row.id()), rings });
+                    list.push(CityArea { id: format!("{table}-{}{part}", row.id()), rings });
                 }
             })?;
         }

@@ -1,7 +1,7 @@
 //! From a log to scenes: road users where the lidar saw them, the ego where its pose is, the city round them.
 
 use super::database::Database;
-use super::log::{Log, LogPose, LogScene};
+use super::log::{LogPose, LogScene, LogTables};
 use super::map::{CityMap, LaneKey};
 use crate::around::{Around, Chosen, MapPart};
 use crate::cut::cut;
@@ -31,7 +31,7 @@ const CITY: &str = "city:";
 
 /// A log with the map of its city.
 pub(super) struct NuPlan {
-    log: Log,
+    log: LogTables,
     map: Option<CityMap>,
     licence: String,
 }
@@ -40,7 +40,7 @@ impl NuPlan {
     /// # Errors
     /// Those of the tables; those of the map lie under [`NET_POINTER`].
     pub fn read(database: &Database, options: &ImportOptions) -> Result<Self, ReadError> {
-        let log = Log::read(database)?;
+        let log = LogTables::read(database)?;
         if log.scenes.is_empty() {
             return Err(ReadError::other_content(refusals::file_has_no(what::SCENE)));
         }
