@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 pub(crate) const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one scenario, of which 256 are chosen.
 pub(crate) const MAX_USERS: usize = 20_000;
+/// Farthest a coordinate may lie from the origin of a file, metres.
+const FARTHEST_M: f64 = 1e8;
 /// The map is kept so far round the way of the ego, metres.
 const BESIDE_M: f64 = 100.0;
 
@@ -30,9 +32,9 @@ pub(crate) struct RecordedState {
 }
 
 impl RecordedState {
-    /// Whether the road user was seen.
+    /// Whether the road user was seen, at a place that a map can have.
     pub fn is_seen(&self) -> bool {
-        self.at.x.is_finite() && self.at.y.is_finite()
+        self.at.x.abs() <= FARTHEST_M && self.at.y.abs() <= FARTHEST_M
     }
 }
 
