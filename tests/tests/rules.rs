@@ -56,8 +56,8 @@ const HOMES: &[(&str, &[&str])] = &[
     ("blake3", &["scene", "lab-train"]),
     ("axum", &["base", "dragtraffic"]),
     ("tokio", &["work", "dragtraffic"]),
-    // Tests look into the store with the library itself.
-    ("rusqlite", &["dragtraffic", "tests"]),
+    // Tests look into the store with the library itself; logs of nuPlan are read with it.
+    ("rusqlite", &["dragtraffic", "formats", "tests"]),
     // Only tests of `work` have it.
     ("shuttle", &[]),
     ("hyper", &["dragtraffic"]),
@@ -120,12 +120,13 @@ const HOUSES: &[House] = &[
                 "gpudrive",
                 "table",
                 "av2",
+                "nuplan",
                 "nuscenes",
                 "geojson",
                 "html",
                 "foxglove",
             ],
-            &["openscenario", "osm"],
+            &["openscenario", "osm", "underlay"],
             &["registry"],
             &["checks"],
         ],

@@ -41,6 +41,8 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("av2-pair", |bytes| pair("av2", bytes)),
     ("openscenario", |bytes| recording("openscenario", bytes)),
     ("nuscenes", |bytes| recording("nuscenes", bytes)),
+    #[cfg(not(target_family = "wasm"))]
+    ("nuplan", |bytes| recording("nuplan", bytes)),
     ("sniff", sniff),
 ];
 

@@ -4,6 +4,11 @@ use scene::geometry::rotate;
 use scene::{Origin, State, Vec2, wrap_angle};
 use std::f64::consts::PI;
 
+/// Heading of a turn in space: w, x, y and z of its quaternion.
+pub(crate) fn yaw([w, x, y, z]: [f64; 4]) -> f64 {
+    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+}
+
 /// Turns positions and directions of the scene into those of its source, and back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {

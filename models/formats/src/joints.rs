@@ -76,7 +76,6 @@ fn links(map: &LaneMap) -> BTreeSet<(usize, usize)> {
         links.extend(lane.successors.iter().filter_map(|id| Some((i, *places.get(id.as_str())?))));
         links.extend(lane.predecessors.iter().filter_map(|id| Some((*places.get(id.as_str())?, i))));
     }
-    links.retain(|(a, b)| a != b);
     links
 }
 

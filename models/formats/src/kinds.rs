@@ -130,10 +130,10 @@ const KINDS: &[Kind] = &[
         instead: "write its tracks as a table, and import that",
     },
     Kind {
-        what: "an SQLite database, as nuPlan and rosbag2 use them,",
+        what: "an SQLite database that is no log and no map of nuPlan",
         ends: &["db", "db3", "sqlite"],
         marks: &[Mark::At(0, b"SQLite format 3\x00")],
-        instead: "ScenarioNet turns nuPlan logs into scenarios (pkl) that are read",
+        instead: "write its tracks as a table, and import that",
     },
     Kind {
         what: "a recording of ROS (rosbag)",

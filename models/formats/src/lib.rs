@@ -58,6 +58,9 @@ mod markup;
 pub mod native;
 pub mod netconvert;
 mod numbers;
+// SQLite is written in C, which a browser's target does not build.
+#[cfg(not(target_family = "wasm"))]
+mod nuplan;
 mod nuscenes;
 pub mod opendrive;
 mod openscenario;
@@ -80,6 +83,7 @@ pub mod sumo;
 mod surface;
 pub mod table;
 mod tree;
+mod underlay;
 mod units;
 mod unpack;
 mod unwritten;

@@ -21,6 +21,12 @@ pub fn length(points: &[Vec2]) -> f64 {
     points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()
 }
 
+/// Area within a ring, square metres.
+pub fn ring_area_m2(ring: &[Vec2]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(a, b)| cross(*a, *b)).sum::<f64>().abs() / 2.0
+}
+
 /// Point at arc length `s`, which is clamped to the line. The origin for an empty line.
 pub fn point_at(points: &[Vec2], lengths: &[f64], s: f64) -> Vec2 {
     let Some(&last) = points.last() else { return Vec2::zeros() };

@@ -5,13 +5,19 @@ mod motion;
 
 pub(crate) use build::{RecordedFuture, Recording, Said};
 
-use scene::{AgentType, Size, Subtype, Vec2};
+use crate::format::EGO;
+use crate::limits::MAX_GOAL_DISTANCE_M;
+use scene::{AgentType, STEP_S, Signal, SignalState, Size, Subtype, Vec2};
 use std::collections::BTreeSet;
 
 /// Most rows that one scenario may have.
 pub(crate) const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one scenario, of which 256 are chosen.
 pub(crate) const MAX_USERS: usize = 20_000;
+/// Farthest a coordinate may lie from the origin of a file, metres.
+const FARTHEST_M: f64 = 1e8;
+/// The map is kept so far round the way of the ego, metres.
+const BESIDE_M: f64 = 100.0;
 
 /// State of a road user at a time, in the frame of the file. Values that the file lacks are NaN; a NaN
 /// position means that the road user was not seen.
@@ -26,9 +32,9 @@ pub(crate) struct RecordedState {
 }
 
 impl RecordedState {
-    /// Whether the road user was seen.
+    /// Whether the road user was seen, at a place that a map can have.
     pub fn is_seen(&self) -> bool {
-        self.at.x.is_finite() && self.at.y.is_finite()
+        self.at.x.abs() <= FARTHEST_M && self.at.y.abs() <= FARTHEST_M
     }
 }
 
@@ -57,6 +63,50 @@ impl RecordedAgent {
         };
         (size, said)
     }
+}
+
+/// The light of a lane at times of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RecordedLight {
+    /// Id of the lane in the map.
+    pub lane: String,
+    /// Where to stop, in the frame of the map.
+    pub stop: Option<Vec2>,
+    /// Times in seconds, which rise, with the state from then on.
+    pub states: Vec<(f64, SignalState)>,
+}
+
+impl RecordedLight {
+    /// The light over the steps of a scene that begins at `start_s`.
+    fn signal(&self, start_s: f64, steps: usize) -> Signal {
+        let mut runs: Vec<(usize, SignalState)> = Vec::new();
+        for step in 0..steps {
+            let by_s = start_s + (step as f64 + 0.25) * STEP_S;
+            let after = self.states.partition_point(|(time_s, _)| *time_s <= by_s);
+            let state = after
+                .checked_sub(1)
+                .and_then(|i| self.states.get(i))
+                .map_or(SignalState::Unknown, |(_, state)| *state);
+            if runs.last().is_none_or(|(_, last)| *last != state) {
+                runs.push((step, state));
+            }
+        }
+        Signal { lane: self.lane.clone(), stop: self.stop, stop_z_m: None, runs }
+    }
+}
+
+/// Middle and radius of the part of a map that a scene needs: about the way of the ego, else of all road users.
+pub(crate) fn reach(users: &[RecordedAgent]) -> Option<(Vec2, f64)> {
+    let ego = || users.iter().filter(|user| user.role.as_deref() == Some(EGO));
+    let reached: Vec<&RecordedAgent> =
+        if ego().next().is_some() { ego().collect() } else { users.iter().collect() };
+    let seen = reached.iter().flat_map(|user| &user.samples).filter(|sample| sample.is_seen());
+    let (low, high) = seen.map(|sample| sample.at).fold(None, |corners, at| {
+        let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
+        Some((low.inf(&at), high.sup(&at)))
+    })?;
+    let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
+    Some((((low + high) / 2.0).map(f64::round), radius_m))
 }
 
 /// The median of each coordinate: a few stragglers do not move it.

@@ -254,7 +254,10 @@ scene::messages! {
     no_open_lanelets() =
         "no-open-lanelets",
         "no lanelets with two sides that a road user may pass: subtypes and participants decide";
+    no_projection(key: &str) =
+        "no-projection", "the projection is not known: {key} of the map names no zone of UTM";
     no_roads_with_lanes(words: &str) = "no-roads-with-lanes", "no roads with lanes: {words}";
+    no_table(table: &str) = "no-table", "the database has no table {table}";
     not_both(first: &str, second: &str) = "not-both", "give either {first} or {second}, not both";
     not_read(what: Word) = "not-read", "{what} is not read";
     not_utf8(what: Word) = "not-utf8", "{what} is not UTF-8";

@@ -2,7 +2,7 @@
 
 use crate::av2::Argoverse;
 use crate::commonroad::format::CommonRoad;
-use crate::format::{Format, ImportOptions, Info, Scenes};
+use crate::format::{Format, ImportOptions, Info, NET_POINTER, Scenes};
 use crate::foxglove::Mcap;
 use crate::geojson::GeoJson;
 use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
@@ -11,6 +11,8 @@ use crate::kinds;
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
+#[cfg(not(target_family = "wasm"))]
+use crate::nuplan::format::NuPlanLog;
 use crate::nuscenes::format::NuScenesTables;
 use crate::opendrive::format::OPENDRIVE;
 use crate::openscenario::format::OpenScenario;
@@ -24,9 +26,11 @@ use crate::source::{BYTE_ORDER_MARK, Source, head};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::{Csv, Parquet};
+use crate::underlay;
 use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
 use crate::womd::rollouts::SimAgents;
+use scene::Scene;
 use scene::message::Message;
 use std::fmt::Write as _;
 
@@ -57,6 +61,8 @@ pub static FORMATS: &[&dyn Format] = &[
     &Parquet,
     &Argoverse,
     &NuScenesTables,
+    #[cfg(not(target_family = "wasm"))]
+    &NuPlanLog,
     &GeoJson,
     &Page,
     &Mcap,
@@ -172,7 +178,30 @@ pub fn scenes<'a>(
         }
         (scene, warnings)
     };
-    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
+    let ground = match &options.net {
+        Some(net) if found.takes_columns() => Some(ground(net, options)?),
+        _ => None,
+    };
+    let laid = move |read: Imported| match &ground {
+        Some(ground) => underlay::lay(read, ground),
+        None => Ok(read),
+    };
+    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named).and_then(&laid))))
+}
+
+/// The map that lies beside a table.
+fn ground(net: &dyn Source, options: &ImportOptions) -> Result<Scene, ReadError> {
+    let read = || {
+        let format = identified(net, "")?;
+        let options = ImportOptions { netconvert: options.netconvert.clone(), ..ImportOptions::default() };
+        let empty = || refused(sentences::not_a_known_format(format.info().id));
+        let map = format.scenes(net, &options).next().ok_or_else(empty)??.0;
+        if map.map.lanes.is_empty() {
+            return Err(ReadError::other_content(refusals::file_has_no(refusals::what::LANE)));
+        }
+        Ok(map)
+    };
+    read().map_err(|error| error.under(NET_POINTER))
 }
 
 /// Name of a file without the extensions of formats and compression.

@@ -13,6 +13,8 @@ use std::collections::{HashMap, HashSet};
 
 /// The greatest gap between the ends of linked lanes: the greater of their widths, within these bounds, metres.
 const GAP_M: (f64, f64) = (3.0, 4.5);
+/// Lanes whose ends are this near to each other meet, metres.
+const MEETING_M: f64 = 0.5;
 /// Lines that are too long are thinned to within this of their points first, metres.
 const THINNED_M: f64 = 0.02;
 /// A box is long if one of its sides is as much longer than the other.
@@ -37,10 +39,13 @@ pub(crate) fn notice_boxes(agents: &[Agent]) -> Option<ImportWarning> {
     warning(across, "boxes-across", sentences::boxes_across)
 }
 
-/// Drops links of lanes whose ends lie farther apart than about a lane's width: for the readers of maps, in which
-/// such a link is a fault. Recordings keep their links, since what is exported of them must be what was read.
-pub(crate) fn drop_far_links(map: &mut Shared<LaneMap>) -> Option<ImportWarning> {
-    warning(drop_gaps(map), "links-dropped", sentences::links_apart)
+/// Drops links of lanes whose ends lie farther apart than about a lane's width, and turns those whose lanes meet the
+/// other way round: for the readers of maps, in which such a link is a fault. Recordings keep their links, since what
+/// is exported of them must be what was read.
+pub(crate) fn drop_far_links(map: &mut Shared<LaneMap>) -> impl Iterator<Item = ImportWarning> + use<> {
+    let (dropped, turned) = drop_gaps(map);
+    let dropped = warning(dropped, "links-dropped", sentences::links_apart);
+    dropped.into_iter().chain(warning(turned, "links-turned", sentences::links_turned))
 }
 
 /// Links lanes that end where others begin, as the engine would, so that the scene and its exports have the links. A
@@ -158,8 +163,9 @@ fn renumber_neighbor(side: &mut Neighbor, own: Option<&Vec<usize>>, other: Optio
     }
 }
 
-/// Drops links of lanes whose ends lie farther apart than about a lane's width. Gives how many there were.
-fn drop_gaps(map: &mut Shared<LaneMap>) -> usize {
+/// Drops links of lanes whose ends lie farther apart than about a lane's width, and turns those that lead back. Gives
+/// how many there were of both.
+fn drop_gaps(map: &mut Shared<LaneMap>) -> (usize, usize) {
     let by_id: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
     let apart = |from: &Lane, to: &Lane| {
         let width_m = from.width_or_assumed_m().max(to.width_or_assumed_m()).clamp(GAP_M.0, GAP_M.1);
@@ -176,14 +182,42 @@ fn drop_gaps(map: &mut Shared<LaneMap>) -> usize {
         );
     }
     if gaps.is_empty() {
-        return 0;
+        return (0, 0);
     }
+    let leads_back = |(from, to): &&(String, String)| {
+        let lanes = by_id.get(from.as_str()).zip(by_id.get(to.as_str()));
+        lanes.is_some_and(|(from, to)| goes_on(&to.points.xy, &from.points.xy))
+    };
+    let turned: HashSet<(String, String)> =
+        gaps.iter().filter(leads_back).map(|(from, to)| (to.clone(), from.clone())).collect();
+    let add = |list: &mut Vec<String>, id: &String| {
+        if !list.contains(id) {
+            list.push(id.clone());
+        }
+    };
+    let mut order: Vec<&(String, String)> = turned.iter().collect();
+    order.sort_unstable();
     for lane in &mut map.lanes {
         let id = lane.id.clone();
         lane.successors.retain(|next| !gaps.contains(&(id.clone(), next.clone())));
         lane.predecessors.retain(|before| !gaps.contains(&(before.clone(), id.clone())));
+        for (from, to) in &order {
+            if *from == id {
+                add(&mut lane.successors, to);
+            }
+            if *to == id {
+                add(&mut lane.predecessors, from);
+            }
+        }
     }
-    gaps.len()
+    (gaps.len() - turned.len(), turned.len())
+}
+
+/// Whether a line begins where another ends, in about the same direction.
+fn goes_on(before: &[Vec2], after: &[Vec2]) -> bool {
+    let ([.., a, end], [start, b, ..]) = (before, after) else { return false };
+    let ways = [end - a, b - start].map(|way| way / way.norm().max(1e-9));
+    (start - end).norm() < MEETING_M && ways[0].dot(&ways[1]) > 0.7
 }
 
 #[cfg(test)]
@@ -233,9 +267,29 @@ mod tests {
         lanes[0].successors = vec!["b".into(), "c".into(), "missing".into()];
         lanes[2].predecessors = vec!["b".into()];
         let mut scene = Scene::bare("a", LaneMap { lanes, ..LaneMap::default() }, Vec::new());
-        assert_eq!(drop_gaps(&mut scene.map), 2);
+        assert_eq!(drop_gaps(&mut scene.map), (2, 0));
         assert_eq!(scene.map.lanes[0].successors, ["b", "missing"]);
         assert!(scene.map.lanes[2].predecessors.is_empty());
+    }
+
+    #[test]
+    fn links_that_lead_back_are_turned() {
+        let street = |id: &str, x: [f64; 2]| {
+            Lane::street(id, x.iter().map(|x| Vec2::new(*x, 0.0)).collect::<Vec<_>>())
+        };
+        let mut lanes = vec![street("a", [50.0, 90.0]), street("b", [0.0, 50.0]), street("c", [90.0, 0.0])];
+        // `a` goes on behind `b`; `c` ends where `b` begins, but comes from the other side.
+        lanes[0].successors = vec!["b".into()];
+        lanes[1].predecessors = vec!["a".into()];
+        lanes[1].successors = vec!["c".into()];
+        let mut map = Shared::from(LaneMap { lanes, ..LaneMap::default() });
+        let codes: Vec<&str> = drop_far_links(&mut map).map(|warning| warning.code).collect();
+        assert_eq!(codes, ["links-dropped", "links-turned"]);
+        assert_eq!(
+            (map.lanes[1].successors.as_slice(), &map.lanes[0].predecessors[0]),
+            (&["a".to_owned()][..], &"b".into())
+        );
+        assert!(map.lanes[0].successors.is_empty() && map.lanes[1].predecessors.is_empty());
     }
 
     #[test]

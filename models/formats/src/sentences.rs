@@ -172,6 +172,10 @@ scene::messages! {
         "lane-segments-unusable",
         [count] "{count} lane segment without two sides is left out",
         "{count} lane segments without two sides are left out";
+    lanes_shared(count: usize) =
+        "lanes-shared",
+        [count] "{count} two-way road is one lane wide: both directions share its middle",
+        "{count} two-way roads are one lane wide: both directions share their middle";
     lanes_without_line(count: usize) =
         "lanes-without-line",
         [count] "{count} lane without a centre line is left out",
@@ -186,6 +190,10 @@ scene::messages! {
         "links-apart",
         [count] "{count} link of lanes is dropped: the ends lie more than a lane's width apart",
         "{count} links of lanes are dropped: the ends lie more than a lane's width apart";
+    links_turned(count: usize) =
+        "links-turned",
+        [count] "{count} link of lanes leads backwards: it is turned, as its lanes meet the other way round",
+        "{count} links of lanes lead backwards: they are turned, as their lanes meet the other way round";
     lines_approximated(count: usize) =
         "lines-approximated",
         [count] "{count} painted line has a type or colour that a scene does not support",
@@ -243,6 +251,13 @@ scene::messages! {
     map_lacks_lanelets() = "map-lacks-lanelets", "The file has no lanelets: the scene has no map";
     map_missing() =
         "map-missing", "The scenario has no map file (log_map_archive_*.json): the scene has no lanes";
+    map_elsewhere(percent: f64) =
+        "map-elsewhere",
+        "The map lies under the road users, but only {percent:.0} % of the places of vehicles are on its lanes: it is \
+         that of another place, or in another frame";
+    map_laid(percent: f64) =
+        "map-laid",
+        "The map lies under the road users: {percent:.0} % of the places of vehicles are on its lanes";
     moved_by_metadrive() =
         "moved-by-metadrive", "MetaDrive moved and turned the file; the place of the recording is unknown";
     network_missing() =

@@ -93,9 +93,9 @@ fn finite(p: Vec2) -> Vec2 {
     if p.x.is_finite() && p.y.is_finite() { p } else { Vec2::zeros() }
 }
 
-/// Moves all places.
-fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
-    let line = |points: &mut Points| points.xy.iter_mut().for_each(|p| *p -= by);
+/// Moves all points of a map.
+pub(crate) fn place(map: &mut LaneMap, to: impl Fn(Vec2) -> Vec2) {
+    let line = |points: &mut Points| points.xy.iter_mut().for_each(|p| *p = to(*p));
     map.lanes.iter_mut().for_each(|lane| line(&mut lane.points));
     map.road_lines.iter_mut().chain(&mut map.road_edges).for_each(|edge| line(&mut edge.points));
     let areas = map.crosswalks.iter_mut().chain(&mut map.speed_bumps).chain(&mut map.driveways);
@@ -103,7 +103,12 @@ fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
         line(&mut area.polygon);
         area.holes.iter_mut().for_each(line);
     }
-    map.stop_signs.iter_mut().for_each(|sign| sign.position -= by);
+    map.stop_signs.iter_mut().for_each(|sign| sign.position = to(sign.position));
+}
+
+/// Moves all places.
+fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
+    place(map, |p| p - by);
     scene.signals.iter_mut().filter_map(|signal| signal.stop.as_mut()).for_each(|stop| *stop -= by);
     for agent in &mut scene.agents {
         for state in agent.track.states.iter_mut().flatten() {

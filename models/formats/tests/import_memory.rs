@@ -163,6 +163,27 @@ fn roads(count: usize, length_m: usize) -> Vec<u8> {
     gzip((text + "</OpenDRIVE>").as_bytes())
 }
 
+/// A ring of so many lanes, in both directions, of a road that meets itself.
+fn ring(lanes: usize, length_m: usize) -> Vec<u8> {
+    let lane = |id: i64| {
+        format!(
+            "<lane id=\"{id}\" type=\"driving\"><link><predecessor id=\"{id}\"/><successor id=\"{id}\"/></link>\
+             <width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><roadMark sOffset=\"0\" type=\"broken\"/></lane>"
+        )
+    };
+    let side = |sign: i64| (1..=lanes as i64 / 2).map(|id| lane(sign * id)).collect::<String>();
+    let text = format!(
+        "<OpenDRIVE><road id=\"0\" length=\"{length_m}\"><link><predecessor elementType=\"road\" elementId=\"0\" \
+         contactPoint=\"end\"/><successor elementType=\"road\" elementId=\"0\" contactPoint=\"start\"/></link><planView>\
+         <geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{length_m}\"><arc curvature=\"{}\"/></geometry></planView>\
+         <lanes><laneSection s=\"0\"><left>{}</left><right>{}</right></laneSection></lanes></road></OpenDRIVE>",
+        std::f64::consts::TAU / length_m as f64,
+        side(1),
+        side(-1)
+    );
+    gzip(text.as_bytes())
+}
+
 /// Straight roads on each other, in sections of 1.9 km with as many points as a lane may have.
 fn straight_roads(count: usize, lanes: usize, length_m: usize) -> Vec<u8> {
     let mut text = String::from("<OpenDRIVE>");
@@ -318,6 +339,8 @@ fn reading_takes_little_beside_the_file() {
         ("long roads", "opendrive", Box::new(roads(8, 4_900)), 1, None, 64),
         // Two motorways on each other, as long as are let through.
         ("straight roads", "opendrive", Box::new(straight_roads(2, 8, 11_000)), 1, None, 64),
+        // One lane after the other round a ring of 6 km, in a file of some KiB.
+        ("ring of 16 lanes", "opendrive", Box::new(ring(16, 6_000)), 1, None, 64),
         (
             "more straight roads",
             "opendrive",

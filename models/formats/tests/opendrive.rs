@@ -308,3 +308,45 @@ fn a_lane_used_both_ways_is_a_scene_that_can_be_kept() {
     let file = native.export(&[&scene], &formats::ExportOptions::default()).unwrap();
     assert_eq!(formats::native::read(&file.bytes).unwrap().map, scene.map);
 }
+
+/// A road of two lanes each way round a ring of 300 m, and one that turns as far and ends elsewhere.
+fn ring(length_m: f64) -> String {
+    let lane = |id: i32| {
+        format!(
+            r#"<lane id="{id}" type="driving"><link><predecessor id="{id}"/><successor id="{id}"/></link>
+            <width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>"#
+        )
+    };
+    let curvature = std::f64::consts::TAU / 300.0;
+    format!(
+        r#"<OpenDRIVE><road id="0" length="{length_m}"><link><predecessor elementType="road" elementId="0" contactPoint="end"/>
+        <successor elementType="road" elementId="0" contactPoint="start"/></link><planView>
+        <geometry s="0" x="0" y="0" hdg="0" length="{length_m}"><arc curvature="{curvature}"/></geometry></planView>
+        <lanes><laneSection s="0"><left>{}{}</left><right>{}{}</right></laneSection></lanes></road></OpenDRIVE>"#,
+        lane(2),
+        lane(1),
+        lane(-1),
+        lane(-2)
+    )
+}
+
+#[test]
+fn lanes_of_a_ring_lead_into_themselves() {
+    let closed = scene(&ring(300.0));
+    assert_eq!(closed.map.lanes.len(), 4);
+    for lane in &closed.map.lanes {
+        assert_eq!((&lane.successors, &lane.predecessors), (&vec![lane.id.clone()], &vec![lane.id.clone()]));
+    }
+    let open = scene(&ring(200.0));
+    assert!(open.map.lanes.iter().all(|lane| lane.successors.is_empty()), "its ends lie apart");
+    let exported = |format: &str| {
+        let format = registry::by_id(format).unwrap();
+        format.export(&[&closed], &formats::ExportOptions::default()).unwrap().bytes
+    };
+    let again = import(&exported("opendrive")).unwrap().0;
+    assert!(again.map.lanes.len() == 4 && again.map.lanes.iter().all(|lane| lane.successors.len() == 1));
+    let net = registry::import(&exported("sumo-net"), "x.net.xml", "auto", &ImportOptions::default());
+    let (net, _) = net.unwrap().remove(0).unwrap();
+    let on: Vec<&Lane> = net.map.lanes.iter().filter(|lane| !lane.interpolating).collect();
+    assert!(on.len() == 4 && on.iter().all(|lane| lane.successors.len() == 1), "{:?}", net.map.lanes.len());
+}

@@ -12,6 +12,7 @@ test('a recording takes the map of the same drop', () => {
     'scene.json',
   ]);
   expect(names(['x.fcd.xml.gz', 'town.net.xml'])).toEqual(['x.fcd.xml.gz on town.net.xml']);
+  expect(names(['map.gpkg', '2021.05.12_veh-35.db'])).toEqual(['2021.05.12_veh-35.db on map.gpkg']);
 });
 
 test('of several maps each goes with the recording of its name', () => {

@@ -217,7 +217,7 @@ pub(super) fn read(
         spacing_s: Some(STEP_S),
         map: map.into(),
         warnings,
-        crs: None,
+        ..Said::default()
     };
     let mut scenes = Recording { said, users, futures: Vec::new() }.scenes();
     let empty = || ReadError::other_content(refusals::file_has_no(what::ROAD_USER));

@@ -7,6 +7,7 @@ use crate::format::MAP_TIMING;
 use crate::lights::{self, SignalHead, heading_at};
 use crate::map_file::{self, MapRead};
 use crate::problem::{ImportWarning, ReadError};
+use crate::projection::TransverseMercator;
 use crate::refusals::{self, what};
 use crate::sentences;
 use crate::sides::LaneletKind;
@@ -60,7 +61,7 @@ pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead,
     warnings.extend((broken > 0).then(unusable));
     warnings.extend((!whole).then(|| ImportWarning::new("edges-dropped", sentences::crossing_lanelets())));
     warnings.extend(made);
-    let crs = osm.projection.map(|projection| projection.name());
+    let crs = osm.projection.filter(TransverseMercator::has_place).map(|projection| projection.name());
     let mut placed = Chosen::of(around);
     placed.left_out = chosen.left_out;
     let part = placed.part(origin, what::LANES);

@@ -121,7 +121,9 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadEr
     })?;
     osm.nodes = local;
     // Points without metres are placed only where none has them: two frames do not mix.
-    let projection = TransverseMercator::about(degrees.values().copied()).filter(|_| osm.nodes.is_empty());
+    let places = || degrees.values().copied();
+    let projection = TransverseMercator::of_no_land(places()).or_else(|| TransverseMercator::about(places()));
+    let projection = projection.filter(|_| osm.nodes.is_empty() && !degrees.is_empty());
     if let Some(projection) = projection {
         osm.nodes = degrees.iter().map(|(id, (lat, lon))| (*id, projection.metres(*lat, *lon))).collect();
         osm.projection = Some(projection);

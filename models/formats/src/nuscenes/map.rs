@@ -1,14 +1,13 @@
 //! The map expansion: lanes with their connections, crossings, dividers and the ground of vehicles.
 
 use super::arcs::{self, ArcPath};
-use crate::polyline::{length, simplify};
+use crate::polyline::{length, ring_area_m2, simplify};
 use crate::problem::{ImportWarning, ReadError};
 use crate::repairs;
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
 use scene::Shared;
 use scene::Vec2;
-use scene::geometry::cross;
 use scene::map::{Area, Lane, LaneMap, LaneType, Points, TypedLine};
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -125,7 +124,8 @@ impl Expansion {
             points.iter_mut().for_each(|p| *p -= origin);
             let ring = row.polygon_token.as_deref().and_then(|token| polygons.get(token));
             let ring = ring.map(|row| line(&row.exterior_node_tokens)).filter(|ring| ring.len() > 2);
-            let width_m = ring.map(|ring| (area_m2(&ring) / length(&points)).clamp(WIDTHS_M.0, WIDTHS_M.1));
+            let width_m =
+                ring.map(|ring| (ring_area_m2(&ring) / length(&points)).clamp(WIDTHS_M.0, WIDTHS_M.1));
             let rides = row.lane_type.as_deref().is_some_and(|kind| kind.eq_ignore_ascii_case("BIKE"));
             let id = ids.take(&row.token);
             lanes.insert(&row.token, id.clone());
@@ -192,8 +192,4 @@ impl Expansion {
             map.lanes[to].predecessors.push(before);
         }
     }
-}
-
-fn area_m2(ring: &[Vec2]) -> f64 {
-    (0..ring.len()).map(|i| cross(ring[i], ring[(i + 1) % ring.len()])).sum::<f64>().abs() / 2.0
 }

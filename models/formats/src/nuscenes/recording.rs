@@ -5,8 +5,9 @@ use super::tables::{SceneRow, Tables};
 use crate::around::MapPart;
 use crate::cut::cut;
 use crate::format::{EGO, ImportOptions};
+use crate::frame::yaw;
 use crate::problem::{Imported, ReadError};
-use crate::recording::{RecordedAgent, RecordedState, Recording, Said};
+use crate::recording::{RecordedAgent, RecordedState, Recording, Said, reach};
 use crate::source::Source;
 use crate::{limits, unpack};
 use scene::geometry::direction;
@@ -21,8 +22,6 @@ const LICENCE: &str = "cc-by-nc-sa-4.0";
 /// its poses are of, metres.
 const EGO_SIZE_M: [f64; 3] = [4.084, 1.730, 1.562];
 const EGO_AHEAD_M: f64 = 1.385;
-/// The map is kept so far round the road users of a scene, metres.
-const BESIDE_M: f64 = 100.0;
 /// Seconds of a unit of the tables' times.
 const TICK_S: f64 = 1e-6;
 
@@ -128,28 +127,13 @@ impl NuScenes {
     /// Lays the map of the place under a scene, as far as its road users reach.
     fn lay_map(&self, row: &SceneRow, users: &[RecordedAgent], said: &mut Said) {
         let expansion = self.tables.locations.get(&row.log_token).and_then(|place| self.maps.get(place));
-        let ego = users.iter().filter(|user| user.role.is_some());
-        let reached =
-            if ego.clone().next().is_some() { ego.collect() } else { users.iter().collect::<Vec<_>>() };
-        let places = reached.iter().flat_map(|user| &user.samples).map(|sample| sample.at);
-        let corners = places.filter(|at| at.x.is_finite() && at.y.is_finite()).fold(None, |corners, at| {
-            let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
-            Some((low.inf(&at), high.sup(&at)))
-        });
-        let (Some(expansion), Some((low, high))) = (expansion, corners) else { return };
-        let origin = ((low + high) / 2.0).map(f64::round);
+        let (Some(expansion), Some((origin, radius_m))) = (expansion, reach(users)) else { return };
         let (mut map, warnings) = expansion.map(origin);
-        let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(limits::MAX_GOAL_DISTANCE_M);
         said.warnings.extend(warnings);
         said.warnings.push(cut(&mut map, &mut Vec::new(), &MapPart::about(origin, radius_m)));
         said.map = map.into();
         said.origin = Some(Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() });
     }
-}
-
-/// Heading of a turn in space: w, x, y and z.
-fn yaw([w, x, y, z]: [f64; 4]) -> f64 {
-    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
 }
 
 /// Kind of a category such as `vehicle.bus.rigid`.

@@ -8,10 +8,10 @@ pub(super) const LANE_MEMORY: f64 = 800.0;
 /// roads of a file alone, since more of them may cross each other over and over.
 const STRAIGHT_MEMORY: f64 = 300.0;
 pub(super) const STRAIGHT_ROADS: usize = 2;
-/// A road that hardly bends: greatest curvature, 1/m, and turn from its start to its end, radians. At each of its
-/// records it may bend over so many metres.
+/// A road that hardly bends: greatest curvature, 1/m, and turn from its start to its end, radians: a whole ring, which
+/// crosses itself a few times at most. At each of its records it may bend over so many metres.
 const STRAIGHT_CURVATURE: f64 = 0.01;
-const STRAIGHT_TURN_RAD: f64 = 3.0;
+const STRAIGHT_TURN_RAD: f64 = 6.5;
 const BEND_M: f64 = 20.0;
 
 /// How a road bends.

@@ -236,7 +236,9 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
             for (from, to) in drawn.iter().flat_map(|from| next.iter().map(move |to| (from.lane, to.lane))) {
                 let ends = [map.lanes[from].points.xy.last(), map.lanes[to].points.xy.first()];
                 let meet = matches!(ends, [Some(end), Some(start)] if (end - start).norm() < MEETING_M);
-                if from != to && (sure || meet) && links.insert((from, to)) {
+                // A lane leads into itself where it closes a ring.
+                let sure = sure && from != to;
+                if (sure || meet) && links.insert((from, to)) {
                     let [before, after] = [from, to].map(|i| map.lanes[i].id.clone());
                     map.lanes[from].successors.push(after);
                     map.lanes[to].predecessors.push(before);

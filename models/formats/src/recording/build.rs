@@ -1,11 +1,11 @@
 //! Scenes of a scenario, one after the other: one, or one for each 9.1 s of a recording that is too long for one.
 
 use super::motion::{Derived, complete, spacing_s, step_at, track};
-use super::{AgentIds, RecordedAgent, RecordedState, middle};
+use super::{AgentIds, RecordedAgent, RecordedLight, RecordedState, middle};
 use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::headings::{HeadingUnit, MOVES_MPS, Votes, said_wrapped};
-use crate::limits::{MAX_AGENTS, MAX_STEPS};
+use crate::limits::{MAX_AGENTS, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{ImportWarning, Imported, ReadError};
 use crate::refusals::{self, what};
 use crate::repairs::checked;
@@ -46,6 +46,8 @@ pub(crate) struct Said {
     pub spacing_s: Option<f64>,
     /// About the origin.
     pub map: Shared<LaneMap>,
+    /// Of lanes of the map; those beyond the bound are left out.
+    pub lights: Vec<RecordedLight>,
     pub warnings: Vec<ImportWarning>,
 }
 
@@ -243,7 +245,7 @@ impl PreparedRecording {
             meta,
             time,
             map: said.map.clone(),
-            signals: Vec::new(),
+            signals: said.lights.iter().take(MAX_SIGNALS).map(|light| light.signal(start_s, steps)).collect(),
             agents,
             generated,
             extra: BTreeMap::new(),
@@ -253,8 +255,9 @@ impl PreparedRecording {
 
     /// The ego's place; else zero where the file's coordinates are small; else the middle of all, in whole metres.
     fn origin(&self, present: &[(usize, Vec2)]) -> Origin {
-        let ego = |(i, _): &&(usize, Vec2)| {
-            self.recording.users.get(*i).is_some_and(|user| user.role.as_deref() == Some(EGO))
+        let ego = |(i, at): &&(usize, Vec2)| {
+            let is_ego = |user: &RecordedAgent| user.role.as_deref() == Some(EGO);
+            at.x.is_finite() && self.recording.users.get(*i).is_some_and(is_ego)
         };
         let places = || present.iter().map(|(_, at)| *at).filter(|at| at.x.is_finite());
         let at = if places().all(|at| at.amax() <= NEAR_M) {

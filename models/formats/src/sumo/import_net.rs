@@ -78,6 +78,8 @@ pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<NetScene
     drawn.map.road_edges.retain(|line| near(&line.points));
     drawn.map.road_lines.retain(|line| near(&line.points));
     let mut warnings = warnings_of(&net);
+    let shared = || ImportWarning::new("lanes-shared", sentences::lanes_shared(drawn.narrow));
+    warnings.extend((drawn.narrow > 0).then(shared));
     let mut places = drawn.signals;
     if places.len() > MAX_SIGNALS {
         let message = sentences::signals_near_centre(places.len(), MAX_SIGNALS);

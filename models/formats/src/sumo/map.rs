@@ -2,6 +2,7 @@
 
 use super::kerb::{self, Borders, JunctionArea};
 use super::medians;
+use super::narrow::NarrowRoads;
 use super::net::{EdgeFunction, LaneKind, NARROWEST_LANE_M, Net};
 use crate::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
@@ -46,6 +47,8 @@ pub struct NetMap {
     pub map: LaneMap,
     /// Signals of the map's lanes and crosswalks.
     pub signals: Vec<SignalPlace>,
+    /// Number of narrow two-way roads, whose lanes share the middle of the road.
+    pub narrow: usize,
 }
 
 /// Draws a network's map.
@@ -57,6 +60,7 @@ pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
         out: NetMap::default(),
         next_id: net.lanes.len(),
         tapers: tapers(net),
+        narrow: NarrowRoads::of(net),
         before,
         left_checks: Cell::new(MOST_LEFT_CHECKS),
     };
@@ -74,6 +78,7 @@ pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
     }
     builder.drivable(&all, &junctions);
     medians::close(&mut builder.out.map, |_| false);
+    builder.out.narrow = builder.narrow.count();
     builder.out
 }
 
@@ -83,6 +88,7 @@ pub(super) struct Builder<'a> {
     next_id: usize,
     /// For lanes within a node where one edge merely goes on as another: lane before, lane after.
     pub(super) tapers: HashMap<usize, (usize, usize)>,
+    pub(super) narrow: NarrowRoads,
     /// For lanes within a junction, a lane that leads there.
     before: HashMap<usize, usize>,
     /// Comparisons of left borders that may still be made.
@@ -164,21 +170,21 @@ impl Builder<'_> {
                 predecessors[next].push(lane_id(i));
             }
         }
+        let lines = self.narrow.lines(net);
         for (i, lane) in net.lanes.iter().enumerate() {
             let Some(lane_type) = types[i].filter(|_| lane.shape.len() > 1) else { continue };
             let internal = net.edge_of(i).function == EdgeFunction::Internal;
             let spacing = if internal { SPACING_M.1 } else { SPACING_M.0 };
-            let step_of = |l: usize| spacing.max(length(&net.lanes[l].shape) / MAX_PIECES);
+            let step_of = |l: usize| spacing.max(length(&lines[l]) / MAX_PIECES);
             let step = step_of(i);
             let drives = |t: LaneType| t.carries_vehicles() || t.carries_cyclists();
             let travelled = drives(lane_type);
-            let points =
-                if travelled { resample(&lane.shape, step) } else { simplify(&lane.shape, 0.03, 20.0) };
+            let points = if travelled { resample(&lines[i], step) } else { simplify(&lines[i], 0.03, 20.0) };
             let next = lane.successors.iter().filter(|&&n| types[n].is_some()).map(|&n| lane_id(n)).collect();
             let beside = |other: Option<usize>| -> Vec<Neighbor> {
                 let other = other.and_then(|index| net.edge_of(i).lanes.get(index).copied());
                 let other = other.filter(|&o| !internal && travelled && types[o].is_some_and(drives));
-                let count = |l: usize| (length(&net.lanes[l].shape) / step_of(l)).round();
+                let count = |l: usize| (length(&lines[l]) / step_of(l)).round();
                 other
                     .map(|o| Neighbor {
                         lane: lane_id(o),
@@ -195,7 +201,7 @@ impl Builder<'_> {
                 left_neighbors: beside(Some(lane.index + 1)),
                 right_neighbors: beside(lane.index.checked_sub(1)),
                 points: points.into(),
-                width_m: Some(lane.width_m),
+                width_m: Some(self.narrow.width_m(net, i)),
                 left_boundary: Vec::new(),
                 right_boundary: Vec::new(),
                 speed_limit_mps: travelled.then_some(lane.speed_mps),
@@ -209,7 +215,7 @@ impl Builder<'_> {
                     feature: lane_id(i),
                     program: program.clone(),
                     link: *link,
-                    stop: net.lanes[i].shape[0],
+                    stop: lines[i][0],
                 };
                 self.out.signals.push(place);
             }
@@ -347,7 +353,7 @@ mod tests {
     #[test]
     fn a_street_becomes_a_map() {
         let net = Net::read(STREET).unwrap();
-        let NetMap { map, signals } = lane_map(&net, MapOptions { sidewalks: true, parking: true });
+        let NetMap { map, signals, .. } = lane_map(&net, MapOptions { sidewalks: true, parking: true });
         let types: Vec<LaneType> = map.lanes.iter().map(|l| l.lane_type).collect();
         use LaneType::{Sidewalk, SurfaceStreet};
         assert_eq!(types, [SurfaceStreet, Sidewalk, SurfaceStreet, SurfaceStreet, SurfaceStreet]);

@@ -13,6 +13,7 @@ pub mod kerb;
 mod kinds;
 pub mod map;
 pub mod medians;
+mod narrow;
 pub mod net;
 mod out;
 mod paint;

@@ -87,6 +87,8 @@ impl Builder<'_> {
                 let piece = line[from..(to + 1).min(line.len())].to_vec();
                 match sides[from] {
                     LeftSide::Oncoming(other) if other < b => {}
+                    // Nothing is painted in the middle of a road that is one lane wide.
+                    LeftSide::Oncoming(other) if self.narrow.share(borders.edge, all[other].edge) => {}
                     LeftSide::Oncoming(_) => {
                         let quiet = self.net.edges[borders.edge].road_type == "residential" || lot;
                         let line = if quiet { "broken_single_yellow" } else { "solid_double_yellow" };
@@ -120,6 +122,7 @@ impl Builder<'_> {
                 }
                 let way = (first - last) / (first - last).norm().max(1e-9);
                 match left_side((first + last) / 2.0, way, None, all, &extents, &self.left_checks) {
+                    LeftSide::Oncoming(other) if self.narrow.has(all[other].edge) => {}
                     LeftSide::Oncoming(_) => self.line("solid_double_yellow", points.clone()),
                     LeftSide::Median => self.edge("median", points.clone()),
                     LeftSide::Open => self.edge("boundary", points.clone()),

@@ -40,9 +40,9 @@ impl Format for Csv {
             import: true,
             export: true,
             many: true,
-            takes_net: false,
+            takes_net: true,
             notes: "A row for each road user, future and step, units in the columns' names, in the source's \
-                 frame; tables of others by `--columns`. Plain or gzip.",
+                 frame; tables of others by `--columns`, the map of their place by `--net`. Plain or gzip.",
             loses: write::LOSES,
         }
     }
@@ -96,9 +96,9 @@ impl Format for Parquet {
             import: true,
             export: true,
             many: true,
-            takes_net: false,
+            takes_net: true,
             notes: "A row for each road user, future and step, units in the columns' names, in the source's \
-                 frame; tables of others by `--columns`. What is said of the scene is in the file.",
+                 frame; tables of others by `--columns`, the map of their place by `--net`. What is said of the scene is in the file.",
             loses: write::LOSES,
         }
     }

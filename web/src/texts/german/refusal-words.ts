@@ -236,8 +236,8 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a file packed with xz': 'Eine mit xz gepackte Datei',
     'a file packed with Zstandard': 'Eine mit Zstandard gepackte Datei',
     'an HDF5 file': 'Eine HDF5-Datei',
-    'an SQLite database, as nuPlan and rosbag2 use them,':
-      'Eine SQLite-Datenbank, wie nuPlan und rosbag2 sie verwenden,',
+    'an SQLite database that is no log and no map of nuPlan':
+      'Eine SQLite-Datenbank, die weder Aufzeichnung noch Karte von nuPlan ist,',
     'a recording of ROS (rosbag)': 'Eine ROS-Aufzeichnung (rosbag)',
     'an MCAP recording': 'Eine MCAP-Aufzeichnung',
     'an array of NumPy': 'Ein NumPy-Array',
@@ -262,8 +262,6 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'scenes are files of data, not pictures of them': 'Szenen sind Dateien mit Daten, keine Bilder davon',
     'unpack it, and import what is in it': 'entpacken und den Inhalt importieren',
     'write its tracks as a table, and import that': 'die Trajektorien als Tabelle schreiben und diese importieren',
-    'ScenarioNet turns nuPlan logs into scenarios (pkl) that are read':
-      'ScenarioNet macht aus nuPlan-Aufzeichnungen Szenarien (pkl), die gelesen werden',
     'import the scene from which it was made': 'die Szene importieren, aus der sie entstand',
     'write it as a table, and import that': 'es als Tabelle schreiben und diese importieren',
   },

@@ -156,6 +156,11 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} lane segment without two sides is left out`,
         other: `${v.count} lane segments without two sides are left out`,
       }),
+    'lanes-shared': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} two-way road is one lane wide: both directions share its middle`,
+        other: `${v.count} two-way roads are one lane wide: both directions share their middle`,
+      }),
     'lanes-without-line': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} lane without a centre line is left out`,
@@ -172,6 +177,11 @@ export const SENTENCES = table('file-messages', {
       plural(Number(v.count), {
         one: `${v.count} link of lanes is dropped: the ends lie more than a lane's width apart`,
         other: `${v.count} links of lanes are dropped: the ends lie more than a lane's width apart`,
+      }),
+    'links-turned': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} link of lanes leads backwards: it is turned, as its lanes meet the other way round`,
+        other: `${v.count} links of lanes lead backwards: they are turned, as their lanes meet the other way round`,
       }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
@@ -224,6 +234,10 @@ export const SENTENCES = table('file-messages', {
     'map-heights-dropped': 'The network has heights; the map is flat',
     'map-lacks-lanelets': 'The file has no lanelets: the scene has no map',
     'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
+    'map-elsewhere': (v: Values) =>
+      `The map lies under the road users, but only ${v.percent} % of the places of vehicles are on its lanes: it is that of another place, or in another frame`,
+    'map-laid': (v: Values) =>
+      `The map lies under the road users: ${v.percent} % of the places of vehicles are on its lanes`,
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
     'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
     'not-a-known-format': (v: Values) => `Not a file of a known format (${v.formats}).`,

@@ -52,6 +52,8 @@ export const SENTENCES = table('refusal-messages', {
     'no-lanelets': 'no lanelets: if it is an extract of OpenStreetMap, it is read as osm',
     'no-open-lanelets': 'no lanelets with two sides that a road user may pass: subtypes and participants decide',
     'no-roads-with-lanes': (v: Values) => `no roads with lanes: ${v.words}`,
+    'no-projection': (v: Values) => `the projection is not known: ${v.key} of the map names no zone of UTM`,
+    'no-table': (v: Values) => `the database has no table ${v.table}`,
     'not-both': (v: Values) => `give either ${v.first} or ${v.second}, not both`,
     'not-read': (v: Values) => `${v.what} is not read`,
     'not-utf8': (v: Values) => `${v.what} is not UTF-8`,

@@ -280,7 +280,8 @@ impl<'a> OpenScenarioReader<'a> {
         };
         let (MapRead { map, origin, warnings, .. }, roads) = read?;
         self.said.map = map;
-        self.said.warnings.extend(warnings);
+        // Made lights would contradict the motion, and are left out.
+        self.said.warnings.extend(warnings.into_iter().filter(|warning| warning.code != "signals-made"));
         self.frame = Some(Frame::of(&origin));
         self.said.origin = Some(origin);
         self.places.roads = Some(roads);

@@ -178,6 +178,7 @@ export class FileImport {
 const PAIRS: readonly (readonly [recording: RegExp, map: RegExp])[] = [
   [/^scenario_.*\.parquet$|\.av2\.parquet$/i, /^log_map_archive_.*\.json$/i],
   [/\.fcd\.(xml|csv)(\.gz)?$/i, /\.net\.xml(\.gz)?$/i],
+  [/\.db$/i, /\.gpkg$/i],
 ];
 
 /** Files with their companions; one map goes with all its recordings, by name where there are several. */

@@ -158,6 +158,11 @@ export const german: Said<typeof SENTENCES> = {
         one: `${v.count} Spurabschnitt ohne zwei Seiten entfällt`,
         other: `${v.count} Spurabschnitte ohne zwei Seiten entfallen`,
       }),
+    'lanes-shared': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Straße für beide Richtungen ist eine Spur breit: beide fahren in ihrer Mitte`,
+        other: `${v.count} Straßen für beide Richtungen sind eine Spur breit: beide fahren in ihrer Mitte`,
+      }),
     'lanes-without-line': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Spur ohne Mittellinie fehlt`,
@@ -174,6 +179,11 @@ export const german: Said<typeof SENTENCES> = {
       plural(Number(v.count), {
         one: `${v.count} Verbindung von Spuren entfällt: Die Enden liegen mehr als eine Spurbreite auseinander`,
         other: `${v.count} Verbindungen von Spuren entfallen: Die Enden liegen mehr als eine Spurbreite auseinander`,
+      }),
+    'links-turned': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Spurverbindung führt rückwärts: sie ist umgedreht, wie die Spuren aneinanderstoßen`,
+        other: `${v.count} Spurverbindungen führen rückwärts: sie sind umgedreht, wie die Spuren aneinanderstoßen`,
       }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
@@ -226,6 +236,10 @@ export const german: Said<typeof SENTENCES> = {
     'map-heights-dropped': 'Das Netz hat Höhen; die Karte ist eben',
     'map-lacks-lanelets': 'Die Datei hat keine Lanelets: Die Szene hat keine Karte',
     'map-missing': 'Zum Szenario kam keine Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
+    'map-elsewhere': (v: Values) =>
+      `Die Karte liegt unter den Verkehrsteilnehmern, aber nur ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren: Sie gehört zu einem anderen Ort oder Bezugssystem`,
+    'map-laid': (v: Values) =>
+      `Die Karte liegt unter den Verkehrsteilnehmern: ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren`,
     'moved-by-metadrive': 'MetaDrive hat die Datei verschoben und gedreht; der Ort der Aufzeichnung ist unbekannt',
     'network-missing': 'Zur Aufzeichnung kam kein Netz: Die Szene hat weder Spuren noch Ampeln',
     'not-a-known-format': (v: Values) => `Keine Datei eines bekannten Formats (${v.formats}).`,

@@ -56,6 +56,8 @@ export const german: Said<typeof SENTENCES> = {
     'no-open-lanelets':
       'Keine Lanelets mit zwei Seiten, die ein Verkehrsteilnehmer befahren darf: Subtypen und Teilnehmer entscheiden',
     'no-roads-with-lanes': (v: Values) => `Keine Straßen mit Spuren: ${v.words}`,
+    'no-projection': (v: Values) => `Die Projektion ist nicht bekannt: ${v.key} der Karte nennt keine UTM-Zone`,
+    'no-table': (v: Values) => `Die Datenbank hat keine Tabelle ${v.table}`,
     'not-both': (v: Values) => `Nur ${v.first} oder ${v.second} angeben, nicht beide`,
     'not-read': (v: Values) => `${v.what} wird nicht gelesen`,
     'not-utf8': (v: Values) => `Kein UTF-8 in ${v.what}`,
