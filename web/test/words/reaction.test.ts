@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import { emptyMotion, type Future, type MotionSet } from '../../src/model/document/futures';
 import type { ReactionJson } from '../../src/model/document/scene-json';
-import type { Motion } from '../../src/model/base/motion';
+import { motionFrom, poseAt, type Motion } from '../../src/model/base/motion';
 import { answersAhead, type Reaction } from '../../src/model/physics/reaction';
 import { findChanges, reactionWords } from '../../src/model/words/change-words';
 import { crossing, walker } from '../helpers';
@@ -80,6 +80,15 @@ describe('a change', () => {
     const slows = along((t) => (t > 2 && t < 4 ? 3 : 10));
     expect(changes(slows)[0].words).toMatch(/^slows to 11 km\/h (behind|for) Car 1$/);
     expect(changes(along(() => 14))[0].words).toBe('speeds up ahead of Car 1');
+  });
+
+  it('is that a road user does not appear where another one is', () => {
+    const nowhere = motionFrom({ first_step: 1, x_m: [], y_m: [], heading_rad: [] });
+    const out = { kind: 'stays_out', cause: '1', delay_s: 0, time_s: 2, x_m: 20, y_m: 0, speed_mps: 0 } as const;
+    expect(poseAt(nowhere, 2)).toBeNull();
+    expect(changes(nowhere, out)).toMatchObject([
+      { words: 'does not appear, Car 1 is in its place', place: { x: 20 } },
+    ]);
   });
 
   it('names no cause without conditions', () => {

@@ -75,8 +75,10 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   const { agent: a, before, after } = m;
   const { d: size } = furthest(before, after, scene.duration);
   const lost = secondsLost(before, after);
-  if (size <= LEAST_M && Math.abs(lost) <= LEAST_S) return null;
   const said = set.answering.get(a.id)?.said;
+  // A motion that is left out has no place to compare.
+  const changes = said?.kind === 'stays_out' || size > LEAST_M || Math.abs(lost) > LEAST_S;
+  if (!changes) return null;
   const guess = () => (m.released ? null : guessReaction(a, before, after, scene.duration, causes, lost));
   const reaction = said ? readReaction(scene, set, after, said) : guess();
   const at = reaction?.time ?? furthest(before, after, scene.duration).t;
