@@ -1,6 +1,7 @@
 //! Connections of lanes: which lane leads into which, and which lane ends share a junction. Used by the
 //! writers of formats whose roads end at junctions.
 
+use crate::polyline::length;
 use scene::map::LaneMap;
 use scene::{Vec2, geometry};
 use std::collections::{BTreeSet, HashMap};
@@ -9,6 +10,9 @@ use std::collections::{BTreeSet, HashMap};
 const MOST_CROSSING: usize = 1_500;
 /// Most pieces of lines that are held against each other: ten times what a large town needs.
 const MOST_PIECES: u64 = 100_000_000;
+
+/// A lane leads into itself where its ends are nearer to each other than this share of its length.
+const RING_SHARE: f64 = 0.1;
 
 /// Ends of lanes by the junction that they belong to.
 pub(crate) struct Groups(Vec<usize>);
@@ -76,7 +80,14 @@ fn links(map: &LaneMap) -> BTreeSet<(usize, usize)> {
         links.extend(lane.successors.iter().filter_map(|id| Some((i, *places.get(id.as_str())?))));
         links.extend(lane.predecessors.iter().filter_map(|id| Some((*places.get(id.as_str())?, i))));
     }
+    links.retain(|(a, b)| a != b || is_ring(&map.lanes[*a].points.xy));
     links
+}
+
+/// A line ends where it begins.
+fn is_ring(points: &[Vec2]) -> bool {
+    let apart_m = points.first().zip(points.last()).map(|(first, last)| (last - first).norm());
+    apart_m.is_some_and(|apart_m| apart_m < RING_SHARE * length(points))
 }
 
 /// Ways that cross each other lead through the same junction: lines, each with the end of a lane at its junction.

@@ -287,7 +287,7 @@ fn scenes_have_their_road_users_lights_and_the_map_round_them() {
     assert!(
         (ego.vx_mps.abs() < 1e-9)
             && (ego.vy_mps - 8.0).abs() < 1e-9
-            && (ego.heading_rad - 1.570_796).abs() < 1e-5
+            && (ego.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-5
     );
     assert_eq!((scene.agents[0].size.length_m, scene.agents[0].role.as_deref()), (5.176, Some("ego")));
     assert!((from_corner(state(1, 5).position()) - Vec2::new(15.0, 50.0)).norm() < 1e-6);

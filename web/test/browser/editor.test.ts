@@ -545,8 +545,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
     expect(await marks()).toEqual(['ok', 'ok', 'ok', 'rule', 'ok', 'short']);
-    expect(await d.text('.leave')).toContain('May cross this median');
-    await d.page.getByRole('button', { name: 'May cross this median: undo' }).click();
+    expect(await d.text('.leave')).toContain('Crossing allowed');
+    await d.page.getByRole('button', { name: 'Crossing allowed: undo' }).click();
     await d.settled();
     expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);

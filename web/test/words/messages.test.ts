@@ -52,7 +52,7 @@ const PATTERNS: Readonly<Record<string, readonly (readonly [pattern: RegExp, rea
   'app/dialogs/shortcuts.tsx': [[/^\/\^[a-z]+-|\(next\|previous\)|\(slower\|faster\)/, 'ids of actions']],
   'app/later.tsx': [[/https/, 'the address of a script']],
   'edit/tools/importing/file-import.ts': [
-    [/scenario_|log_map_|xml|json/, 'names of files that data sets and tools use'],
+    [/scenario_|log_map_|xml|json|gpkg/, 'names of files that data sets and tools use'],
   ],
   'edit/tools/importing/map-outline.ts': [[/node|geometry|lane/, 'elements of map files']],
   'edit/tools/layouts/arms-overlay.ts': [[/arm/, 'ids of lanes']],
