@@ -59,7 +59,7 @@ journeys('long', (stage) => {
     await e.key('Home');
     await e.key('Shift+g');
     await e.settled();
-    await e.page.locator('.fu[data-future][aria-checked="false"]').first().click();
+    await e.page.locator('.fu[data-future][aria-checked="false"]').last().click();
     await e.settled();
     const picked = e.wire.last().event('final').samples[0].agents[car.id];
     assert.equal(chosenOf(picked).x_m.length, 200);

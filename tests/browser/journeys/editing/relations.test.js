@@ -88,7 +88,8 @@ journeys('goals relative to another road user', (stage) => {
     // In the lane of the other one.
     const aside = (ax - goal.x_m.value) * -Math.sin(start.heading) + (ay - goal.y_m.value) * Math.cos(start.heading);
     assert.ok(Math.abs(left) > 2 && Math.abs(aside) < 1, `${left.toFixed(1)} m, ${aside.toFixed(1)} m`);
-    assert.ok(Math.abs(goal.speed_mps.value - 8) < 2.5, `${goal.speed_mps.value} m/s`);
+    // Two below what the other one does by then: it starts at 10 m/s, and may speed up or slow down.
+    assert.ok(goal.speed_mps.value > 5 && goal.speed_mps.value < 13, `${goal.speed_mps.value} m/s`);
     await e.picture('relation');
     const before = await e.pose('Goal');
     assert.ok(Math.abs(before.x - goal.x_m.value) < 0.1 && Math.abs(before.y - goal.y_m.value) < 0.1);
