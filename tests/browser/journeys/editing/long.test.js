@@ -59,9 +59,10 @@ journeys('long', (stage) => {
     await e.key('Home');
     await e.key('Shift+g');
     await e.settled();
-    await e.page.locator('.fu[data-future][aria-checked="false"]').last().click();
+    await e.page.locator('.fu[data-future][aria-checked="false"]').first().click();
     await e.settled();
-    const picked = e.wire.last().event('final').samples[0].agents[car.id];
+    // The others may be asked once more, with the continued future as it is.
+    const picked = e.wire.asked.map((q) => q.event('final')?.samples[0].agents[car.id]).findLast(Boolean);
     assert.equal(chosenOf(picked).x_m.length, 200);
     assert.equal(await e.page.locator('.fu[data-future]').count(), 6);
     await e.picture('long-picked');
