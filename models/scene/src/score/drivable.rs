@@ -17,12 +17,12 @@ const BEFORE_END_M: f64 = 0.05;
 const BEYOND_MAP_M: f64 = 1000.0;
 /// A lane that ends there would go on straight so far where another one is nearer, metres: nine seconds at 80 km/h.
 const WAY_OUT_M: f64 = 200.0;
-/// Pieces of that, so that the index holds them in small boxes.
-const WAY_OUT_PIECES: u32 = 4;
+/// In pieces of this length, metres, so that the index holds them in small boxes.
+const WAY_OUT_PIECE_M: f64 = 50.0;
 /// Points of a line nearer together than this have no direction, metres.
 const LEAST_PIECE_M: f64 = 0.01;
-/// Most ends of lanes for which it is looked at: the memory of a map stays in proportion to its points.
-const MOST_WAYS_OUT: usize = 4096;
+/// Most ends of lanes for which it is looked at: time and memory of a map stay in proportion to its points.
+const MOST_WAYS_OUT: usize = 1024;
 /// Lanes are looked for within this, metres: no lane is more than twice as wide.
 const LANE_NEAR_M: f64 = 4.0;
 /// A lane farther away than this says nothing about a place, metres.
@@ -98,7 +98,7 @@ impl Drivable {
         };
         let edges = SegmentIndex::new(edges);
         let bands: Arc<[Band]> = map.lanes.iter().map(band).collect();
-        let ways_out = WaysOut::new(lanes().map(|(i, lane)| (&lane.points.xy[..], bands[i])));
+        let ways_out = WaysOut::new(lanes().map(|(i, lane)| (&lane.points.xy[..], bands[i])), &edges);
         Self {
             areas: Arc::new(Polygons::new(&map.drivable)),
             driveways: Arc::new(Polygons::new(&map.driveways)),
@@ -172,7 +172,7 @@ impl Drivable {
     pub fn is_beyond_map(&self, point: Vec2) -> bool {
         self.beyond_end(point)
             .is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b, b.half_width_m))
-            || self.ways_out.over(point).any(|end| !self.crosses_an_edge(end, point))
+            || self.ways_out.lead_over(point)
     }
 
     /// Where a point lies that is ahead of the open end of its nearest lane.
@@ -364,19 +364,20 @@ struct BeyondEnd {
     half_width_m: f64,
 }
 
-/// Straight on from the ends of lanes to which nothing leads and that nothing follows.
+/// Straight on from the ends of lanes to which nothing leads and that nothing follows, as far as no road edge closes the
+/// way.
 #[derive(Clone, Debug, Default)]
 struct WaysOut {
-    /// Each end with the half of its lane's width, metres.
-    ends: Vec<(Vec2, f64)>,
-    /// The ways, in pieces; the owner is the end.
+    /// Half the width of each lane, metres.
+    half_widths_m: Vec<f64>,
+    /// The ways, in pieces; the owner is the lane's place in the list.
     pieces: SegmentIndex,
 }
 
 impl WaysOut {
     /// The ways of the vehicles' lanes, [`MOST_WAYS_OUT`] at most.
-    fn new<'a>(lanes: impl Iterator<Item = (&'a [Vec2], Band)>) -> Self {
-        let (mut ends, mut pieces) = (Vec::new(), Vec::new());
+    fn new<'a>(lanes: impl Iterator<Item = (&'a [Vec2], Band)>, edges: &SegmentIndex) -> Self {
+        let (mut half_widths_m, mut pieces) = (Vec::new(), Vec::new());
         let open = lanes.filter(|(_, band)| band.carries_vehicles).flat_map(|(points, band)| {
             let [first, last] = band.open;
             let first = first.and_then(|end| Some((end, out_of(points.iter(), end)?)));
@@ -384,19 +385,20 @@ impl WaysOut {
             [first, last].into_iter().flatten().map(move |(end, out)| (end, out, band.half_width_m))
         });
         for ((end, out, half_width_m), owner) in open.take(MOST_WAYS_OUT).zip(0..) {
-            ends.push((end, half_width_m));
-            let at = |k: u32| end + out * (WAY_OUT_M * f64::from(k) / f64::from(WAY_OUT_PIECES));
-            let piece = |k: u32| Segment { from: at(k), to: at(k + 1), owner, piece: k };
-            pieces.extend((0..WAY_OUT_PIECES).map(piece));
+            half_widths_m.push(half_width_m);
+            let length_m = edges.ray_m(end, out, WAY_OUT_M).unwrap_or(WAY_OUT_M);
+            let count = (length_m / WAY_OUT_PIECE_M).ceil() as u32;
+            let at = |k: u32| end + out * length_m.min(WAY_OUT_PIECE_M * f64::from(k));
+            pieces.extend((0..count).map(|k| Segment { from: at(k), to: at(k + 1), owner, piece: k }));
         }
-        Self { ends, pieces: SegmentIndex::new(pieces) }
+        Self { half_widths_m, pieces: SegmentIndex::new(pieces) }
     }
 
-    /// The ends of the lanes in whose width the point would lie, if they went on.
-    fn over(&self, point: Vec2) -> impl Iterator<Item = Vec2> {
-        self.pieces.near(point, LANE_NEAR_M).filter_map(move |piece| {
-            let (end, half_width_m) = *self.ends.get(piece.owner as usize)?;
-            ((piece.foot(point) - point).norm() <= half_width_m).then_some(end)
+    /// The point lies in the width of one of these lanes, if it went on.
+    fn lead_over(&self, point: Vec2) -> bool {
+        self.pieces.near(point, LANE_NEAR_M).any(|piece| {
+            let half_width_m = self.half_widths_m.get(piece.owner as usize);
+            half_width_m.is_some_and(|half_width_m| (piece.foot(point) - point).norm() <= *half_width_m)
         })
     }
 }
