@@ -51,6 +51,18 @@ pub(crate) struct RecordedAgent {
 }
 
 impl RecordedAgent {
+    /// The car that recorded, of this length, width and height in metres; `None` where it was nowhere.
+    pub fn ego(size_m: [f64; 3], samples: Vec<RecordedState>) -> Option<Self> {
+        (!samples.is_empty()).then(|| Self {
+            id: EGO.to_owned(),
+            agent_type: AgentType::Vehicle,
+            subtype: Subtype::Car,
+            role: Some(EGO.to_owned()),
+            size_m: size_m.map(Some),
+            samples,
+        })
+    }
+
     /// The box, with the usual size if the file gives none, and whether it does.
     fn size(&self) -> (Size, bool) {
         let usual = Size::default_for(self.agent_type, self.subtype);

@@ -5,7 +5,7 @@ use super::log::{LogPose, LogScene, LogTables};
 use super::map::{CityMap, LaneKey};
 use crate::around::{Around, Chosen, MapPart};
 use crate::cut::cut;
-use crate::format::{EGO, ImportOptions, NET_POINTER};
+use crate::format::{ImportOptions, NET_POINTER};
 use crate::problem::{ImportWarning, Imported, ReadError};
 use crate::recording::{RecordedAgent, RecordedLight, RecordedState, Recording, Said, reach};
 use crate::refusals::{self, what};
@@ -89,17 +89,7 @@ impl NuPlan {
             });
             user.samples.push(state(time_s(*sweep), &seen.pose));
         }
-        let mut all = Vec::new();
-        if !ego.is_empty() {
-            all.push(RecordedAgent {
-                id: EGO.to_owned(),
-                agent_type: AgentType::Vehicle,
-                subtype: Subtype::Car,
-                role: Some(EGO.to_owned()),
-                size_m: EGO_SIZE_M.map(Some),
-                samples: ego,
-            });
-        }
+        let mut all: Vec<RecordedAgent> = RecordedAgent::ego(EGO_SIZE_M, ego).into_iter().collect();
         all.extend(users.into_values());
         let tags = || log.tags.within(&scene.sweeps).iter().map(|(_, tag)| tag);
         let kinds: BTreeSet<&str> = tags().map(|tag| tag.kind.as_str()).collect();

@@ -4,7 +4,7 @@ use super::map::Expansion;
 use super::tables::{SceneRow, Tables};
 use crate::around::MapPart;
 use crate::cut::cut;
-use crate::format::{EGO, ImportOptions};
+use crate::format::ImportOptions;
 use crate::frame::yaw;
 use crate::problem::{Imported, ReadError};
 use crate::recording::{RecordedAgent, RecordedState, Recording, Said, reach};
@@ -97,17 +97,7 @@ impl NuScenes {
                 user.samples.push(state(seen.translation, yaw(seen.rotation)));
             }
         }
-        let mut all = Vec::new();
-        if !ego.is_empty() {
-            all.push(RecordedAgent {
-                id: EGO.to_owned(),
-                agent_type: AgentType::Vehicle,
-                subtype: Subtype::Car,
-                role: Some(EGO.to_owned()),
-                size_m: EGO_SIZE_M.map(Some),
-                samples: ego,
-            });
-        }
+        let mut all: Vec<RecordedAgent> = RecordedAgent::ego(EGO_SIZE_M, ego).into_iter().collect();
         all.extend(users.into_values());
         let mut said = Said {
             name: row.name.clone(),
