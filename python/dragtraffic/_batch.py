@@ -29,19 +29,23 @@ def batch(
 ) -> dict[str, Any]:
     """Makes the chunks of a plan that are not in the folder yet, and says how far the batch is.
 
-    ``plan`` is the file of a plan, ``output`` the folder of results: docs/batch.md describes both. Without ``client`` all
-    cores of this machine work. With a client of Dask (``pip install dragtraffic[dask]``) its workers do, each chunk is a
-    task with one thread; they have this package, and see the folder under the same path. A call that was interrupted goes
-    on when it is made again, also on another cluster. Other processes may work on the same folder.
+    ``plan`` is the file of a plan, ``output`` the folder of results or its URL in an object store: docs/batch.md
+    describes both. Without ``client`` all cores of this machine work. With a client of Dask (``pip install
+    dragtraffic[dask]``) its workers do, each chunk is a task with one thread; they have this package, and see the folder
+    under the same path. A call that was interrupted goes on when it is made again, also on another cluster. Other
+    processes may work on the same folder.
 
     Returns:
-        ``chunks``, ``chunks_done``, ``units``, ``units_done``, ``scenes`` and ``tally`` (outcomes and problem codes).
+        ``chunks``, ``chunks_done``, ``shares_due`` (those with a chunk that is not there), ``units``, ``units_done``,
+        ``scenes`` and ``tally`` (outcomes and problem codes).
 
     Raises:
         DragTrafficError: the plan or an input cannot be read, the folder has another batch, a chunk cannot be written, or
             is there with other bytes (``not-reproducible``), or the scheduler was lost.
     """
-    folder = os.path.abspath(output)
+    folder = os.fspath(output)
+    if "://" not in folder:
+        folder = os.path.abspath(folder)
     if client is None:
         _command("batch", os.fspath(plan), "-o", folder)
     else:
@@ -59,8 +63,10 @@ def _spread(client: Client, plan: str, folder: str) -> None:
     """Has the workers of a cluster make the chunks that are not there; the first one that fails ends the call."""
     from distributed import as_completed
 
-    count = min(int(_status(folder)["chunks"]), _MOST_SHARES)
-    tasks = client.map(_chunk, _due(folder, count), plan=plan, folder=folder, count=count, pure=False)
+    status = _status(folder)
+    count = min(int(status["chunks"]), _MOST_SHARES)
+    due = sorted({int(share) % count for share in status["shares_due"]})
+    tasks = client.map(_chunk, due, plan=plan, folder=folder, count=count, pure=False)
     finished = as_completed(tasks, with_results=True)
     try:
         # A scheduler that is lost cancels tasks, but not all of them: the rest would be waited for without end. The
@@ -75,16 +81,6 @@ def _spread(client: Client, plan: str, folder: str) -> None:
     finally:
         if client.status == "running":
             client.cancel(tasks)
-
-
-def _due(folder: str, count: int) -> list[int]:
-    """Shares with a chunk that is not there. Those of a search have several chunks: all of them are looked at."""
-    record = json.loads(Path(folder, "plan.json").read_bytes())
-    if record["plan"].get("sampling", {}).get("method") == "search" or count == _MOST_SHARES:
-        return list(range(count))
-    tables = Path(folder, "chunks").glob("*.parquet")
-    done = {int(table.name.split("-")[0]) for table in tables}
-    return [number for number in range(count) if number not in done]
 
 
 def _chunk(share: int, plan: str, folder: str, count: int) -> None:

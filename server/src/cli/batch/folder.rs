@@ -1,69 +1,74 @@
-//! The folder of results: where each file is, and how a chunk gets there.
+//! The folder of results: what each file is called, and how a chunk gets there.
 
-use crate::cli::{Exit, Failure, output};
+use super::store::ResultStore;
+use crate::cli::{Exit, Failure};
 use batch::catalogue::CatalogueScene;
 use batch::chunk::BatchChunk;
 use batch::row::{self, BatchRow, RowName};
 use batch::unit::UnitList;
-use formats::folder::{self, Creation};
+use formats::folder::Creation;
 use formats::native;
 use scene::{ContentHash, Scene};
+use std::collections::BTreeSet;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::ops::Deref;
+use std::path::Path;
+
+/// The document of the batch.
+pub const RECORD: &str = "plan.json";
+/// Folder of the chunks.
+const CHUNKS: &str = "chunks";
+/// Folder of the scenes.
+const SCENES: &str = "scenes";
+/// How the names of the tables end.
+const TABLE: &str = ".parquet";
 
 /// Compression level of the scenes.
 const ZSTD_LEVEL: i32 = 3;
 /// Largest document of a scene, bytes.
 const MOST_SCENE: usize = 1 << 30;
 
-/// A folder of results.
-pub struct BatchFolder(PathBuf);
+/// A folder of results, on this machine or in an object store.
+pub struct BatchFolder(ResultStore);
+
+impl Deref for BatchFolder {
+    type Target = ResultStore;
+
+    fn deref(&self) -> &ResultStore {
+        &self.0
+    }
+}
 
 impl BatchFolder {
-    /// At a path.
+    /// At a path or a URL.
     ///
     /// # Errors
-    /// Exit 2 when a file is there.
-    pub fn new(path: &Path) -> Result<Self, Failure> {
-        if path.exists() && !path.is_dir() {
-            return Err(Failure::usage(format!("{}: a folder expected, this is a file", path.display())));
-        }
-        Ok(Self(path.to_path_buf()))
-    }
-
-    /// As messages name it.
-    pub fn shown(&self) -> String {
-        self.0.display().to_string()
-    }
-
-    /// `plan.json`.
-    pub fn record(&self) -> PathBuf {
-        self.0.join("plan.json")
-    }
-
-    /// A file beside it.
-    pub fn at(&self, name: &str) -> PathBuf {
-        self.0.join(name)
+    /// Exit 2 when a file is there, or the URL names no object store.
+    pub fn new(place: &Path) -> Result<Self, Failure> {
+        ResultStore::new(place).map(Self)
     }
 
     /// The table of a chunk. It is written last: with it the chunk is there.
-    pub fn table(&self, chunk: &str) -> PathBuf {
-        self.0.join(format!("chunks/{chunk}.parquet"))
+    fn table(chunk: &str) -> String {
+        format!("{CHUNKS}/{chunk}{TABLE}")
     }
 
     /// The kept results of a chunk.
-    pub fn cases(&self, chunk: &str) -> PathBuf {
-        self.0.join(format!("chunks/{chunk}.jsonl"))
+    pub fn cases(chunk: &str) -> String {
+        format!("{CHUNKS}/{chunk}.jsonl")
     }
 
     /// The motions of the kept results of a chunk.
-    pub fn motions(&self, chunk: &str) -> PathBuf {
-        self.0.join(format!("chunks/{chunk}.motions.jsonl"))
+    pub fn motions(chunk: &str) -> String {
+        format!("{CHUNKS}/{chunk}.motions.jsonl")
     }
 
-    /// Is a chunk there?
-    pub fn has(&self, chunk: &str) -> bool {
-        self.table(chunk).exists()
+    /// A chunk is there.
+    ///
+    /// # Errors
+    /// Exit 3 when the store does not say.
+    pub fn has_chunk(&self, chunk: &str) -> Result<bool, Failure> {
+        self.has(&Self::table(chunk))
     }
 
     /// The rows of a chunk that is there.
@@ -71,9 +76,9 @@ impl BatchFolder {
     /// # Errors
     /// Exit 3 for a table that cannot be read.
     pub fn rows(&self, chunk: &str) -> Result<Vec<BatchRow>, Failure> {
-        let path = self.table(chunk);
-        let bytes = output::read(&path)?;
-        row::read(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+        let table = Self::table(chunk);
+        row::read(&self.read(&table)?)
+            .map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(&table))))
     }
 
     /// The names of the rows of a chunk that is there.
@@ -81,32 +86,28 @@ impl BatchFolder {
     /// # Errors
     /// Exit 3 for a table that cannot be read.
     pub fn names(&self, chunk: &str) -> Result<Vec<RowName>, Failure> {
-        let path = self.table(chunk);
-        let bytes = output::read(&path)?;
-        row::names(&bytes).map_err(|error| Failure::input(format!("{}: {error}", path.display())))
+        let table = Self::table(chunk);
+        row::names(&self.read(&table)?)
+            .map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(&table))))
     }
 
     /// Each of these chunks with its name, and whether it is there.
+    ///
+    /// # Errors
+    /// Exit 3 when the folder cannot be listed.
     pub fn look_up(
         &self,
         chunks: impl Iterator<Item = BatchChunk>,
         list: &UnitList<'_>,
-    ) -> impl Iterator<Item = (BatchChunk, String, bool)> {
-        chunks.map(|chunk| {
+    ) -> Result<impl Iterator<Item = (BatchChunk, String, bool)>, Failure> {
+        let files = self.list(CHUNKS)?;
+        let tables: BTreeSet<String> =
+            files.iter().filter_map(|name| Some(name.strip_suffix(TABLE)?.to_owned())).collect();
+        Ok(chunks.map(move |chunk| {
             let name = chunk.name(list);
-            let is_there = self.has(&name);
+            let is_there = tables.contains(&name);
             (chunk, name, is_there)
-        })
-    }
-
-    /// Creates a file, unless it is there.
-    ///
-    /// # Errors
-    /// Exit 1 when it cannot be written.
-    pub fn create(&self, path: &Path, bytes: &[u8]) -> Result<Creation, Failure> {
-        let failed =
-            |error: std::io::Error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()));
-        folder::create(path, bytes).map_err(failed)
+        }))
     }
 
     /// Puts a chunk into the folder: its kept results with their motions, then its table.
@@ -114,11 +115,12 @@ impl BatchFolder {
     /// # Errors
     /// Exit 1 when a file of it is there with other bytes, or cannot be written.
     pub fn put(&self, chunk: &str, table: &[u8], cases: &[u8], motions: &[u8]) -> Result<(), Failure> {
-        let files = [(self.cases(chunk), cases), (self.motions(chunk), motions), (self.table(chunk), table)];
-        for (path, bytes) in files {
-            if self.create(&path, bytes)? == Creation::Different {
-                let path = path.display();
-                return Err(not_reproducible(&format!("{path} is there with other bytes")));
+        let files =
+            [(Self::cases(chunk), cases), (Self::motions(chunk), motions), (Self::table(chunk), table)];
+        for (name, bytes) in files {
+            if self.create(&name, bytes)? == Creation::Different {
+                let file = self.shown_at(&name);
+                return Err(not_reproducible(&format!("{file} is there with other bytes")));
             }
         }
         Ok(())
@@ -131,10 +133,10 @@ impl BatchFolder {
     pub fn put_scene(&self, scene: &Scene) -> Result<String, Failure> {
         let document = native::write(scene);
         let hash = ContentHash::of_bytes(&document).hex();
-        let path = self.scene(&hash);
+        let name = scene_file(&hash);
         // The name says the content.
-        if !path.exists() {
-            self.create(&path, &zstd::bulk::compress(&document, ZSTD_LEVEL)?)?;
+        if !self.has(&name)? {
+            self.create(&name, &zstd::bulk::compress(&document, ZSTD_LEVEL)?)?;
         }
         Ok(hash)
     }
@@ -144,9 +146,9 @@ impl BatchFolder {
     /// # Errors
     /// Exit 3 when it is not there, or is another one.
     pub fn read_scene(&self, entry: &CatalogueScene) -> Result<Scene, Failure> {
-        let path = self.scene(&entry.sha256);
-        let wrong = |reason: String| Failure::input(format!("{}: {reason}", path.display()));
-        let packed = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
+        let name = scene_file(&entry.sha256);
+        let wrong = |reason: String| Failure::input(format!("{}: {reason}", self.shown_at(&name)));
+        let packed = self.read(&name)?;
         let mut unpacked = Vec::new();
         let decoder = zstd::stream::read::Decoder::new(packed.as_slice());
         decoder
@@ -158,22 +160,17 @@ impl BatchFolder {
         native::read(&unpacked).map_err(|error| wrong(error.to_string()))
     }
 
-    fn scene(&self, hash: &str) -> PathBuf {
-        self.0.join(format!("scenes/{hash}.json.zst"))
-    }
-
     /// Removes what killed processes left half written.
     ///
     /// # Errors
     /// Exit 1 when the folder cannot be read.
-    pub fn sweep(&self) -> Result<(), Failure> {
-        for part in [self.0.clone(), self.0.join("chunks"), self.0.join("scenes")] {
-            if part.is_dir() {
-                folder::sweep(&part)?;
-            }
-        }
-        Ok(())
+    pub fn sweep_all(&self) -> Result<(), Failure> {
+        self.sweep(&["", CHUNKS, SCENES])
     }
+}
+
+fn scene_file(hash: &str) -> String {
+    format!("{SCENES}/{hash}.json.zst")
 }
 
 /// Two calls that should give equal bytes did not.

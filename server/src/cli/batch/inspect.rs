@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// Flags of `batch status`.
 #[derive(Args, Clone, Debug)]
 pub struct StatusArgs {
-    /// Folder of the results.
+    /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Print JSON.
@@ -31,7 +31,7 @@ pub struct StatusArgs {
 /// Flags of `batch verify`.
 #[derive(Args, Clone, Debug)]
 pub struct VerifyArgs {
-    /// Folder of the results.
+    /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Number of units to make again.
@@ -48,19 +48,26 @@ pub struct DoneChunks {
     pub done: Vec<(BatchChunk, String)>,
     /// Number of all.
     pub all: u64,
+    /// Numbers of the shares with a chunk that is not there.
+    pub due: BTreeSet<u64>,
 }
 
 impl DoneChunks {
     /// Of a folder.
-    pub fn of(folder: &BatchFolder, list: &UnitList<'_>) -> Self {
-        let (mut done, mut all) = (Vec::new(), 0);
-        for (chunk, name, is_there) in folder.look_up(list.chunks(), list) {
+    ///
+    /// # Errors
+    /// Exit 3 when it cannot be listed.
+    pub fn of(folder: &BatchFolder, list: &UnitList<'_>) -> Result<Self, Failure> {
+        let (mut done, mut all, mut due) = (Vec::new(), 0, BTreeSet::new());
+        for (chunk, name, is_there) in folder.look_up(list.chunks(), list)? {
             all += 1;
             if is_there {
                 done.push((chunk, name));
+            } else {
+                due.insert(chunk.share);
             }
         }
-        Self { done, all }
+        Ok(Self { done, all, due })
     }
 }
 
@@ -72,7 +79,7 @@ pub fn status(args: &StatusArgs) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
+    let chunks = DoneChunks::of(&folder, &list)?;
     let mut tally = OutcomeTally::default();
     for (_, name) in &chunks.done {
         folder.rows(name)?.iter().for_each(|row| tally.add(row));
@@ -81,7 +88,7 @@ pub fn status(args: &StatusArgs) -> Result<(), Failure> {
     if args.json {
         let status = json!({
             "scenes": record.scenes.len(), "units": units, "units_done": tally.units(),
-            "chunks": all, "chunks_done": done, "tally": tally,
+            "chunks": all, "chunks_done": done, "shares_due": chunks.due, "tally": tally,
         });
         return output::print(format!("{status:#}\n").as_bytes());
     }
@@ -105,7 +112,7 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let operations = common.operations_on(1)?;
     record.check(&folder, None, &operations.generator.hashes())?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
+    let chunks = DoneChunks::of(&folder, &list)?;
     let worker = UnitWorker::new(&folder, &record, &operations);
     let mut by_chunk: BTreeMap<usize, BTreeSet<u64>> = BTreeMap::new();
     for (chunk, unit) in sample(&chunks, args.units, args.seed) {
@@ -115,7 +122,7 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let check = |(at, units): &(usize, BTreeSet<u64>)| -> Result<usize, Failure> {
         let Some((chunk, name)) = chunks.done.get(*at) else { return Ok(0) };
         let rows = folder.rows(name)?;
-        let files = [output::read(&folder.cases(name))?, output::read(&folder.motions(name))?];
+        let files = [folder.read(&BatchFolder::cases(name))?, folder.read(&BatchFolder::motions(name))?];
         let texts = files.iter().map(|file| std::str::from_utf8(file).unwrap_or_default());
         let lines: BTreeSet<&str> = texts.flat_map(|text| text.split_inclusive('\n')).collect();
         let searches = searching::before(&folder, &list, chunk)?;

@@ -5,14 +5,13 @@ use super::inspect::DoneChunks;
 use super::record::BatchRecord;
 use super::tally::OutcomeTally;
 use crate::cli::values::whole;
-use crate::cli::{Common, Exit, Failure, output};
+use crate::cli::{Common, Failure};
 use batch::case::likeness::{self, CaseDigest};
 use batch::case::motion::CaseMotion;
 use batch::figures;
 use batch::row::{self, UnitOutcome};
 use batch::unit::UnitList;
 use clap::Args;
-use formats::files::Whole;
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
@@ -30,13 +29,17 @@ const FAULTS: [&str; 9] = [
     "harsh_braking",
     "harsh_steering",
 ];
+/// The table of the listed cases.
+const TABLE: &str = "cases.parquet";
+/// Their references, a line each.
+const REFERENCES: &str = "cases.jsonl";
 /// Distance of the actor from its recording.
 const OFF_LOG: &str = "actor.ade_m";
 
 /// Flags of `batch merge`.
 #[derive(Args, Clone, Debug)]
 pub struct MergeArgs {
-    /// Folder of the results.
+    /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// List at most N cases of each bucket, the hardest and the most realistic in turn, and no near copies.
@@ -74,7 +77,7 @@ pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
+    let chunks = DoneChunks::of(&folder, &list)?;
     let mut kept = KeptCases::default();
     for (_, name) in &chunks.done {
         kept.add(&folder, name)?;
@@ -88,26 +91,26 @@ pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
     lists.write_references()?;
     lists.write_table()?;
     let names: Vec<&String> = chunks.done.iter().map(|(_, name)| name).collect();
-    let (tally, table) = (&kept.tally, folder.at("cases.parquet"));
+    let tally = &kept.tally;
     let manifest = json!({
         "format": "dragtraffic.batch-manifest", "version": 1,
         "complete": chunks.done.len() as u64 == chunks.all,
         "units": list.len(), "units_done": tally.units(), "cases": cases, "distinct": distinct,
         "per_bucket": args.per_bucket, "listed": listed, "tally": tally, "chunks": names,
     });
-    output::write(Some(&folder.at("manifest.json")), format!("{manifest:#}\n").as_bytes(), true)?;
+    folder.write("manifest.json", format!("{manifest:#}\n").as_bytes())?;
     let of = if listed == cases { String::new() } else { format!("{listed} of ") };
     let units = tally.units();
     common.say(&format!(
         "{of}{cases} cases of {units} units, {distinct} without near copies: {}",
-        table.display()
+        folder.shown_at(TABLE)
     ));
     Ok(())
 }
 
 impl KeptCases {
     fn add(&mut self, folder: &BatchFolder, chunk: &str) -> Result<(), Failure> {
-        let motions = output::read(&folder.motions(chunk))?;
+        let motions = folder.read(&BatchFolder::motions(chunk))?;
         let motions =
             motions.split(|byte| *byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok());
         let mut relative: BTreeMap<String, Vec<Option<[i32; 2]>>> =
@@ -138,13 +141,11 @@ impl ListedCases<'_> {
 
     /// Writes `cases.jsonl`, chunk after chunk.
     fn write_references(&self) -> Result<(), Failure> {
-        let path = self.folder.at("cases.jsonl");
-        let failed =
-            |error: std::io::Error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()));
-        let mut file = Whole::create(&path).map_err(failed)?;
+        let failed = |error: std::io::Error| self.folder.unwritten(REFERENCES, &error);
+        let mut file = self.folder.writer(REFERENCES)?;
         let mut case = 0;
         for (_, name) in &self.chunks.done {
-            for line in output::read(&self.folder.cases(name))?.split_inclusive(|byte| *byte == b'\n') {
+            for line in self.folder.read(&BatchFolder::cases(name))?.split_inclusive(|byte| *byte == b'\n') {
                 if self.has(case) {
                     file.write_all(line).map_err(failed)?;
                 }
@@ -180,6 +181,6 @@ impl ListedCases<'_> {
         });
         let table = row::case_table(groups, figures::names())?;
         failure.map_or(Ok(()), Err)?;
-        output::write(Some(&self.folder.at("cases.parquet")), &table, true)
+        self.folder.write(TABLE, &table)
     }
 }

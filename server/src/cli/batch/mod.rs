@@ -1,6 +1,7 @@
 //! `dragtraffic batch`: a plan of scenes, situations and seeds to a folder of results, in chunks that any number of
 //! processes work on without knowing each other.
 
+mod cloud;
 mod folder;
 mod inspect;
 mod merge;
@@ -11,6 +12,7 @@ mod report;
 mod run;
 mod scenes;
 mod searching;
+mod store;
 mod tally;
 mod work;
 mod worker;
@@ -38,9 +40,9 @@ pub struct BatchRunArgs {
     /// Plan of the batch, TOML: scenes, situations, seeds. `dragtraffic schema batch` prints its JSON Schema.
     #[arg(value_name = "PLAN.toml", required = true)]
     plan: Option<PathBuf>,
-    /// Folder of the results. The same command continues an interrupted run: chunks that are there are not made
-    /// again.
-    #[arg(short, long, value_name = "DIR", required = true)]
+    /// Folder of the results, or a URL in an object store: s3://, gs://, az://. The same command continues an
+    /// interrupted run: chunks that are there are not made again.
+    #[arg(short, long, value_name = "DIR|URL", required = true)]
     output: Option<PathBuf>,
     /// Work on one of N equal shares of the chunks: I/N, I from 0 to N - 1. Default: the share of a Slurm array
     /// or of an Indexed Job of Kubernetes, else all.

@@ -1,6 +1,6 @@
 //! `plan.json`: what a folder of results is about. It is written once, before the first chunk.
 
-use super::folder::BatchFolder;
+use super::folder::{BatchFolder, RECORD};
 use crate::cli::{Exit, Failure};
 use batch::catalogue::CatalogueScene;
 use batch::plan::BatchPlan;
@@ -49,12 +49,8 @@ impl BatchRecord {
     /// # Errors
     /// Exit 3 for a file that is none.
     pub fn read(folder: &BatchFolder) -> Result<Option<Self>, Failure> {
-        let path = folder.record();
-        let wrong = |reason: String| Failure::input(format!("{}: {reason}", path.display()));
-        let bytes = match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            result => result.map_err(|error| wrong(error.to_string()))?,
-        };
+        let wrong = |reason: String| Failure::input(format!("{}: {reason}", folder.shown_at(RECORD)));
+        let Some(bytes) = folder.find(RECORD)? else { return Ok(None) };
         let record: Self = serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))?;
         if record.format == FORMAT && record.version == 1 {
             Ok(Some(record))
@@ -79,7 +75,7 @@ impl BatchRecord {
     pub fn write(&self, folder: &BatchFolder) -> Result<(), Failure> {
         let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
         bytes.push(b'\n');
-        match folder.create(&folder.record(), &bytes)? {
+        match folder.create(RECORD, &bytes)? {
             Creation::New | Creation::Equal => Ok(()),
             Creation::Different => Err(another(folder, "another plan or other inputs")),
         }

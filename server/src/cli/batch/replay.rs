@@ -23,7 +23,7 @@ const LEAST_DIGITS: usize = 8;
 /// Flags of `replay`.
 #[derive(Args, Clone, Debug)]
 pub struct ReplayArgs {
-    /// Folder of the results of a batch.
+    /// Folder of the results of a batch, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Results, each by its code or by its unit: the id, or the first 8 digits or more.
@@ -60,7 +60,7 @@ pub fn replay(args: &ReplayArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
+    let chunks = DoneChunks::of(&folder, &list)?;
     let wanted = wanted(args, &folder, &chunks)?;
     let many = match args.output.as_deref() {
         Some(path) if args.kept || args.units.len() > 1 || Folder::named(path) => {

@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// Flags of `batch report`.
 #[derive(Args, Clone, Debug)]
 pub struct ReportArgs {
-    /// Folder of the results.
+    /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Kept results that make a bucket full.
@@ -31,6 +31,9 @@ pub struct ReportArgs {
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, 100_000))]
     cases: u64,
 }
+
+/// The page of the cases.
+const PAGE: &str = "index.html";
 
 /// Order of the cases in which those beyond the limit leave the page: the bits of the time to collision, which rise with
 /// it, then the place of the row.
@@ -44,7 +47,7 @@ pub fn report(args: &ReportArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
     let list = UnitList::new(&record.plan, &record.scenes, &record.engine);
-    let chunks = DoneChunks::of(&folder, &list);
+    let chunks = DoneChunks::of(&folder, &list)?;
     let filter = record.plan.filter.as_deref().map(FigureFilter::parse).transpose();
     let filter = filter.map_err(|reason| Failure::input(format!("where: {reason}")))?;
     let conditions = filter.map_or_else(Vec::new, |filter| filter.parts());
@@ -89,10 +92,10 @@ pub fn report(args: &ReportArgs, common: &Common) -> Result<(), Failure> {
     let coverage = CoverageDocument::new(&table, conditions, args.full, complete);
     let mut json = serde_json::to_vec_pretty(&coverage).unwrap_or_default();
     json.push(b'\n');
-    output::write(Some(&folder.at("coverage.json")), &json, true)?;
+    folder.write("coverage.json", &json)?;
     let page = CasePage { units, kept, cases, motions, scenes, coverage: &coverage, table: &table };
-    output::write(Some(&folder.at("index.html")), &page.bytes(), true)?;
-    common.say(&format!("{kept} cases of {units} units: {}", folder.at("index.html").display()));
+    folder.write(PAGE, &page.bytes())?;
+    common.say(&format!("{kept} cases of {units} units: {}", folder.shown_at(PAGE)));
     output::print(coverage.text().as_bytes())
 }
 
@@ -152,7 +155,7 @@ fn motions(folder: &BatchFolder, chunks: &DoneChunks, cases: &[PageCase]) -> Res
         cases.iter().enumerate().map(|(i, case)| (case.unit.as_str(), i)).collect();
     let mut lines = vec!["null".to_owned(); cases.len()];
     for (_, name) in &chunks.done {
-        let bytes = output::read(&folder.motions(name))?;
+        let bytes = folder.read(&BatchFolder::motions(name))?;
         for line in String::from_utf8_lossy(&bytes).lines() {
             // The unit is the first member of a line.
             let place = line.split('"').nth(3).and_then(|unit| places.get(unit));

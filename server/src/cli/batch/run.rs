@@ -50,7 +50,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     let worker = UnitWorker::new(&folder, &record, &operations);
     let (mut chunks, mut all, mut due, mut units) = (Vec::new(), 0, 0, 0);
     let of_share = list.chunks().filter(|chunk| shard.has(chunk.share));
-    for (chunk, name, is_there) in folder.look_up(of_share, &list) {
+    for (chunk, name, is_there) in folder.look_up(of_share, &list)? {
         all += 1;
         if !is_there {
             due += 1;
@@ -70,7 +70,7 @@ pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
         work.make(&chunks, &|number| list.unit(number))?;
     }
     let tally = work.tally();
-    folder.sweep()?;
+    folder.sweep_all()?;
     let spent = clock::monotonic().saturating_sub(began);
     if tally.units() > 0 {
         common.say(&summary(&tally, spent, worker.engine_time(), workers));

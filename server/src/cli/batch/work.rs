@@ -73,7 +73,9 @@ impl<'a> ChunkWork<'a> {
         let stopped = AtomicBool::new(false);
         let missing = |number: &u64| Failure::input(format!("{}: no unit {number}", folder.shown()));
         let end = |(open, number): &(&OpenChunk, u64)| {
-            if stopped.load(Ordering::Relaxed) || *open.taken.get_or_init(|| folder.has(&open.name)) {
+            if stopped.load(Ordering::Relaxed)
+                || *open.taken.get_or_init(|| folder.has_chunk(&open.name).unwrap_or(false))
+            {
                 return None;
             }
             Some(unit(*number).ok_or_else(|| missing(number)).and_then(|unit| worker.end(&unit)))
