@@ -10,7 +10,6 @@ pub mod program;
 pub mod random;
 pub mod requests;
 pub mod rooms;
-pub mod s3;
 pub mod scenes;
 #[cfg(target_os = "linux")]
 pub mod soak;

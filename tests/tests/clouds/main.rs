@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
+mod s3;
+
 use dragtraffic_tests::program::program;
-use dragtraffic_tests::s3::{ObjectStore, WriteFault};
 use dragtraffic_tests::scenes::street;
+use s3::{ObjectStore, WriteFault};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
