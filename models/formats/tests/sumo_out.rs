@@ -3,7 +3,7 @@
 
 use formats::{ExportOptions, ImportOptions, registry};
 use scene::map::{Lane, LaneType};
-use scene::{STEP_S, Scene, SignalState, Vec2};
+use scene::{STEP_S, Scene, Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read};
 
@@ -139,5 +139,39 @@ fn lights_last_as_long_as_motion() {
         assert_eq!((phases.len(), states), (2, BTreeSet::from(["r", "g"])));
         assert!((lengths_s[0] - last as f64 * STEP_S).abs() < 1e-9, "{lengths_s:?}");
         assert!((lengths_s[1] - STEP_S).abs() < 1e-9, "{lengths_s:?}");
+    }
+}
+
+/// A lane round a circle that leads into itself, with a light, alone and with roads that lead into it and out of it.
+#[test]
+fn a_light_of_a_ring_comes_back_or_is_said_to_be_lost() {
+    use scene::map::LaneMap;
+    let around = |i: i32| scene::geometry::direction(f64::from(i) * std::f64::consts::TAU / 60.0) * 40.0;
+    let mut ring = Lane::street("1", (0..=60).map(around).collect::<Vec<Vec2>>());
+    (ring.successors, ring.predecessors) = (vec!["1".into()], vec!["1".into()]);
+    let beside =
+        |id: &str, from: f64, to: f64| Lane::street(id, vec![Vec2::new(40.0, from), Vec2::new(40.0, to)]);
+    let mut into = beside("2", -60.0, 0.0);
+    into.successors.push("1".into());
+    let mut out_of = beside("3", 0.0, 60.0);
+    out_of.predecessors.push("1".into());
+    for others in [vec![], vec![into.clone()], vec![out_of.clone()], vec![into, out_of]] {
+        let count = others.len();
+        let lanes = [vec![ring.clone()], others].concat();
+        let mut scene = Scene::bare("ring", LaneMap { lanes, ..LaneMap::default() }, Vec::new());
+        scene.time.steps = 91;
+        let runs = vec![(0, SignalState::Go), (40, SignalState::Stop)];
+        scene.signals = vec![Signal { lane: "1".into(), stop: Some(around(0)), stop_z_m: None, runs }];
+        let file = registry::by_id("sumo-net").unwrap().export(&[&scene], &ExportOptions::default()).unwrap();
+        assert!(file.losses.iter().all(|loss| loss.code != "no-signals"), "{count} others");
+        let list = registry::import(&file.bytes, "a.net.xml", "auto", &ImportOptions::default()).unwrap();
+        let (again, _) = list.into_iter().next().unwrap().unwrap();
+        assert_eq!(again.signals.len(), 1, "{count} others");
+        let shown = [0, 39, 40, 90].map(|step| again.signals[0].at(step));
+        assert_eq!(shown, [SignalState::Go, SignalState::Go, SignalState::Stop, SignalState::Stop]);
+        // A second light of the lane has no place in the network.
+        scene.signals.push(scene.signals[0].clone());
+        let file = registry::by_id("sumo-net").unwrap().export(&[&scene], &ExportOptions::default()).unwrap();
+        assert!(file.losses.iter().any(|loss| loss.code == "no-signals"), "{count} others");
     }
 }

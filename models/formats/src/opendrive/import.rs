@@ -96,7 +96,7 @@ pub(crate) fn read_with_roads(
         rotation_rad: wrap_angle(turn_rad),
         crs: file.projection,
     };
-    let roads = RoadPlaces::of(network, file.origin, frame.middle);
+    let roads = RoadPlaces::of(network, file.origin, frame.middle, ruled.lights);
     Ok((MapRead { name, map: map.into(), signals, origin, warnings, part }, roads))
 }
 

@@ -9,8 +9,21 @@ const BESIDE_M: f64 = 0.5;
 /// A place is on a road if it lies within this of it, metres.
 const ON_ROAD_M: f64 = 20.0;
 
+/// A light of a lane, as scenarios name it.
+#[derive(Debug)]
+pub(crate) struct RoadLight {
+    /// Of its `<signal>`; real files repeat them.
+    pub id: String,
+    /// Id of the lane in the map.
+    pub lane: String,
+    /// Where to stop, in the frame of the map.
+    pub stop: Vec2,
+}
+
 /// The roads of a map, about its origin.
 pub(crate) struct RoadPlaces {
+    /// In the order of the file.
+    pub lights: Vec<RoadLight>,
     network: RoadNetwork,
     /// Origin of the network in the file, and of the map in the network.
     origin: Vec2,
@@ -19,14 +32,14 @@ pub(crate) struct RoadPlaces {
 }
 
 impl RoadPlaces {
-    pub fn of(network: RoadNetwork, origin: Vec2, middle: Vec2) -> Self {
+    pub fn of(network: RoadNetwork, origin: Vec2, middle: Vec2, lights: Vec<RoadLight>) -> Self {
         let mut lanes: HashMap<(usize, i32), Vec<LaneId>> = HashMap::new();
         for lane in network.lanes() {
             if let Some(at) = network.road_lane(lane.id) {
                 lanes.entry((at.road.0, at.od_id)).or_default().push(lane.id);
             }
         }
-        Self { network, origin, middle, lanes }
+        Self { lights, network, origin, middle, lanes }
     }
 
     /// A place in the coordinates of the file.

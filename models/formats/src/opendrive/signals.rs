@@ -2,12 +2,13 @@
 
 use super::lanes::Found;
 use super::objects;
+use super::places::RoadLight;
 use super::sections::NetworkFrame;
 use crate::lights::{SignalHead, heading_at};
 use scene::map::{LaneMap, StopSign};
 use scene::{Vec2, geometry::polyline::Polyline};
 use std::collections::HashMap;
-use xodr::{ControllerId, LaneId, Provenance, RoadNetwork, Signal};
+use xodr::{ControllerId, LaneId, Provenance, RoadNetwork, Signal, SignalId};
 
 /// Type of a stop line in the German catalogue, on which OpenDRIVE's own leans.
 pub(super) const STOP_LINE: &str = "294";
@@ -41,6 +42,8 @@ pub(super) fn is_stop_sign(kind: Option<&str>, name: Option<&str>) -> bool {
 #[derive(Debug, Default)]
 pub(super) struct LaneControls {
     pub heads: Vec<SignalHead>,
+    /// Every light of every lane, by its id in the file.
+    pub lights: Vec<RoadLight>,
     pub signs: Vec<StopSign>,
     /// Lights that no lane of the map obeys.
     pub unused: usize,
@@ -60,6 +63,8 @@ pub(super) fn find(
     let lines = stop_lines(network, frame, found, &paths);
     let order = controllers(provenance);
     let junctions = junctions(network);
+    let names: HashMap<SignalId, &str> =
+        provenance.signals.iter().map(|written| (written.signal, written.od_id.as_str())).collect();
     let mut ruled = LaneControls::default();
     let mut taken = vec![false; map.lanes.len()];
     for signal in network.signals().iter().filter(|signal| !signal.invalidated) {
@@ -77,11 +82,16 @@ pub(super) fn find(
         }
         ruled.unused += usize::from(lanes.is_empty());
         for (origin, lane) in lanes {
-            if signal.kind == WALKERS || std::mem::replace(&mut taken[lane], true) {
+            if signal.kind == WALKERS {
                 continue;
             }
             let path = &paths[lane];
             let stop = stop(signal, frame, path, map.lanes[lane].interpolating, lines.get(&lane));
+            let name = names.get(&signal.id).copied().unwrap_or_default().to_owned();
+            ruled.lights.push(RoadLight { id: name, lane: map.lanes[lane].id.clone(), stop });
+            if std::mem::replace(&mut taken[lane], true) {
+                continue;
+            }
             let junction =
                 junctions.get(&origin).cloned().unwrap_or_else(|| format!("lane {}", map.lanes[lane].id));
             let group = signal.controllers.iter().find_map(|c| order.get(c)).cloned();

@@ -45,8 +45,8 @@ impl Format for OpenScenario {
             takes_net: true,
             notes: "XML 1.2 with its OpenDRIVE map: every road user follows its track to the tenth of a \
                  second, comes and leaves when it does; lights by their states. In, 1.0 to 1.3, alone or in a \
-                 zip with map and catalogs: initial states, parameters, catalogs and polylines with times; \
-                 manoeuvres and lights are listed by their place.",
+                 zip with map and catalogs: initial states, parameters, catalogs, polylines with times and phases \
+                 of lights; manoeuvres are listed by their place.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_GENERATED,

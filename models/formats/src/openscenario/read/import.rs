@@ -2,18 +2,20 @@
 
 use super::entities::{Catalogs, Entity, entry};
 use super::files::ScenarioFiles;
+use super::lights::LightControllers;
 use super::motion::{MAX_POSES, MotionReader, Move, TracePose, When, deepest, named, when};
 use super::parameters::{Scope, attribute, number};
 use super::places::{Pose, ScenarioPlaces};
 use super::unread::Unread;
 use crate::format::{ImportOptions, MAP_TIMING, NET_POINTER, NOW_STEP, Scenes, one};
 use crate::frame::Frame;
-use crate::limits::MAX_STEPS;
+use crate::limits::{MAX_SIGNALS, MAX_STEPS};
 use crate::map_file::MapRead;
 use crate::opendrive::import::read_with_roads;
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, ReadError, code};
 use crate::recording::{RecordedAgent, RecordedState, Recording, Said};
 use crate::refusals::{self, tag, what};
+use crate::sentences;
 use crate::source::Source;
 use crate::tree::XmlNode;
 use crate::xml::{Scanner, XmlEvent};
@@ -104,6 +106,9 @@ struct OpenScenarioReader<'a> {
     scope: Scope,
     story: Scope,
     places: ScenarioPlaces,
+    /// Controllers of lights, and the place of their list.
+    controllers: LightControllers,
+    controllers_at: String,
     entities: Vec<Entity>,
     /// Positions at the start that wait for another road user's.
     waiting: Vec<(String, XmlNode, String)>,
@@ -131,6 +136,8 @@ impl<'a> OpenScenarioReader<'a> {
             scope: Scope::default(),
             story: Scope::default(),
             places: ScenarioPlaces::default(),
+            controllers: LightControllers::default(),
+            controllers_at: String::new(),
             entities: Vec::new(),
             waiting: Vec::new(),
             speeds_mps: HashMap::new(),
@@ -262,9 +269,13 @@ impl<'a> OpenScenarioReader<'a> {
     fn roads(&mut self, network: &XmlNode, place: &str) -> Result<(), ReadError> {
         let place = named(place, network);
         for child in network.children.iter().filter(|child| child.name() != "LogicFile") {
-            // An empty list says nothing; models of the ground are pictures of it.
-            if !child.children.is_empty() {
-                self.unread.push(&format!("{place}/{}", child.name()));
+            let way = format!("{place}/{}", child.name());
+            if child.name() == "TrafficSignals" {
+                self.controllers.read(child)?;
+                self.controllers_at = way;
+            } else if !child.children.is_empty() {
+                // An empty list says nothing; models of the ground are pictures of it.
+                self.unread.push(&way);
             }
         }
         let path = network.child("LogicFile").map_or("", |file| attribute(file, "filepath"));
@@ -280,7 +291,7 @@ impl<'a> OpenScenarioReader<'a> {
         };
         let (MapRead { map, origin, warnings, .. }, roads) = read?;
         self.said.map = map;
-        // Made lights would contradict the motion, and are left out.
+        // Made times of lights would contradict the motion: those of the scenario count.
         self.said.warnings.extend(warnings.into_iter().filter(|warning| warning.code != "signals-made"));
         self.frame = Some(Frame::of(&origin));
         self.said.origin = Some(origin);
@@ -440,6 +451,15 @@ impl<'a> OpenScenarioReader<'a> {
             }
             (true, None) => None,
         };
+        let steps = self.said.timing.map_or(0, |timing| timing.steps);
+        let span_s = last_s.max(steps as f64 * STEP_S);
+        let heads = self.places.roads.as_ref().map_or(&[][..], |roads| &roads.lights);
+        let at = &self.controllers_at;
+        let (lights, left_out) = self.controllers.lights(heads, span_s, at, &mut self.unread);
+        self.said.lights = lights;
+        let over =
+            || ImportWarning::new("signals-dropped", sentences::signals_over_limit(left_out, MAX_SIGNALS));
+        self.said.warnings.extend((left_out > 0).then(over));
         self.said.warnings.extend(self.unread.warning());
         Ok(Recording { said: self.said, users, futures: Vec::new() })
     }

@@ -4,6 +4,7 @@
 mod entities;
 mod files;
 mod import;
+mod lights;
 mod motion;
 mod parameters;
 mod places;
