@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Lights are told for so long at most, seconds.
 const LONGEST_S: f64 = 3600.0;
+/// Most references that are followed from one controller.
+const MOST_REFERENCES: usize = 100;
 /// Most changes of all lights together.
 const MAX_CHANGES: usize = 1_000_000;
 
@@ -99,28 +101,32 @@ impl LightControllers {
         let ruled: Vec<_> = ruled.filter(|(head, _)| lanes.insert(head.lane.as_str())).collect();
         let kept = ruled.len().min(MAX_SIGNALS);
         let most = MAX_CHANGES / kept.max(1);
+        let by_name: HashMap<&str, &LightController> =
+            self.list.iter().rev().map(|controller| (controller.name.as_str(), controller)).collect();
         let light = |(head, controller): &(&RoadLight, &LightController)| RecordedLight {
             lane: head.lane.clone(),
             stop: Some(head.stop),
-            states: controller.states(&head.id, self.begins_s(controller), span_s, most),
+            states: controller.states(&head.id, controller.begins_s(&by_name), span_s, most),
         };
         (ruled.iter().take(kept).map(light).collect(), ruled.len() - kept)
-    }
-
-    /// When a cycle of a controller begins: delays add up along the references.
-    fn begins_s(&self, controller: &LightController) -> f64 {
-        let mut begins_s = 0.0;
-        let mut at = Some(controller);
-        for _ in 0..=self.list.len().min(100) {
-            let Some(controller) = at.filter(|controller| !controller.reference.is_empty()) else { break };
-            begins_s += controller.delay_s;
-            at = self.list.iter().find(|other| other.name == controller.reference);
-        }
-        begins_s
     }
 }
 
 impl LightController {
+    /// When its cycle begins, seconds: delays add up along the references, which may lead in a circle.
+    fn begins_s(&self, by_name: &HashMap<&str, &Self>) -> f64 {
+        let (mut begins_s, mut at) = (0.0, self);
+        for _ in 0..MOST_REFERENCES {
+            if at.reference.is_empty() {
+                break;
+            }
+            begins_s += at.delay_s;
+            let Some(next) = by_name.get(at.reference.as_str()) else { break };
+            at = next;
+        }
+        begins_s
+    }
+
     /// What a light shows over a time from zero on, where it changes.
     fn states(&self, id: &str, begins_s: f64, span_s: f64, most: usize) -> Vec<(f64, SignalState)> {
         let cycle_s = self.phases.last().map_or(0.0, |phase| phase.end_s);
