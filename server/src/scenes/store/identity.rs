@@ -8,13 +8,16 @@ use std::sync::OnceLock;
 /// Endings of the files that SQLite keeps beside the store while it is open: a commit goes into the first one.
 const BESIDE: [&str; 2] = ["-wal", "-shm"];
 
+/// Disk and number of a file; `None` on systems without.
+type FileNumber = Option<(u64, u64)>;
+
 /// The files of a store by their names, and by their numbers on the disk where the system has them.
 #[derive(Debug)]
 pub struct FileIdentity {
     path: PathBuf,
-    number: Option<(u64, u64)>,
+    number: FileNumber,
     /// Those beside it, by the numbers that they had first.
-    beside: [(PathBuf, OnceLock<Option<(u64, u64)>>); 2],
+    beside: [(PathBuf, OnceLock<FileNumber>); 2],
 }
 
 impl FileIdentity {
@@ -51,13 +54,13 @@ impl FileIdentity {
 
 #[cfg(unix)]
 #[allow(clippy::unnecessary_wraps, reason = "other systems have no number")]
-fn number(path: &Path) -> io::Result<Option<(u64, u64)>> {
+fn number(path: &Path) -> io::Result<FileNumber> {
     use std::os::unix::fs::MetadataExt;
     let metadata = path.metadata()?;
     Ok(Some((metadata.dev(), metadata.ino())))
 }
 
 #[cfg(not(unix))]
-fn number(path: &Path) -> io::Result<Option<(u64, u64)>> {
+fn number(path: &Path) -> io::Result<FileNumber> {
     path.metadata().map(|_| None)
 }
