@@ -78,7 +78,6 @@ fn a_token_has_a_share_of_its_own_whatever_the_address() {
 #[test]
 fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
     let server = Server::start(&["--limit", "queue=0"]).unwrap();
-    server.wait_ready().unwrap();
     let pipelined =
         Request::new("POST", "/v1/generate").keep().json(&small("5")).bytes(server.address).repeat(20);
     let over = AtomicBool::new(false);

@@ -147,7 +147,7 @@ fn trouble_at_the_start_has_its_exit_code() {
 
 /// A small disk of its own; `None`, and why, where this may not be mounted.
 #[cfg(target_os = "linux")]
-fn small_disk(folder: &std::path::Path, size: &str) -> Option<SmallDisk> {
+fn small_disk(folder: &Path, size: &str) -> Option<SmallDisk> {
     let mount = std::process::Command::new("mount")
         .args(["-t", "tmpfs", "-o", &format!("size={size}"), "none"])
         .arg(folder)
