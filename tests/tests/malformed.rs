@@ -525,6 +525,19 @@ fn a_list_is_never_read_as_an_object_and_null_is_no_map() {
 }
 
 #[test]
+fn a_member_of_several_forms_says_which_it_takes() {
+    let server = Server::start(&[]).unwrap();
+    for (pointer, value, expected) in [
+        ("/agents", json!(5), "\"all\" or a list of ids of road users is expected"),
+        ("/agents", json!([null]), "\"all\" or a list of ids of road users is expected"),
+        ("/react", json!(null), "true, false or a list of ids of road users is expected"),
+    ] {
+        let refused = server.send(&with(pointer, value)).unwrap().json();
+        assert_eq!(refused["detail"], json!(format!("{pointer}: {expected}")));
+    }
+}
+
+#[test]
 fn names_and_notes_have_a_length() {
     let server = Server::start(&[]).unwrap();
     let named = |pointer: &str, length: usize| {

@@ -21,11 +21,11 @@ fn small(agent: &str) -> Value {
     json!({"scene_id": "demo-crossing", "agents": [agent], "score": false, "futures": "compact"})
 }
 
-/// Sends one request over and over on a connection of its own, without pause.
-fn pester(server: SocketAddr, over: &AtomicBool) {
-    let request = Request::new("POST", "/v1/generate").keep().json(&small("5")).bytes(server);
+/// Sends one request over and over on a connection of its own from an address, without pause.
+fn pester((from, request): (u8, &Request), server: SocketAddr, over: &AtomicBool) {
+    let request = request.bytes(server);
     while !over.load(Ordering::Relaxed) {
-        let stream = connect_from(2, server);
+        let stream = connect_from(from, server);
         let mut reader = BufReader::new(stream.try_clone().unwrap());
         let mut stream = stream;
         // The server ends a connection that it refuses to make room for others.
@@ -36,23 +36,43 @@ fn pester(server: SocketAddr, over: &AtomicBool) {
     }
 }
 
+/// How many of 40 drags are refused beside 60 connections from an address that repeat a request.
+fn refused_drags(server: &Server, neighbour: (u8, &Request), drag: &Request) -> usize {
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        (0..60).for_each(|_| drop(scope.spawn(|| pester(neighbour, server.address, &over))));
+        std::thread::sleep(Duration::from_secs(2));
+        let refused = (0..40).filter(|_| server.send(drag).unwrap().status != 200).count();
+        over.store(true, Ordering::Relaxed);
+        refused
+    })
+}
+
+fn drag(agent: &str) -> Request {
+    Request::new("POST", "/v1/generate").json(&small(agent))
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn sixty_connections_of_a_neighbour_leave_a_drag_its_turn() {
     let server = Server::with_demos().unwrap();
     server.wait_ready().unwrap();
-    let over = AtomicBool::new(false);
-    let busy = std::thread::scope(|scope| {
-        (0..60).for_each(|_| drop(scope.spawn(|| pester(server.address, &over))));
-        while server.metric("dragtraffic_queue_length{lane=\"quick\"}").unwrap() < 8.0 {
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        let drag = || server.post("/v1/generate", &small("6")).unwrap().status;
-        let busy = (0..40).filter(|_| drag() != 200).count();
-        over.store(true, Ordering::Relaxed);
-        busy
-    });
-    assert!(busy < 2, "{busy} of 40 drags were refused");
+    let refused = refused_drags(&server, (2, &drag("5").keep()), &drag("6"));
+    assert!(refused < 2, "{refused} of 40 drags were refused");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_token_has_a_share_of_its_own_whatever_the_address() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, [anna, berta]) = (folder.path().join("tokens"), ["a".repeat(32), "b".repeat(32)]);
+    std::fs::write(&file, format!("anna admin {anna}\nberta edit {berta}\n")).unwrap();
+    std::fs::set_permissions(&file, std::os::unix::fs::PermissionsExt::from_mode(0o600)).unwrap();
+    let server = Server::start(&["--token-file", file.to_str().unwrap()]).unwrap();
+    let of = |request: Request, token: &str| request.header("authorization", &format!("Bearer {token}"));
+    let greedy = of(drag("5").keep(), &anna);
+    let refused = refused_drags(&server, (1, &greedy), &of(drag("6"), &berta));
+    assert!(refused < 2, "{refused} of 40 drags were refused");
 }
 
 #[test]
@@ -60,15 +80,37 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
     let server = Server::start(&["--limit", "queue=0"]).unwrap();
     let pipelined =
         Request::new("POST", "/v1/generate").keep().json(&small("5")).bytes(server.address).repeat(20);
-    let refused: Vec<_> = (0..600)
-        .filter_map(|_| {
-            let mut stream = TcpStream::connect(server.address).ok()?;
-            let _ = stream.write_all(&pipelined);
-            Some(stream)
-        })
-        .collect();
-    assert!(refused.len() > 256);
-    for _ in 0..10 {
-        assert_eq!(server.get("/healthz").unwrap().status, 200);
+    let over = AtomicBool::new(false);
+    let statuses = std::thread::scope(|scope| {
+        for _ in 0..60 {
+            scope.spawn(|| {
+                while !over.load(Ordering::Relaxed) {
+                    let refused: Vec<_> = (0..10)
+                        .filter_map(|_| {
+                            let mut stream = TcpStream::connect(server.address).ok()?;
+                            let _ = stream.write_all(&pipelined);
+                            Some(stream)
+                        })
+                        .collect();
+                    std::thread::sleep(Duration::from_millis(500));
+                    drop(refused);
+                }
+            });
+        }
+        std::thread::sleep(Duration::from_secs(1));
+        // From the same address, so without a share of their own.
+        let asked = [
+            Request::new("GET", "/healthz"),
+            Request::new("GET", "/v1/info"),
+            Request::new("POST", "/v1/generate").json(&small("6")),
+        ];
+        let statuses: Vec<_> =
+            (0..32).map(|k| server.send(&asked[k % 3]).map(|reply| reply.status)).collect();
+        over.store(true, Ordering::Relaxed);
+        statuses
+    });
+    for (k, status) in statuses.into_iter().enumerate() {
+        let status = status.unwrap();
+        assert!(status == 200 || (k % 3 > 0 && status == 503), "{k}: {status}");
     }
 }

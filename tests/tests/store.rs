@@ -7,6 +7,7 @@ use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 fn put(id: &str, precondition: (&str, &str), scene: &Value) -> Request {
@@ -146,7 +147,7 @@ fn trouble_at_the_start_has_its_exit_code() {
 
 /// A small disk of its own; `None`, and why, where this may not be mounted.
 #[cfg(target_os = "linux")]
-fn small_disk(folder: &std::path::Path, size: &str) -> Option<SmallDisk> {
+fn small_disk(folder: &Path, size: &str) -> Option<SmallDisk> {
     let mount = std::process::Command::new("mount")
         .args(["-t", "tmpfs", "-o", &format!("size={size}"), "none"])
         .arg(folder)
@@ -259,26 +260,26 @@ fn where_disks_can_be_mounted_a_store_alone_on_a_full_one_frees_all_of_it_again(
 #[cfg(target_os = "linux")]
 #[test]
 fn a_store_that_is_gone_is_not_written_into() {
-    let folder = tempfile::tempdir().unwrap();
-    let db = folder.path().join("scenes.sqlite");
-    let server = Server::start_at(&db, &[]).unwrap();
-    server.wait_ready().unwrap();
-    saved(&server, "kept", &street(2, 20));
-    for replaced in [false, true] {
-        if replaced {
-            std::fs::write(&db, b"").unwrap();
-        } else {
-            std::fs::remove_file(&db).unwrap();
-        }
+    type Fault = fn(&Path) -> std::io::Result<()>;
+    let faults: [(&str, Fault); 5] = [
+        ("removed", |db| std::fs::remove_file(db)),
+        ("replaced", |db| std::fs::remove_file(db).and_then(|()| std::fs::write(db, b"other"))),
+        ("emptied", |db| std::fs::write(db, b"")),
+        ("without its log", |db| std::fs::remove_file(db.with_extension("sqlite-wal"))),
+        ("without the index of its log", |db| std::fs::remove_file(db.with_extension("sqlite-shm"))),
+    ];
+    for (name, fault) in faults {
+        let folder = tempfile::tempdir().unwrap();
+        let db = folder.path().join("scenes.sqlite");
+        let server = Server::start_at(&db, &[]).unwrap();
+        server.wait_ready().unwrap();
+        saved(&server, "kept", &street(2, 20));
+        fault(&db).unwrap();
         let refused = server.send(&put("lost", ("if-none-match", "*"), &street(2, 20))).unwrap();
-        assert_eq!(
-            (refused.status, refused.code().as_str()),
-            (503, "store-unavailable"),
-            "{}",
-            refused.text()
-        );
+        let told = (refused.status, refused.code());
+        assert_eq!(told, (503, "store-unavailable".to_owned()), "{name}: {}", refused.text());
         let ready = server.get("/readyz").unwrap();
-        assert_eq!((ready.status, &ready.json()["failing"][0]), (503, &json!("store")));
+        assert_eq!((ready.status, &ready.json()["failing"][0]), (503, &json!("store")), "{name}");
     }
 }
 

@@ -1,6 +1,7 @@
-//! Parties: what shares of the server's room are measured by. A connection is none, since a client opens as many as it
-//! likes.
+//! Parties: what shares of the server's room are measured by: names where callers have them, else addresses. A
+//! connection is none, since a client opens as many as it likes.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::net::IpAddr;
 
 /// Who a request comes from.
@@ -13,9 +14,18 @@ pub enum Party {
     Peer(IpAddr),
     /// A user of this machine, by its number, on the unix socket.
     Local(u32),
+    /// Somebody with a name of the server's: of a token, or one that a trusted proxy has signed in. Its hash.
+    Named(u64),
 }
 
 impl Party {
+    /// Of a name, from wherever its owner connects.
+    pub fn named(name: &str) -> Self {
+        let mut hasher = DefaultHasher::new();
+        name.hash(&mut hasher);
+        Self::Named(hasher.finish())
+    }
+
     /// Of a peer's address. A machine has 2^64 addresses of IPv6 (RFC 6177), which count as one.
     pub fn of(peer: IpAddr) -> Self {
         match peer.to_canonical() {
@@ -34,6 +44,7 @@ impl std::fmt::Display for Party {
             Self::Own => Ok(()),
             Self::Peer(address) => address.fmt(f),
             Self::Local(user) => write!(f, "user {user}"),
+            Self::Named(hash) => write!(f, "named {hash:016x}"),
         }
     }
 }

@@ -81,7 +81,7 @@ fn queue(
     let (feed, handle) = pool.submit(asked, |ticket| {
         let feed = Arc::new(Feed::new(Arc::clone(ticket), most, path));
         let (fed, pool) = (Arc::clone(&feed), Arc::clone(pool));
-        let work: Work = Box::new(move || work(&fed, &|| pool.let_smaller_go(&fed.ticket)));
+        let work: Work = Box::new(move || work(&fed, &|| pool.let_others_go(&fed.ticket)));
         (feed, work)
     })?;
     Ok(EventReader::new(feed, handle))

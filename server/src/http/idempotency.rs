@@ -33,7 +33,7 @@ const BODY_TIME: Duration = Duration::from_secs(120);
 pub struct Sender {
     /// Name of the token, or of the user that a trusted proxy has signed in.
     pub name: Option<String>,
-    /// Whose the connection is.
+    /// Whose share it takes from.
     pub party: Party,
     /// The token is one of an administrator.
     pub is_admin: bool,

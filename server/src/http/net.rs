@@ -18,14 +18,14 @@ use base::memory::Memory;
 use base::party::Party;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::convert::Infallible;
 use std::future::Future;
 use std::pin::{Pin, pin};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use tokio::sync::{Notify, Semaphore, mpsc, watch};
+use tokio::sync::{Notify, mpsc, watch};
 
 /// Heads up to this size reach our own check, which answers with a problem document.
 const HEAD_BUFFER: usize = 128 << 10;
@@ -40,6 +40,10 @@ const LOOK: Duration = Duration::from_millis(250);
 const OVERFLOW: usize = 8;
 /// Time in which such a client sends its request, and takes the answer.
 const OVERFLOW_TIME: Duration = Duration::from_secs(2);
+/// Time for a new client to send its first request; afterwards its connection makes room for others.
+const FIRST_REQUEST: Duration = Duration::from_millis(200);
+/// Time between two looks for room among the connections beyond all places.
+const ROOM_LOOK: Duration = Duration::from_millis(10);
 /// Time for a refused client to take its answer after its place was given away.
 const HURRY: Duration = Duration::from_millis(500);
 /// Before this the arrival rate of a body is unknown.
@@ -50,6 +54,8 @@ struct ConnectionEntry {
     number: u64,
     socket: Arc<Socket>,
     idle_since: Mutex<Instant>,
+    /// A request has come.
+    has_asked: AtomicBool,
     /// Time at which the reply in progress was last polled for more; `None` without one.
     asked: Mutex<Option<Instant>>,
     /// The body that is arriving.
@@ -101,6 +107,13 @@ impl ConnectionEntry {
         self.socket.requests.load(Ordering::Relaxed) > 0
     }
 
+    /// Its client waits for no answer: all that it sent is answered, or it took too long to ask.
+    fn is_idle(&self) -> bool {
+        let is_new =
+            || !self.has_asked.load(Ordering::Relaxed) && lock(&self.idle_since).elapsed() < FIRST_REQUEST;
+        !self.is_busy() && !is_new() && !self.socket.has_unread()
+    }
+
     /// As its requests carry it.
     fn connection(&self, proxies: &TrustedProxies) -> Connection {
         let ends = self.socket.stream().ends();
@@ -136,6 +149,7 @@ impl ConnectionTable {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             socket: Arc::new(Socket::new(stream)),
             idle_since: Mutex::new(Instant::now()),
+            has_asked: AtomicBool::new(false),
             asked: Mutex::new(None),
             arriving: Mutex::new(None),
             party,
@@ -166,7 +180,9 @@ impl ConnectionTable {
                 .map(|(_, p)| p.clone())
         };
         let idle = |of: &[Arc<ConnectionEntry>]| {
-            of.iter().filter(|p| !p.is_busy()).min_by_key(|p| *lock(&p.idle_since)).cloned()
+            let mut oldest: Vec<_> = of.iter().filter(|p| !p.is_busy()).collect();
+            oldest.sort_by_cached_key(|p| *lock(&p.idle_since));
+            oldest.into_iter().find(|p| p.is_idle()).cloned()
         };
         let slow = |of: &[Arc<ConnectionEntry>]| {
             let rate =
@@ -196,12 +212,52 @@ impl ConnectionTable {
     }
 }
 
+/// Connections beyond all places, whose clients are told so, in the order of their arrival.
+struct OverflowTable {
+    entries: Mutex<VecDeque<Arc<ConnectionEntry>>>,
+    most: usize,
+}
+
+impl OverflowTable {
+    fn new(places: usize) -> Self {
+        Self { entries: Mutex::default(), most: OVERFLOW.max(places / 2) }
+    }
+
+    /// Waits until another one fits. Of a full table the oldest one that waits for no answer ends; meanwhile
+    /// newcomers wait for the system to hand them over, in place of being closed unheard.
+    async fn room(&self) {
+        while !self.has_room() {
+            tokio::time::sleep(ROOM_LOOK).await;
+        }
+    }
+
+    fn has_room(&self) -> bool {
+        let mut entries = lock(&self.entries);
+        if entries.len() >= self.most
+            && let Some(at) = entries.iter().position(|entry| entry.is_idle())
+            && let Some(oldest) = entries.remove(at)
+        {
+            oldest.close.notify_one();
+        }
+        entries.len() < self.most
+    }
+
+    fn enter(&self, new: &Arc<ConnectionEntry>) {
+        lock(&self.entries).push_back(Arc::clone(new));
+    }
+
+    fn leave(&self, number: u64) {
+        lock(&self.entries).retain(|entry| entry.number != number);
+    }
+}
+
 /// Counts a request of a connection while it runs.
 pub struct Busy(Arc<ConnectionEntry>);
 
 impl Busy {
     fn new(place: &Arc<ConnectionEntry>) -> Self {
         place.socket.requests.fetch_add(1, Ordering::Relaxed);
+        place.has_asked.store(true, Ordering::Relaxed);
         Self(Arc::clone(place))
     }
 }
@@ -262,7 +318,7 @@ pub async fn serve(
     on_stop: impl FnOnce(),
 ) {
     let table = Arc::new(ConnectionTable::new(limits.connections as usize));
-    let overflow = Arc::new(Semaphore::new(OVERFLOW.max(limits.connections as usize / 2)));
+    let overflow = Arc::new(OverflowTable::new(limits.connections as usize));
     let (closing, closed) = watch::channel(false);
     // A stream polls again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
@@ -277,7 +333,10 @@ pub async fn serve(
                 table.close_left();
                 continue;
             }
-            accepted = listener.accept() => accepted,
+            accepted = async {
+                overflow.room().await;
+                listener.accept().await
+            } => accepted,
         };
         let stream = match accepted {
             Ok(accepted) => accepted,
@@ -292,15 +351,16 @@ pub async fn serve(
         let place = match table.enter(stream, party) {
             Admission::Place(place) => place,
             Admission::Overflow(place) => {
-                // Beyond these, new connections are closed: each takes a descriptor.
-                if let Ok(held) = Arc::clone(&overflow).try_acquire_owned() {
-                    let (router, connection) = (router.clone(), place.connection(&proxies));
-                    tokio::spawn(async move {
-                        let answered = answer_health(router, connection, &place);
-                        let _ = tokio::time::timeout(OVERFLOW_TIME, answered).await;
-                        drop(held);
-                    });
-                }
+                overflow.enter(&place);
+                let (router, connection) = (router.clone(), place.connection(&proxies));
+                let overflow = Arc::clone(&overflow);
+                tokio::spawn(async move {
+                    tokio::select! {
+                        _ = tokio::time::timeout(OVERFLOW_TIME, answer_health(router, connection, &place)) => {}
+                        () = place.close.notified() => {}
+                    }
+                    overflow.leave(place.number);
+                });
                 continue;
             }
         };
@@ -323,23 +383,26 @@ pub async fn serve(
 
 /// Answers one request of a connection beyond all places: about the server's health, else that it is busy.
 async fn answer_health(router: Router, connection: Connection, place: &Arc<ConnectionEntry>) {
-    let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
-        let router = router.clone();
+    let service = tower::service_fn(|mut request: hyper::Request<hyper::body::Incoming>| {
+        let (router, busy) = (router.clone(), Busy::new(place));
         async move {
             let path = request.uri().path();
-            if HEALTH.contains(&base_path::within(path).unwrap_or(path)) {
+            let reply = if HEALTH.contains(&base_path::within(path).unwrap_or(path)) {
                 request.extensions_mut().insert(connection);
-                return tower::ServiceExt::oneshot(router, request.map(axum::body::Body::new)).await;
-            }
-            let problem =
-                Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1);
-            Ok(observe::unread(problem, Instant::now(), Some(connection.party)))
+                tower::ServiceExt::oneshot(router, request.map(axum::body::Body::new)).await?
+            } else {
+                let problem =
+                    Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1);
+                observe::unread(problem, Instant::now(), Some(connection.party))
+            };
+            Ok::<_, Infallible>(reply.map(|body| CountedBody { body, busy }))
         }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
     http.keep_alive(false).max_headers(HEAD_FIELDS).max_buf_size(HEAD_BUFFER);
     let wire = TokioIo::new(Wire(Arc::clone(&place.socket)));
     let _ = http.serve_connection(wire, TowerToHyperService::new(service)).await;
+    place.socket.part().await;
 }
 
 async fn connection(
@@ -416,7 +479,13 @@ async fn connection(
     drop(served);
     tokio::select! {
         _ = in_use.recv() => {}
-        () = place.close.notified() => socket.end(),
+        () = place.close.notified() => return socket.end(),
+    }
+    if !draining {
+        tokio::select! {
+            () = socket.part() => {}
+            () = place.close.notified() => {}
+        }
     }
 }
 

@@ -21,6 +21,7 @@ use base::problem::{ProblemDoc, Refusal, code_of, status_of};
 use base::{id, metrics};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use work::Caller;
 
 /// Pause before the reply to a client that is refused for overload.
 const REFUSAL_PAUSE: Duration = Duration::from_millis(100);
@@ -57,13 +58,15 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     let foreign = gate.guard.foreign_origin(&request);
     let pause = request.extensions().get::<RefusalPause>().cloned();
     let edits = Right::needed(&method, &path, request.uri().query()) == Right::Edit;
-    let sender = sender(&request, &gate.guard);
+    let mut sender = sender(&request, &gate.guard);
+    let from = sender.party;
     let (trace, received) = (TraceParent::of(request.headers()), ByteCount::default());
     let mut request = request.map(|body| CountingBody::received(body, &received));
+    let caller = share(&mut request, &mut sender);
     request.extensions_mut().insert(sender.clone());
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
-        Ok(()) => next.run(request).await,
+        Ok(()) => work::on_behalf_of(caller, next.run(request)).await,
         Err(problem) => Refusal::from(problem).into_response(),
     };
     let mut response = written(response, &method, Some(&path), &id);
@@ -76,7 +79,7 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
         audit.add(&AuditLine {
             time: jiff::Timestamp::now().to_string(),
             who: sender.name.as_deref(),
-            from: sender.party.to_string(),
+            from: from.to_string(),
             what: format!("{method} {route}"),
             scene: audit::scene_in(&path).or_else(|| audit::scene_made(response.headers())),
             status: status.as_u16(),
@@ -94,7 +97,7 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
         }
     }
     metrics::request(&route, Some(&method), status, began.elapsed().as_secs_f64());
-    let (peer, user) = (Some(sender.party), sender.name);
+    let (peer, user) = (Some(from), sender.name);
     let line = AccessLine {
         method: Some(method),
         route,
@@ -107,6 +110,16 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
         received,
     };
     response.map(|body| line.at_end_of(body, Some(gate.sample)))
+}
+
+/// Puts a request into the share of its sender's name, where it has one, and else leaves it in that of its address.
+fn share(request: &mut Request, sender: &mut Sender) -> Caller {
+    if let Some(name) = &sender.name {
+        sender.party = Party::named(name);
+    }
+    let Some(connection) = request.extensions_mut().get_mut::<Connection>() else { return Caller::default() };
+    connection.party = sender.party;
+    Caller::from(*connection)
 }
 
 /// Who sends a request: the user whom a trusted proxy has signed in, else the name of the token.

@@ -82,6 +82,12 @@ impl ByteStream {
         let _ = either!(self, stream => socket2::SockRef::from(stream).shutdown(how));
     }
 
+    /// Whether bytes have arrived that nobody has read.
+    pub fn has_unread(&self) -> bool {
+        let mut byte = [std::mem::MaybeUninit::uninit()];
+        either!(self, stream => socket2::SockRef::from(stream).peek(&mut byte).is_ok_and(|count| count > 0))
+    }
+
     pub async fn ready(&self, interest: Interest) -> io::Result<Ready> {
         either!(self, stream => stream.ready(interest).await)
     }

@@ -51,6 +51,17 @@ impl Socket {
         ready.is_some_and(|ready| ready.map_or(true, |ready| ready.is_read_closed()))
     }
 
+    /// Whether something that the client sent has not been read.
+    pub fn has_unread(&self) -> bool {
+        self.stream.has_unread()
+    }
+
+    /// After the last answer: reads what the client still sends, so that it gets the answer and no reset.
+    pub async fn part(&self) {
+        shut(&self.stream);
+        let _ = tokio::time::timeout(PARTING, self.drain()).await;
+    }
+
     /// Shuts down both directions, for all owners.
     pub fn end(&self) {
         self.stream.shutdown(std::net::Shutdown::Both);

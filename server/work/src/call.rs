@@ -7,9 +7,20 @@ use super::{Pool, lock};
 use api::{Code, Problem};
 use base::metrics;
 use experts::Cancel;
+use std::future::Future;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::oneshot;
+
+tokio::task_local! {
+    /// Whose request the task works for.
+    static CALLER: Caller;
+}
+
+/// Works for a caller: documents that `work` reads and writes take turns and queue places as that one's.
+pub async fn on_behalf_of<F: Future>(caller: Caller, work: F) -> F::Output {
+    CALLER.scope(caller, work).await
+}
 
 /// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
 const SMALL_BYTES: usize = 32 << 10;
@@ -82,7 +93,8 @@ impl Pool {
         matches!(call.await, Ok(Ok(())))
     }
 
-    /// Work on a document of about so many bytes: at once when that is little, else like all other work.
+    /// Work on a document of about so many bytes: at once when that is little, else like all other work of the caller
+    /// that the task works for ([`on_behalf_of`]), or of the program itself.
     ///
     /// # Errors
     /// As [`Self::run`].
@@ -96,7 +108,8 @@ impl Pool {
         }
         // Reading takes about this long a byte; the largest are cut where they are unpacked.
         let cost = Duration::from_nanos(10 * bytes.min(64 << 20) as u64);
-        let asked = JobRequest { kind: JobKind::Document, cost, caller: Caller::default() };
+        let caller = CALLER.try_with(Caller::clone).unwrap_or_default();
+        let asked = JobRequest { kind: JobKind::Document, cost, caller };
         self.run(asked, move |_| work()).await
     }
 }

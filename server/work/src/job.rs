@@ -3,6 +3,7 @@
 use super::kind::{JobKind, PoolLane};
 use super::lock;
 use super::sync::Mutex;
+use super::sync::atomic::{AtomicBool, Ordering};
 use api::{Code, Problem};
 use base::metrics;
 use base::party::Party;
@@ -142,6 +143,8 @@ pub struct Job {
     began: Mutex<Option<Instant>>,
     /// Time for which it has yielded to others since then.
     paused: Mutex<Duration>,
+    /// It is worked on while another one yields.
+    is_inside: AtomicBool,
 }
 
 impl Job {
@@ -155,7 +158,18 @@ impl Job {
         work: Work,
     ) -> Self {
         let (work, began, paused) = (Mutex::new(Some(work)), Mutex::default(), Mutex::default());
-        Self { kind, lane, cost, caller, ticket, ending, work, began, paused }
+        Self {
+            kind,
+            lane,
+            cost,
+            caller,
+            ticket,
+            ending,
+            work,
+            began,
+            paused,
+            is_inside: AtomicBool::new(false),
+        }
     }
 
     /// A worker takes it.
@@ -173,6 +187,22 @@ impl Job {
     pub(super) fn worked(&self) -> Duration {
         let since = lock(&self.began).map_or(Duration::ZERO, |began| began.elapsed());
         since.saturating_sub(*lock(&self.paused))
+    }
+
+    /// It is worked on while another one yields.
+    pub(super) fn go_inside(&self) {
+        self.is_inside.store(true, Ordering::Relaxed);
+    }
+
+    /// Between two of its steps: whether another one goes first. One of another caller that is expected to take at
+    /// most a quarter of its time does, until such ones have taken that time once more than it has worked; one of
+    /// another party does as long as others together have no more of the thread than this one. Only the first
+    /// level yields in turn, so that two parties with many calls do not pile them up.
+    pub(super) fn lets_go(&self, other: &Self) -> bool {
+        let (worked, given) = (self.worked(), *lock(&self.paused));
+        let is_smaller = other.caller.own != self.caller.own && 4 * other.cost <= self.cost;
+        let in_turn = other.caller.party != self.caller.party && !self.is_inside.load(Ordering::Relaxed);
+        (is_smaller && given <= worked + self.cost) || (in_turn && given + other.cost <= worked)
     }
 
     /// It let another go first for so long.

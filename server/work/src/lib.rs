@@ -3,8 +3,8 @@
 //! There are four lanes with their own threads. Long work (big generations, large files) never delays smaller
 //! calls, with or without a waiting caller. None of these delays reading and writing of documents, so that a
 //! newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take turns,
-//! and a long call yields to smaller ones of others between its steps. Threads for long work, or work without
-//! a waiting caller, leave the cores to the others.
+//! and a long call yields between its steps to smaller ones of others, and to those of other parties in turn.
+//! Threads for long work, or work without a waiting caller, leave the cores to the others.
 //!
 //! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
 //! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
@@ -20,7 +20,7 @@ mod schedules;
 mod state;
 mod sync;
 
-pub use call::superseded;
+pub use call::{on_behalf_of, superseded};
 pub use job::{Caller, Ending, JobRequest, Stop, Ticket, Work};
 pub use kind::{JobKind, PoolLane};
 
@@ -262,16 +262,17 @@ impl Pool {
         state.show();
     }
 
-    /// Between two steps of a long call: smaller ones of others that wait for its thread go first.
-    pub fn let_smaller_go(&self, ticket: &Ticket) {
+    /// Between two steps of a long call: others that wait for its thread and whose turn it is ([`Job::lets_go`]) go
+    /// first.
+    pub fn let_others_go(&self, ticket: &Ticket) {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
-        let began = Instant::now();
-        let goes = |job: &Job| job.caller.own != own.caller.own && 4 * job.cost <= own.cost;
         while own.lane == PoolLane::Patient && !self.stopped.load(Ordering::Relaxed) {
-            let Some(job) = lock(&self.state).next(PoolLane::Patient, goes) else { break };
+            let Some(job) = lock(&self.state).next(PoolLane::Patient, |job| own.lets_go(job)) else { break };
+            let began = Instant::now();
+            job.go_inside();
             self.perform(&job);
+            own.paused(began.elapsed());
         }
-        own.paused(began.elapsed());
     }
 
     /// Ends jobs that exceed their time or whose reader has stopped reading.

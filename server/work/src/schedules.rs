@@ -336,7 +336,7 @@ fn a_long_call_lets_smaller_ones_go_and_comes_back() {
     explore(|| {
         let pool = pool(1, 8);
         let own = Arc::clone(&pool);
-        let let_go = move |ticket: &Ticket| own.let_smaller_go(ticket);
+        let let_go = move |ticket: &Ticket| own.let_others_go(ticket);
         let (long, _hold) = ask(&pool, asked(JobKind::Generate, 4_000, "long", 1), let_go).unwrap();
         let callers: Vec<_> = (2..4)
             .map(|connection| {

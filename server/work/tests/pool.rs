@@ -173,7 +173,7 @@ async fn a_long_call_lets_smaller_ones_of_others_go_first() {
             let work = move || {
                 for _ in 0..4 {
                     std::thread::sleep(Duration::from_millis(40));
-                    own.let_smaller_go(&ticket);
+                    own.let_others_go(&ticket);
                 }
                 noting.lock().unwrap().push("long");
                 given.tell();
@@ -193,6 +193,79 @@ async fn a_long_call_lets_smaller_ones_of_others_go_first() {
     }
     assert_eq!(*done.lock().unwrap(), ["small", "long", "as long", "own"]);
     drop(hold);
+    pool.stop();
+}
+
+#[tokio::test]
+async fn a_long_call_shares_its_thread_with_those_of_another_party() {
+    let pool = pool(Limits { running: 1, ..Limits::default() });
+    let done: Arc<Mutex<Vec<u8>>> = Arc::default();
+    // Calls of 200 ms in ten steps each.
+    let call = |last: u8| {
+        let party = Party::of(std::net::IpAddr::from([10, 0, 0, last]));
+        let caller = Caller { party, connection: Some(last.into()), ..Caller::default() };
+        let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_millis(200), caller };
+        let (own, noting) = (Arc::clone(&pool), Arc::clone(&done));
+        let (sender, receiver) = oneshot::channel();
+        let answer = Arc::new(Told(Mutex::new(Some(sender))));
+        let (_, hold) = pool
+            .submit(asked, |ticket| {
+                let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
+                let work = move || {
+                    // The first party's call takes ten times what was expected.
+                    for _ in 0..if last == 1 { 100 } else { 10 } {
+                        std::thread::sleep(Duration::from_millis(20));
+                        own.let_others_go(&ticket);
+                    }
+                    noting.lock().unwrap().push(last);
+                    given.tell();
+                };
+                (answer, Box::new(work))
+            })
+            .unwrap();
+        (hold, receiver)
+    };
+    let calls = [1, 1, 2, 2, 2].map(call);
+    let mut holds = Vec::new();
+    for (hold, receiver) in calls {
+        receiver.await.unwrap();
+        holds.push(hold);
+    }
+    assert_eq!(*done.lock().unwrap(), [2, 2, 2, 1, 1], "the other party's calls do not wait for the end");
+    drop(holds);
+    pool.stop();
+}
+
+#[tokio::test]
+async fn documents_wait_in_the_share_of_their_caller() {
+    let pool = pool(Limits { running: 1, queue: 2, ..Limits::default() });
+    let release = Arc::new(AtomicBool::new(false));
+    let read = |last: u8| {
+        let party = Party::of(std::net::IpAddr::from([10, 0, 0, last]));
+        let (pool, release) = (Arc::clone(&pool), Arc::clone(&release));
+        let read = move || {
+            while !release.load(Ordering::Relaxed) {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            Ok(())
+        };
+        let caller = Caller { party, ..Caller::default() };
+        tokio::spawn(async move { work::on_behalf_of(caller, pool.document(1 << 20, read)).await.is_ok() })
+    };
+    let mut greedy = Vec::new();
+    for _ in 0..16 {
+        greedy.push(read(1));
+    }
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    let other = read(2);
+    tokio::time::sleep(Duration::from_millis(30)).await;
+    release.store(true, Ordering::Relaxed);
+    assert!(other.await.unwrap(), "there is a place for another party");
+    let mut read = 0;
+    for call in greedy {
+        read += usize::from(call.await.unwrap());
+    }
+    assert!(read < 16, "the queue was full");
     pool.stop();
 }
 

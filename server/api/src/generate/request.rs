@@ -19,7 +19,7 @@ pub const MOST_ANGLE_RAD: f64 = std::f64::consts::TAU;
 
 /// `"all"` or a list of ids.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "\"all\" or a list of ids of road users is expected")]
 #[schemars(rename = "Who")]
 pub enum AgentChoice {
     /// `"all"`.
@@ -39,7 +39,7 @@ pub enum AllWord {
 
 /// Road users that may react: true for all nearby, or ids.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "true, false or a list of ids of road users is expected")]
 #[schemars(rename = "Reacting")]
 pub enum ReactChoice {
     /// All, or none.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// A number, the name of a parameter, or its negative: `4`, `"gap_m"`, `"-arrives_s"`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a number or the name of a parameter is expected")]
 pub enum PatternNumber {
     /// This one.
     Value(f64),

@@ -3,12 +3,21 @@
 use super::StoreError;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
-/// A file by its name, and by its number on the disk where the system has one.
+/// Endings of the files that SQLite keeps beside the store while it is open: a commit goes into the first one.
+const BESIDE: [&str; 2] = ["-wal", "-shm"];
+
+/// Disk and number of a file; `None` on systems without.
+type FileNumber = Option<(u64, u64)>;
+
+/// The files of a store by their names, and by their numbers on the disk where the system has them.
 #[derive(Debug)]
 pub struct FileIdentity {
     path: PathBuf,
-    number: Option<(u64, u64)>,
+    number: FileNumber,
+    /// Those beside it, by the numbers that they had first.
+    beside: [(PathBuf, OnceLock<FileNumber>); 2],
 }
 
 impl FileIdentity {
@@ -17,28 +26,41 @@ impl FileIdentity {
     /// # Errors
     /// When it cannot be looked at.
     pub fn of(path: &Path) -> io::Result<Self> {
-        Ok(Self { path: path.to_owned(), number: number(path)? })
+        let beside = BESIDE.map(|end| {
+            let mut name = path.as_os_str().to_owned();
+            name.push(end);
+            let (file, first) = (PathBuf::from(name), OnceLock::new());
+            // SQLite makes it at the first access, at the latest within the first change.
+            let _ = number(&file).map(|number| first.set(number));
+            (file, first)
+        });
+        Ok(Self { path: path.to_owned(), number: number(path)?, beside })
     }
 
-    /// The name still belongs to the same file.
+    /// Within a change: the names still belong to the same files, and the store is not empty.
     ///
     /// # Errors
     /// [`StoreError::Gone`].
     pub fn check(&self) -> Result<(), StoreError> {
+        let has_bytes = self.path.metadata().is_ok_and(|metadata| metadata.len() > 0);
         let same = number(&self.path).is_ok_and(|number| number == self.number);
-        if same { Ok(()) } else { Err(StoreError::Gone) }
+        let same_beside = self
+            .beside
+            .iter()
+            .all(|(file, first)| number(file).is_ok_and(|number| *first.get_or_init(|| number) == number));
+        if has_bytes && same && same_beside { Ok(()) } else { Err(StoreError::Gone) }
     }
 }
 
 #[cfg(unix)]
 #[allow(clippy::unnecessary_wraps, reason = "other systems have no number")]
-fn number(path: &Path) -> io::Result<Option<(u64, u64)>> {
+fn number(path: &Path) -> io::Result<FileNumber> {
     use std::os::unix::fs::MetadataExt;
     let metadata = path.metadata()?;
     Ok(Some((metadata.dev(), metadata.ino())))
 }
 
 #[cfg(not(unix))]
-fn number(path: &Path) -> io::Result<Option<(u64, u64)>> {
+fn number(path: &Path) -> io::Result<FileNumber> {
     path.metadata().map(|_| None)
 }
