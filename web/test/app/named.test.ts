@@ -3,8 +3,8 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { namedNow } from '../../src/edit/overlay/named';
 import { QuietDrag } from '../../src/edit/overlay/quiet-drag';
 import type { Editor } from '../../src/edit/session/editor';
-import { setGoal } from '../../src/model/document/commands';
-import type { ModeJson } from '../../src/model/document/scene-json';
+import { choose, setGoal } from '../../src/model/document/commands';
+import type { ModeJson, RelationKind } from '../../src/model/document/scene-json';
 import { judged } from '../standin/judged.mjs';
 import { finalWith, late, Session, six } from '../edit/session';
 
@@ -43,6 +43,24 @@ describe('names on the picture', () => {
     vi.advanceTimersByTime(100);
     s.generator.last.on.final(finalWith({ '1': futures(4, false), '17': late('17', 3, '1') }), 5);
     expect(namedNow(editor)).toEqual(['1', '17']);
+  });
+
+  it('are that in the name of the shown future, as long as it is shown', () => {
+    const modes = six('1').modes as ModeJson[];
+    const relation = (kind: RelationKind) => ({ kind, with: '17', time_s: 4, x_m: 0, y_m: 0, gap_s: 2 });
+    const two = [
+      { ...modes[0], manoeuvre: 'straight' as const, relations: [relation('before')] },
+      { ...modes[0], manoeuvre: 'straight' as const, relations: [relation('after')] },
+      { ...modes[0], manoeuvre: 'left' as const },
+    ];
+    editor.commits.run(goal());
+    vi.advanceTimersByTime(100);
+    s.generator.last.on.final(finalWith({ '1': { chosen: 0, modes: two } }), 5);
+    expect(editor.reading.futures.peek()!.modes[0].name).toMatch(/, before Ped/);
+    expect(namedNow(editor)).toEqual(['1', '17']);
+    s.generator.last.on.final(finalWith({ '1': { chosen: 2, modes: two } }), 5);
+    editor.commits.run(choose(editor.agent.peek()!, 2, 'C'));
+    expect(namedNow(editor)).toEqual(['1']);
   });
 
   it('are those of the events while nothing is selected, and none without events', () => {

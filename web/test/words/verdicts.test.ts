@@ -9,7 +9,7 @@ import { faultPlaces } from '../../src/model/physics/fault-places';
 import { emptyMotion, keepVerdicts, rankOf, type Futures, type MotionSet } from '../../src/model/document/futures';
 import type { Naming } from '../../src/model/words/future-names';
 import { readScene } from '../../src/model/document/scene-reader';
-import { readFutures, withNames, readGenerated } from '../../src/model/words/named-futures';
+import { naming as namingOf, readFutures, withNames, readGenerated } from '../../src/model/words/named-futures';
 import { metAnew, withMeetingsOf } from '../../src/model/physics/verdict-updates';
 import { heldStill } from '../../src/model/base/motion';
 import { nameIn, startPose, withAgents } from '../../src/model/document/scene';
@@ -27,6 +27,7 @@ const scene = crossing();
 const nameOf = nameIn(scene);
 const who: Walker = { type: 'vehicle', nameOf };
 const naming: Naming = { onFoot: false, nameOf };
+const { inLane } = namingOf(scene, car(scene));
 const start = startPose(car(scene))!;
 
 const fault = (kind: FaultJson['kind'], more: Partial<FaultJson> = {}): FaultJson => ({
@@ -43,6 +44,7 @@ const relation = (kind: RelationJson['kind'], other: string): RelationJson => ({
   time_s: 2,
   x_m: 0,
   y_m: 0,
+  gap_s: 2,
 });
 
 /** Straight ahead from the start at a speed, a metre to the side for each `side`. */
@@ -220,12 +222,12 @@ describe('places', () => {
 describe('names', () => {
   const names = (...modes: ModeJson[]) => futures(modes).modes.map((m) => m.name);
 
-  it('contain the other road user, else the manoeuvre', () => {
+  it('are those of the manoeuvre', () => {
     expect(six().modes.map((m) => m.name)).toEqual([
-      'Left, before Car 2',
-      'Left, after Car 2',
-      'Left, slows for Ped. 17',
-      expect.stringMatching(/^Left, after Car 2, /),
+      'Turns left',
+      'Turns left, 0.5 s later',
+      'Turns left, 0.5 s earlier',
+      'Turns left, 1.2 m tighter',
       'By road',
       'Straight on',
     ]);
@@ -235,7 +237,7 @@ describe('names', () => {
         mode({ manoeuvre: 'lane_left' }),
         mode({ manoeuvre: 'straight', stopAt: 3 }),
       ),
-    ).toEqual(['Left, behind Bus 4', 'To the left lane', 'Stops']);
+    ).toEqual(['Turns left', 'To the left lane', 'Stops']);
   });
 
   it('omit what all have in common', () => {
@@ -256,38 +258,15 @@ describe('names', () => {
     expect(met).toBe('Before Car 3');
   });
 
-  it('differ within a list and are short', () => {
+  it('omit a relation that one of them has not', () => {
     const same = () => ({ manoeuvre: 'straight' as const, relations: [relation('gives_way_to', '17')] });
-    const list = names(
-      mode(same()),
-      mode({ ...same(), speed: 6 }),
-      mode({ ...same(), speed: 12 }),
-      mode({ ...same(), side: 3 }),
-      mode(same()),
-      mode({ manoeuvre: 'straight' }),
-    );
-    expect(new Set(list).size).toBe(6);
-    expect(list[0]).toBe('Slows for Pedestrian 17');
-    // If the difference does not fit beside the other's name, another property is used.
-    expect(list.slice(1, 4)).toEqual([
-      'Slows for Ped. 17, slower',
-      'Slows for Ped. 17, faster',
-      'Straight on, more left',
-    ]);
-    for (const n of list) {
-      expect(n.length).toBeLessThanOrEqual(26);
-      expect(n).not.toMatch(/almost|like/);
-    }
+    const list = names(mode(same()), mode({ ...same(), speed: 6 }), mode({ relations: [relation('before', '2')] }));
+    expect(list).toEqual(['Straight on', 'Straight on, slower', 'Straight on']);
   });
 
-  it('distinguish a lane change before a turn', () => {
-    const m = mode({ manoeuvre: 'left' });
-    // Over to the next lane, then round the corner.
-    m.x_m.forEach((_, i) => {
-      m.heading_rad[i] = i < 60 ? 0.1 : Math.min(1.57, 0.1 + (i - 60) * 0.08);
-      m.y_m[i] = start.y + Math.min(3.4, i * 0.1);
-    });
-    expect(names(m, mode({ manoeuvre: 'straight' }))[0]).toBe('Lane change, then left');
+  it('have metres in place of a lane on whose line it ends', () => {
+    const ends = (y: number) => inLane!({ x: start.x, y, heading: start.heading, speed: 9 });
+    expect([ends(start.y), ends(start.y + 1.75)]).toEqual([true, false]);
   });
 });
 
@@ -295,19 +274,19 @@ describe('names during a drag', () => {
   const list = (kind: RelationJson['kind']) =>
     futures([
       mode({ anchor: 0, manoeuvre: 'left', relations: [relation(kind, '2')] }),
-      mode({ anchor: 1, manoeuvre: 'straight' }),
+      mode({ anchor: 1, manoeuvre: 'left', relations: [relation(kind === 'before' ? 'after' : 'before', '2')] }),
     ]);
 
   it('stay with their idea until another relation has held for 0.4 s', () => {
     const frozen = new FrozenNames();
     let shown = list('before');
     const next = (f: Futures, now: number) => (shown = frozen.keep(shown, f, naming, now)).modes.map((m) => m.name);
-    expect(next(list('after'), 1000)).toEqual(['Left, before Car 2', 'Straight on']);
-    expect(next(list('before'), 1100)[0]).toBe('Left, before Car 2');
+    expect(next(list('after'), 1000)).toEqual(['Before Car 2', 'After Car 2']);
+    expect(next(list('before'), 1100)[0]).toBe('Before Car 2');
     // It came and went: the time starts again.
-    expect(next(list('after'), 1300)[0]).toBe('Left, before Car 2');
-    expect(next(list('after'), 1600)[0]).toBe('Left, before Car 2');
-    expect(next(list('after'), 1700)[0]).toBe('Left, after Car 2');
+    expect(next(list('after'), 1300)[0]).toBe('Before Car 2');
+    expect(next(list('after'), 1600)[0]).toBe('Before Car 2');
+    expect(next(list('after'), 1700)[0]).toBe('After Car 2');
   });
 
   it('move with the idea, and new ideas differ from those that stay', () => {

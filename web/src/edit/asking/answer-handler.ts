@@ -13,7 +13,7 @@ import {
 } from '../../model/document/futures';
 import type { Fault } from '../../model/document/future-facts';
 import { goesOneWay } from '../../model/document/reaction-records';
-import { readFutures, withNames } from '../../model/words/named-futures';
+import { naming, readFutures, withNames } from '../../model/words/named-futures';
 import { findChanges } from '../../model/words/change-words';
 import { nameIn, sceneKey, startPose, touchedIn, type Agent, type Scene } from '../../model/document/scene';
 import { whyAnother, whyNotLikeliest } from '../../model/words/why-shown';
@@ -23,7 +23,7 @@ import type { DraftEvent, FinalEvent, Problem } from '../../net/types';
 import type { Step } from '../document/step';
 import type { Editor } from '../session/editor';
 import { FrozenNames } from './frozen-names';
-import { futuresOf, motionAfter, naming, type Keep } from './merge-answer';
+import { futuresOf, motionAfter, type Keep } from './merge-answer';
 import type { Wanted } from './request-builder';
 import { StableWords } from './stable-words';
 import { readReach } from './read-answer';

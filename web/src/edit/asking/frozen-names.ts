@@ -1,7 +1,8 @@
 // Names of futures during a drag: an idea keeps its name until rest, unless the basis of the name is gone and another
 // relation has held for a while.
 import { ideas, type Future, type Futures } from '../../model/document/futures';
-import { manoeuvreOf, nameAll, nameRest, type FutureName, type Naming } from '../../model/words/future-names';
+import { nameAll, nameRest, type FutureName, type Naming } from '../../model/words/future-names';
+import { manoeuvreOf, type LaneUser } from '../../model/words/manoeuvres';
 
 /** A new relation must hold for this long before it changes a name, in milliseconds. */
 const HOLDS_MS = 400;
@@ -19,7 +20,7 @@ export class FrozenNames {
     const was = new Map(ideas(shown.modes).map((k, i) => [k, shown.modes[i]]));
     const fresh = nameAll(next.modes, who);
     const keys = ideas(next.modes);
-    const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], { now, onFoot: who.onFoot }));
+    const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], { now, who }));
     // Names of new futures must differ from the kept names.
     const names = nameRest(
       next.modes,
@@ -40,10 +41,10 @@ export class FrozenNames {
     old: Future | undefined,
     next: Future,
     fresh: FutureName,
-    { now, onFoot }: { readonly now: number; readonly onFoot: boolean },
+    { now, who }: { readonly now: number; readonly who: LaneUser },
   ): Future | null {
     if (!old?.basis) return null;
-    if (fresh.basis === old.basis || relationHolds(old.basis, next, onFoot)) {
+    if (fresh.basis === old.basis || relationHolds(old.basis, next, who)) {
       this.#pending.delete(key);
       return old;
     }
@@ -57,8 +58,8 @@ export class FrozenNames {
 }
 
 /** Does a future still have the relation, and the manoeuvre before it, on which a name is based? */
-function relationHolds(basis: string, f: Future, onFoot: boolean): boolean {
+function relationHolds(basis: string, f: Future, who: LaneUser): boolean {
   const [manoeuvre, relation] = basis.split('|');
   const holds = f.about?.relations.some((r) => `${r.kind}:${r.with}` === relation) ?? false;
-  return holds && (manoeuvre === '' || manoeuvre === manoeuvreOf(f, onFoot));
+  return holds && (manoeuvre === '' || manoeuvre === manoeuvreOf(f, who));
 }

@@ -4,20 +4,10 @@ import { asIfNotAsked, toBeGivenUp } from '../../model/document/reaction-records
 import type { AgentFuturesJson } from '../../model/document/scene-json';
 import type { Answering, Futures, KeepOrder, MotionSet, Score } from '../../model/document/futures';
 import { motionOf } from '../../model/physics/playback';
-import { readFutures, withNames } from '../../model/words/named-futures';
-import type { Naming } from '../../model/words/future-names';
+import { naming, readFutures, withNames } from '../../model/words/named-futures';
 import { firstPose } from '../../model/document/scene-reader';
 import { metAnew, withMeetingsOf, type Changed } from '../../model/physics/verdict-updates';
-import {
-  doing,
-  isRecorded,
-  nameIn,
-  sceneKey,
-  touched,
-  touchedIn,
-  type Agent,
-  type Scene,
-} from '../../model/document/scene';
+import { doing, sceneKey, touched, touchedIn, type Agent, type Scene } from '../../model/document/scene';
 import type { FinalEvent } from '../../net/types';
 import type { Wanted } from './request-builder';
 import { readReach, readScore, readWarnings } from './read-answer';
@@ -25,13 +15,6 @@ import { judgedCurves, withCurves } from './drawn-speeds';
 
 /** Order of the letters for the futures of a road user. */
 export type Keep = (a: Agent) => KeepOrder;
-
-export const naming = (scene: Scene, a: Agent): Naming => ({
-  onFoot: a.type === 'pedestrian',
-  nameOf: nameIn(scene),
-  // Examples and placed road users have no recorded motion.
-  log: isRecorded(scene.source) && !a.placed ? a.log : null,
-});
 
 export function motionAfter(last: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
   const before = asIfNotAsked(last, w.anew);

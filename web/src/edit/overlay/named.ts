@@ -32,7 +32,7 @@ export function namedNow(e: NamedIn): string[] {
   const met = a && verdictsHold(e) ? (e.reading.futures.value?.modes ?? []) : [];
   const events = e.selected.value.length ? [] : counted(e.reading.events.value).slice(0, MOST_EVENTS);
   const all = [
-    ...(a ? [a.id] : []),
+    ...(a ? [a.id, e.reading.named.value ?? a.id] : []),
     ...[...(picked ? [picked] : []), ...events].flatMap((ev) => [ev.a.id, ...(ev.b ? [ev.b.id] : [])]),
     ...changes.map((c) => c.id),
     ...met.flatMap((m) => m.about?.faults[0]?.with ?? []),
@@ -51,16 +51,18 @@ export class NamesOverlay {
   paint(g: Pen, v: View, but: readonly string[]): void {
     const { editor: e } = this;
     const reacting = labelledChanges(e).map((c) => c.id);
+    const spoken = e.reading.named.value;
     for (const id of namedNow(e)) {
       const a = e.scene.value!.agents.get(id)!;
       const p = this.poseNow(a);
       const isSelected = e.selected.value.includes(id);
-      if (!p || but.includes(id) || (!isSelected && namesAll(e, v) && !a.parked && !reacting.includes(id))) continue;
+      const isNamed = !isSelected && id !== spoken && namesAll(e, v) && !a.parked && !reacting.includes(id);
+      if (!p || but.includes(id) || isNamed) continue;
       const half = boxOnScreen(v, a, p).h / 2;
       const [l] = sizeOnScreen(a, v.z);
       pill(g, this.labels, ...v.to(p.x, p.y), a.name, {
         weight: 500,
-        must: false,
+        must: id === spoken,
         tries: [
           [-24, -half - 26],
           [-24, half + 6],

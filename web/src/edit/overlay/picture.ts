@@ -249,13 +249,14 @@ export class Picture {
   private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): Rect[] {
     const names: Rect[] = [];
     const reacting = new Set(labelledChanges(this.editor).map((c) => c.id));
+    const spoken = this.editor.reading.named.value;
     const labels = new Labels(v);
     for (const [, p] of shown) {
       const [x, y] = v.to(p.x, p.y);
       labels.block(x - 9, y - 7, 18, 14);
     }
     for (const [a, p] of shown) {
-      if (a.parked || reacting.has(a.id)) continue;
+      if (a.parked || reacting.has(a.id) || a.id === spoken) continue;
       const half = sizeOnScreen(a, v.z)[1] / 2 + 12;
       const r = pill(g, labels, ...v.to(p.x, p.y), a.name, {
         weight: 500,

@@ -8,6 +8,7 @@ import { endPose, poseAtStep } from '../../model/base/motion';
 import { wrapAngle, type Pose } from '../../model/base/geometry';
 import { motionOf } from '../../model/physics/playback';
 import { eventsOf, readEvents, type TrafficEvent } from '../../model/words/event-words';
+import { otherNamed } from '../../model/words/future-names';
 import type { localReach, LocalReach } from '../../model/words/reach-words';
 import type { Answers } from './answers';
 import type { Drag } from './drag';
@@ -124,6 +125,8 @@ export class Reading {
   });
   /** Index of the emphasised future on the picture and in the plot; -1 where none is in force. */
   readonly bold = computed(() => (this.replays.value ? -1 : this.chosen.value));
+  /** Id of the road user that the name of the emphasised future contains. */
+  readonly named = computed(() => otherNamed(this.futures.value?.modes[this.bold.value]?.basis));
   /** Panels follow a drag at a reduced rate. */
   readonly throttle: Throttle;
   /** The futures and the one in force, at the panels' rate. */

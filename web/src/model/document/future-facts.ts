@@ -25,7 +25,12 @@ export interface Fault {
 export interface Relation {
   readonly kind: RelationKind;
   readonly with: string;
+  /** When it is where their ways meet. */
   readonly time: number;
+  /** That place, metres. */
+  readonly at: Vec;
+  /** Time between the two there, seconds; null where one of them never arrives. */
+  readonly gap: number | null;
 }
 
 export interface FutureFacts {
@@ -95,10 +100,18 @@ export function readAbout(m: Pick<ModeJson, 'faults' | 'relations' | 'manoeuvre'
   const rank = (f: Fault): number => FAULT_KINDS.indexOf(f.kind);
   return {
     faults: faults.sort((a, b) => rank(a) - rank(b) || a.time - b.time),
-    relations: (m.relations ?? []).map((r) => ({ kind: r.kind, with: r.with, time: r.time_s })),
+    relations: (m.relations ?? []).map(readRelation),
     manoeuvre: m.manoeuvre ?? null,
   };
 }
+
+const readRelation = (r: RelationJson): Relation => ({
+  kind: r.kind,
+  with: r.with,
+  time: r.time_s,
+  at: [r.x_m, r.y_m],
+  gap: r.gap_s ?? null,
+});
 
 const readFault = (f: FaultJson): Fault => ({
   kind: f.kind,

@@ -1,24 +1,21 @@
-// Names of futures: from relations to others, else from the manoeuvre, plus the difference to similar ones, in seconds
-// or metres where it has one. Futures that look the same have the same name.
+// Names of futures: the manoeuvre, then what visibly tells it from the others with that manoeuvre. Whatever a name says
+// is true of one future and false of the rest; futures that look the same have the same name.
 import { JUDGING } from '../base/domain';
-import { faultMark, leavesRoad, type FutureFacts, type RelationKind } from '../document/future-facts';
-import { wrapAngle } from '../base/geometry';
-import { distances, endPose, hardestBraking, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
-import { metres, seconds } from '../base/units';
+import { faultMark, leavesRoad, type Manoeuvre, type Relation } from '../document/future-facts';
+import { endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
 import { TEXTS as KINDS } from '../../texts/scene/kinds';
 import { TEXTS } from '../../texts/scene/names';
+import { manoeuvreOf, type LaneUser, type MovingFuture } from './manoeuvres';
+import { standOf, standTime, traitsOf, type VisibleTrait } from './visible-traits';
 
 /** Inputs of a name. */
-export interface Nameable {
-  readonly motion: Motion;
+export interface Nameable extends MovingFuture {
   /** Relative weight. The likeliest is named first, so that names do not depend on the order of the letters. */
   readonly probability?: number;
-  readonly about?: FutureFacts | null;
 }
 
 /** The named road user, and the names of the others. */
-export interface Naming {
-  readonly onFoot: boolean;
+export interface Naming extends LaneUser {
   readonly nameOf: (id: string) => string | null;
   /** Its recording; null where there is none. */
   readonly log?: Motion | null;
@@ -30,25 +27,15 @@ export interface FutureName {
   readonly basis: string;
 }
 
+/** The road user that a name speaks of; null for a name of the own motion. */
+export const otherNamed = (basis: string | undefined): string | null => /\|\w+?:(.+)$/.exec(basis ?? '')?.[1] ?? null;
+
 /** Letters that fit in a row of the list. */
 const LONGEST = 26;
 
-/** Words for one property of a future, the best first, then shorter ones. */
-interface Candidate {
-  readonly basis: string;
-  readonly forms: readonly string[];
-}
-
-const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
-  before: TEXTS.before,
-  after: TEXTS.after,
-  follows: TEXTS.behind,
-  gives_way_to: TEXTS.waitsFor,
-};
-
 const nameless: Naming['nameOf'] = () => null;
 
-/** A name for each. A property shared by all is not used. */
+/** A name for each. */
 export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): FutureName[] =>
   nameRest(
     modes,
@@ -60,155 +47,43 @@ export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: fals
 export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (FutureName | null)[]): FutureName[] {
   const likelihood = (i: number): number => modes[i].probability ?? 0;
   const order = modes.map((_, i) => i).sort((i, k) => likelihood(k) - likelihood(i) || i - k);
-  const names = nameInOrder(
-    order.map((i) => modes[i]),
-    who,
-    order.map((i) => kept[i]),
-  );
-  return modes.map((_, i) => names[order.indexOf(i)]);
+  const heads = headsOf(modes, who);
+  const groups = new Map<string, number[]>();
+  for (const i of order) groups.set(heads[i].basis, [...(groups.get(heads[i].basis) ?? []), i]);
+  const names = [...kept];
+  for (const group of groups.values()) {
+    // The others differ from the one whose name has no difference.
+    const isPlain = (i: number): boolean => kept[i]?.name === heads[i].forms[0];
+    const rank = (i: number): number => (isPlain(i) ? 0 : standTime(modes[i].motion) < WAITS_S ? 1 : 2);
+    const all = group.sort((i, k) => rank(i) - rank(k));
+    const list = nameGroup(modes, who, { head: heads[all[0]], all, alone: groups.size === 1 });
+    for (const i of all) names[i] ??= list.get(i)!;
+  }
+  return names.map((n) => n!);
 }
 
-function nameInOrder(modes: readonly Nameable[], who: Naming, kept: readonly (FutureName | null)[]): FutureName[] {
-  const list = new NameList(modes, kept);
-  const said = candidates(modes, who);
-  // The most informative property first; one that it does not distinguish is named by another.
-  for (let rank = 0; list.unnamed.length; rank++) {
-    const groups = new Map<string, number[]>();
-    for (const i of list.unnamed) {
-      const c = said[i][rank];
-      if (c) groups.set(c.basis, [...(groups.get(c.basis) ?? []), i]);
-    }
-    if (!groups.size) break;
-    for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
-  }
-  // A small true difference is more informative than a similarity.
-  for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c));
-  for (const i of list.unnamed) list.repeat(i, said[i][0]);
-  return list.names;
+// -------------------------------------------------------------- the manoeuvre
+
+/** What a name begins with, the best first, then shorter ones. */
+interface NameHead {
+  readonly basis: string;
+  readonly forms: readonly string[];
+  readonly manoeuvre: Manoeuvre | null;
 }
 
-/** The names given so far. */
-class NameList {
-  readonly #names: (FutureName | null)[];
-
-  constructor(
-    private readonly modes: readonly Nameable[],
-    kept: readonly (FutureName | null)[],
-  ) {
-    this.#names = [...kept];
-  }
-
-  get unnamed(): number[] {
-    return this.#names.flatMap((n, i) => (n ? [] : [i]));
-  }
-
-  get names(): FutureName[] {
-    return this.#names.map((n) => n!);
-  }
-
-  #give(i: number, c: Candidate, end: string): boolean {
-    const said = (o: FutureName | null): boolean => !!end && o?.basis === c.basis && o.name.endsWith(`, ${end}`);
-    if (this.#names.some(said)) return false;
-    const taken = (n: string): boolean => this.#names.some((o) => o?.name === n);
-    const names = c.forms.map((f) => (end ? `${f}, ${end}` : f));
-    const name = names.find((n) => n.length <= LONGEST && !taken(n));
-    if (name === undefined) return false;
-    this.#names[i] = { name, basis: c.basis };
-    return true;
-  }
-
-  /** The first of a group is named by its common property; each other one by its difference from the rest. */
-  tellApart(group: readonly number[], c: Candidate): void {
-    const named = this.#names.flatMap((n, i) => (n?.basis === c.basis ? [i] : []));
-    const left = [...group];
-    if (!named.length && this.#give(left[0], c, '')) named.push(left.shift()!);
-    if (!left.length) return;
-    const all = [...named, ...left];
-    const { traits, halfway } = traitsOf(this.modes, all, c.basis);
-    const take = (claims: readonly Claim[]): void => {
-      for (const { i, word } of [...claims].sort((p, q) => q.margins - p.margins))
-        if (left.includes(i) && this.#give(i, c, word)) left.splice(left.indexOf(i), 1);
-    };
-    const [pace] = traits;
-    // For two, the plainest difference. Several are distinguished by pace first.
-    if (all.length > 2) take(scaleOf(pace, all));
-    take(traits.flatMap((t) => extremesOf(t, all)));
-    // Those of equal pace, against each other and the first.
-    for (const i of [...left]) {
-      const same = all.filter((j) => j === all[0] || Math.abs(pace.values.get(j)! - pace.values.get(i)!) < pace.least);
-      take([...traits, halfway].flatMap((t) => extremesOf(t, same)).filter((claim) => claim.i === i));
-    }
-  }
-
-  /** Named by a small difference from the first of its group. */
-  tellSlightly(i: number, c: Candidate): boolean {
-    const named = this.#names.flatMap((n, j) => (n?.basis === c.basis ? [j] : []));
-    if (!named.length) return false;
-    const [first] = named;
-    const all = [...named, i];
-    const { traits, halfway } = traitsOf(this.modes, all, c.basis);
-    // A trait in which another named one is alike distinguishes less.
-    const isShared = ({ values, least }: VisibleTrait): boolean =>
-      named.some((j) => j !== first && Math.abs(values.get(j)! - values.get(i)!) < SMALL * least);
-    const differs = [...new Set([...traits, halfway, brakingTime(this.modes, all)])]
-      .map((t) => ({ t, by: (t.values.get(i)! - t.values.get(first)!) / t.least }))
-      // Less than the visible difference in time is noise.
-      .filter(({ t, by }) => Math.abs(by) >= (t === halfway ? 1 : SMALL))
-      .sort((p, q) => Number(isShared(p.t)) - Number(isShared(q.t)) || Math.abs(q.by) - Math.abs(p.by));
-    for (const { t, by } of differs) {
-      const word = by > 0 ? t.more : lessOf(t, i);
-      if (this.#give(i, c, t.amount?.(by * t.least) ?? word)) return true;
-    }
-    return false;
-  }
-
-  /** A future that looks like another one has the same name. */
-  repeat(i: number, { basis, forms }: Candidate): void {
-    this.#names[i] = { name: forms[0], basis };
-  }
-}
-
-/** Share of the visible threshold, used where nothing else distinguishes. */
-const SMALL = 0.5;
-
-// -------------------------------------------------------------- properties of each
-
-type ManoeuvreName = NonNullable<FutureFacts['manoeuvre']>;
-
-/** What a future does: as the generator says, else by its shape. */
-export const manoeuvreOf = ({ motion, about }: Nameable, onFoot: boolean): ManoeuvreName =>
-  about?.manoeuvre ?? shapeOf(motion, onFoot);
-
-/** Manoeuvres that the eye sees before any relation, as they begin a name; lanes are only those of vehicles. */
-const TURNS: Partial<Record<ManoeuvreName, string>> = { left: TEXTS.left, right: TEXTS.right, turn_round: TEXTS.uTurn };
-const LANES: Partial<Record<ManoeuvreName, string>> = { lane_left: TEXTS.leftLane, lane_right: TEXTS.rightLane };
-
-function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
-  const words = who.onFoot ? TURNS : { ...TURNS, ...LANES };
-  const manoeuvres = modes.map((m) => manoeuvreOf(m, who.onFoot));
-  // A manoeuvre of all distinguishes none.
-  const differ = new Set(manoeuvres.map((name) => words[name])).size > 1;
-  const relations = modes.map((m, i) => relationsOf(m, who, differ ? (words[manoeuvres[i]] ?? '') : ''));
-  const count = new Map<string, number>();
-  const kinds = new Map<string, Set<string>>();
-  for (const list of relations)
-    for (const r of list) {
-      count.set(r.relation, (count.get(r.relation) ?? 0) + 1);
-      kinds.set(r.other, (kinds.get(r.other) ?? new Set()).add(r.relation));
-    }
-  const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.relation)! < modes.length;
-  // A road user that one future passes before and another after is the most informative for both.
-  const contrast = (r: RelationCandidate): number => Number(kinds.get(r.other)!.size > 1);
+function headsOf(modes: readonly Nameable[], who: Naming): NameHead[] {
   const onRoad = modes.map((m) => !!m.about && m.about.faults.every((f) => faultMark(f) === 'near'));
-  const alone = onRoad.filter(Boolean).length === 1 && modes.some((m) => m.about?.faults.some(leavesRoad));
-  const stops = modes.map((m) => endsStanding(m, who.onFoot));
-  const stopTells = modes.length === 1 || stops.some((s) => !s);
-  return modes.map((m, i) => [
-    ...(who.log && isLike(m.motion, who.log) ? [{ basis: TEXTS.likeTheLog, forms: [TEXTS.likeTheLog] }] : []),
-    ...(alone && onRoad[i] ? [{ basis: TEXTS.byRoad, forms: [TEXTS.byRoad] }] : []),
-    ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
-    stops[i] && stopTells && !hasTurned(m, who.onFoot) ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
-  ]);
+  const leaves = modes.some((m) => m.about?.faults.some(leavesRoad));
+  const like = modes.map((m) => !!who.log && isLike(m.motion, who.log));
+  const isOnly = (i: number, list: readonly boolean[]): boolean => list[i] && list.filter(Boolean).length === 1;
+  return modes.map((m, i) => {
+    const only = isOnly(i, like) ? TEXTS.likeTheLog : leaves && isOnly(i, onRoad) ? TEXTS.byRoad : null;
+    if (only !== null) return { basis: only, forms: [only], manoeuvre: null };
+    const manoeuvre = manoeuvreOf(m, who);
+    if (endsStanding(m, manoeuvre)) return { basis: TEXTS.stops, forms: [TEXTS.stops], manoeuvre: null };
+    const forms = manner(m.motion, manoeuvre, who.onFoot);
+    return { basis: forms[0], forms, manoeuvre };
+  });
 }
 
 /** It is like the recording if it never differs by more than this, metres; one that hardly moves is not compared. */
@@ -226,81 +101,30 @@ function isLike(m: Motion, log: Motion): boolean {
   return true;
 }
 
-const STOPS = TEXTS.stops;
+/** One that has braked to less than this, and to this share of its speed, stops to the eye, m/s. */
+const ROLLS_MPS = 1;
+const ROLLS_SHARE = 0.25;
 
-interface RelationCandidate extends Candidate {
-  /** `after:12`, whatever the manoeuvre. */
-  readonly relation: string;
-  readonly other: string;
+/** One that stops after its turn is named by the turn, which the eye sees first. */
+function endsStanding({ motion: m }: Nameable, manoeuvre: Manoeuvre): boolean {
+  if (['stays', 'left', 'right', 'turn_round'].includes(manoeuvre) || pathLength(m) < JUDGING.stays_m) return false;
+  const speed = Math.abs(endPose(m).speed);
+  return speed < JUDGING.standing_mps || speed < Math.min(ROLLS_MPS, ROLLS_SHARE * Math.max(...m.speed));
 }
-
-/** `first`: the manoeuvre that begins the name, or nothing. */
-function relationsOf(m: Nameable, who: Naming, first: string): RelationCandidate[] {
-  const out = new Map<string, RelationCandidate>();
-  // A future does not wait for a road user that it hits.
-  const hit = new Set(m.about?.faults.flatMap((f) => (f.kind === 'collision' && f.with !== null ? [f.with] : [])));
-  for (const r of m.about?.relations ?? []) {
-    const name = hit.has(r.with) ? null : who.nameOf(r.with);
-    const relation = `${r.kind}:${r.with}`;
-    if (!name || out.has(relation)) continue;
-    // Giving way at speed is not waiting.
-    const rolls = r.kind === 'gives_way_to' && !waitsBy(m.motion, r.time, who.onFoot);
-    const word = rolls ? TEXTS.slowsFor : RELATION_WORDS[r.kind];
-    const short = shortName(name);
-    const words = [`${word} ${name}`, `${word} ${short}`];
-    if (r.kind === 'gives_way_to') words.push(TEXTS.yieldsTo(short));
-    const forms = first ? words.map((w) => `${first}, ${w.charAt(0).toLowerCase()}${w.slice(1)}`) : words;
-    const basis = `${first && manoeuvreOf(m, who.onFoot)}|${relation}`;
-    if (forms.some((f) => f.length <= LONGEST)) out.set(relation, { basis, forms, relation, other: r.with });
-  }
-  return [...out.values()];
-}
-
-/** Slower than walking pace is waiting, m/s. */
-const CRAWLS_M_S = 1.4;
-
-/** Has it stood or crept by a scene time? */
-function waitsBy(m: Motion, time: number, onFoot: boolean): boolean {
-  const slow = onFoot ? JUDGING.standing_mps : CRAWLS_M_S;
-  return m.speed.some((v, i) => (m.first + i) * STEP_S <= time && Math.abs(v) < slow);
-}
-
-/** A given name with the long word shortened. */
-const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
-const SHORT = [
-  [KINDS.pedestrian, TEXTS.ped],
-  [KINDS.motorcycle, TEXTS.moto],
-  [KINDS.cyclist, TEXTS.cycl],
-] as const;
 
 /** Smaller movements are invisible, metres. */
 const CREEPS_M = 0.4;
 
-/** One that stops after its turn is named by the turn, which the eye sees first. */
-const hasTurned = (m: Nameable, onFoot: boolean): boolean => manoeuvreOf(m, onFoot) in TURNS;
-
-function endsStanding(m: Nameable, onFoot: boolean): boolean {
-  if (manoeuvreOf(m, onFoot) === 'stays' || pathLength(m.motion) < JUDGING.stays_m) return false;
-  return Math.abs(endPose(m.motion).speed) < JUDGING.standing_mps;
-}
-
-function manner(m: Nameable, onFoot: boolean): Candidate {
-  const forms = mannerWords(m.motion, manoeuvreOf(m, onFoot), onFoot);
-  return { basis: forms[0], forms };
-}
-
-function mannerWords(m: Motion, manoeuvre: ManoeuvreName, onFoot: boolean): string[] {
+function manner(m: Motion, manoeuvre: Manoeuvre, onFoot: boolean): string[] {
   switch (manoeuvre) {
     case 'left':
-    case 'right': {
-      const turn = manoeuvre === 'left' ? TEXTS.turnsLeft : TEXTS.turnsRight;
-      return !onFoot && shiftsFirst(m) ? [TEXTS.laneChangeThen[manoeuvre], TEXTS.laneChange[manoeuvre], turn] : [turn];
-    }
+      return [TEXTS.turnsLeft, TEXTS.left];
+    case 'right':
+      return [TEXTS.turnsRight, TEXTS.right];
     case 'lane_left':
-    case 'lane_right': {
-      const side = manoeuvre === 'lane_left' ? 'left' : 'right';
-      return onFoot ? [TEXTS.bears[side]] : [TEXTS.toTheLane[side], side === 'left' ? TEXTS.leftLane : TEXTS.rightLane];
-    }
+      return onFoot ? [TEXTS.bearsLeft] : [TEXTS.toTheLeftLane, TEXTS.leftLane];
+    case 'lane_right':
+      return onFoot ? [TEXTS.bearsRight] : [TEXTS.toTheRightLane, TEXTS.rightLane];
     case 'turn_round':
       return [TEXTS.uTurn];
     case 'stays':
@@ -313,196 +137,179 @@ function mannerWords(m: Motion, manoeuvre: ManoeuvreName, onFoot: boolean): stri
   }
 }
 
-// -------------------------------------------------------------- shapes
+// -------------------------------------------------------------- those of one manoeuvre
 
-/** The manoeuvre, from the shape only. */
-function shapeOf(m: Motion, onFoot: boolean): ManoeuvreName {
-  const n = m.x.length - 1;
-  if (n < 2 || pathLength(m) < JUDGING.stays_m) return 'stays';
-  const turn = totalTurn(m);
-  if (Math.abs(turn) > JUDGING.turn_round_rad) return 'turn_round';
-  if (Math.abs(turn) > JUDGING.turn_rad) return turn > 0 ? 'left' : 'right';
-  // Sideways without a turn; a long road with a slight bend is still straight on.
-  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2;
-  const far = Math.hypot(m.x[n] - m.x[0], m.y[n] - m.y[0]);
-  const left = sideways(m, n, h);
-  const limit = onFoot ? Math.max(1, 0.18 * far) : Math.max(2.2, 0.07 * far);
-  return Math.abs(left) > limit ? (left > 0 ? 'lane_left' : 'lane_right') : 'straight';
+interface NameGroup {
+  readonly head: NameHead;
+  /** The first has no difference, the others differ from it. */
+  readonly all: readonly number[];
+  /** Have all futures this manoeuvre? */
+  readonly alone: boolean;
 }
 
-function totalTurn(m: Motion): number {
-  let t = 0;
-  for (let i = 1; i < m.heading.length; i++) t += wrapAngle(m.heading[i] - m.heading[i - 1]);
-  return t;
+/** Manoeuvres whose relations to others are named: one that stops or turns round is told by that. */
+const RELATED: readonly (Manoeuvre | null)[] = ['straight', 'left', 'right', 'lane_left', 'lane_right'];
+
+type Names = Map<number, FutureName>;
+
+function nameGroup(modes: readonly Nameable[], who: Naming, group: NameGroup): Names {
+  const { head, all } = group;
+  if (!RELATED.includes(head.manoeuvre)) return byTraits(modes, group);
+  const names = byRelation(modes, who, group) ?? byTraits(modes, group);
+  // The only one that stands is told by whom it lets pass, unless it is the one that the others differ from.
+  const standing = all.filter((i) => standTime(modes[i].motion) >= STEP_S);
+  const [i] = standing;
+  const waits = standing.length === 1 && (i !== all[0] || modes.length === 1) && waitsFor(modes[i], who);
+  const name = waits && withOther(group, TEXTS.waitsFor, who.nameOf(waits.with)!).find((f) => f.length <= LONGEST);
+  if (waits && name) names.set(i, { name, basis: basisOf(group, waits) });
+  return names;
 }
 
-/** Metres to the left of the start, seen along a heading. */
-const sideways = (m: Motion, i: number, heading: number): number =>
-  -(m.x[i] - m.x[0]) * Math.sin(heading) + (m.y[i] - m.y[0]) * Math.cos(heading);
-
-/** About a lane's width, and the heading from which it is a turn and not a lane change, radians. */
-const LANE_M = 2.4;
-const TURNING = 0.3;
-
-/** Has it changed lanes before it turns? */
-function shiftsFirst(m: Motion): boolean {
-  const i = m.heading.findIndex((h) => Math.abs(wrapAngle(h - m.heading[0])) > TURNING);
-  return i > 0 && Math.abs(sideways(m, i, m.heading[0])) > LANE_M;
-}
-
-// -------------------------------------------------------------- differences
-
-/** A visible property of each of a group. */
-interface VisibleTrait {
-  readonly values: ReadonlyMap<number, number>;
-  /** Smaller differences are invisible. */
-  readonly least: number;
-  readonly more: string;
-  readonly less: string;
-  /** The difference in numbers, signed. */
-  readonly amount?: (by: number) => string;
-  /** The word for almost nothing of it, in place of "less". */
-  readonly none?: { readonly below: number; readonly word: string };
-}
-
-const lessOf = ({ values, less, none }: VisibleTrait, i: number): string =>
-  none && values.get(i)! < none.below ? none.word : less;
-
-interface Claim {
-  readonly i: number;
-  readonly word: string;
-  /** Difference in multiples of the visible threshold. */
-  readonly margins: number;
-}
-
-/** The largest and smallest of a trait: each beyond all of the others. */
-function extremesOf(trait: VisibleTrait, all: readonly number[]): Claim[] {
-  const { values, least, more } = trait;
-  const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
-  const gap = (a: number, b: number): number => (values.get(order[a])! - values.get(order[b])!) / least;
-  const last = order.length - 1;
-  return [
-    { i: order[0], word: more, margins: gap(0, 1) },
-    { i: order[last], word: lessOf(trait, order[last]), margins: gap(last - 1, last) },
-  ].filter((claim) => claim.margins >= 1);
-}
-
-/** More and less of a trait than the first has, level by level. */
-function scaleOf({ values, least, more, less, amount }: VisibleTrait, all: readonly number[]): Claim[] {
-  const [first] = all;
-  const out: Claim[] = [];
-  for (const [sign, word] of [
-    [1, more],
-    [-1, less],
-  ] as const) {
-    const beyond = (i: number): number => (sign * (values.get(i)! - values.get(first)!)) / least;
-    const levels: number[] = [];
-    for (const i of [...all].sort((a, b) => beyond(a) - beyond(b)))
-      if (beyond(i) >= 1 + (levels.length ? beyond(levels.at(-1)!) : 0)) levels.push(i);
-    const exact = (i: number): string => amount?.(values.get(i)! - values.get(first)!) ?? word;
-    // A single one needs no number.
-    levels.forEach((i) => out.push({ i, word: levels.length > 1 ? exact(i) : word, margins: beyond(i) }));
-  }
-  return out;
-}
-
-/** Less than this is no braking, m/s². */
-const BRAKES_MPS2 = 0.4;
-
-/** Time of the hardest braking, seconds; unused if one of them hardly brakes. */
-function brakingTime(modes: readonly Nameable[], group: readonly number[]): VisibleTrait {
-  const at = (m: Motion): number => {
-    let most = 1,
-      when = NaN;
-    for (let i = 5; i < m.speed.length; i++) {
-      const braking = (Math.abs(m.speed[i - 5]) - Math.abs(m.speed[i])) / 0.5;
-      if (braking > most) [most, when] = [braking, i * STEP_S];
+/** A road user that some pass before and all others after. Null where there is none, or its name does not fit. */
+function byRelation(modes: readonly Nameable[], who: Naming, group: NameGroup): Names | null {
+  const { head, all } = group;
+  for (const { with: id } of modes[all[0]].about?.relations ?? []) {
+    const other = who.nameOf(id);
+    const orders = all.map((i) => orderOf(modes[i], id));
+    if (other === null || new Set(orders).size !== 2 || orders.includes(null)) continue;
+    const names: Names = new Map();
+    for (const [order, word] of Object.entries(ORDERS)) {
+      const part = all.filter((_, k) => orders[k] === order);
+      const forms = withOther(group, word, other);
+      for (const [i, { name }] of byTraits(modes, { ...group, head: { ...head, forms }, all: part }))
+        names.set(i, { name, basis: basisOf(group, relationTo(modes[i], id)!) });
     }
-    return when;
-  };
-  const values = new Map(group.map((i) => [i, at(modes[i].motion)]));
-  return { values, least: 1, more: TEXTS.brakesLater, less: TEXTS.brakesEarlier };
-}
-
-interface Traits {
-  /** The pace first. */
-  readonly traits: readonly VisibleTrait[];
-  /** Progress at half time. */
-  readonly halfway: VisibleTrait;
-}
-
-/** Differences of slower ones are not converted to seconds by their own speed, m/s. */
-const LEAST_PACE_MPS = 0.5;
-
-/** Smaller differences in time are invisible: seconds, and metres of those that are slow. */
-const LEAST_APART_S = 0.3;
-const LEAST_APART_M = 0.8;
-
-/** All visible traits in which members of a group may differ. */
-function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
-  const motion = (i: number): Motion => modes[i].motion;
-  const gone = new Map(group.map((i) => [i, distances(motion(i))]));
-  const n = Math.min(...[...gone.values()].map((d) => d.length)) - 1;
-  const trait = (of: (i: number) => number, least: number, more: string, less: string): VisibleTrait => ({
-    values: new Map(group.map((i) => [i, of(i)])),
-    least,
-    more,
-    less,
-  });
-  const at = (part: number) => (i: number) => gone.get(i)![Math.round(n * part)];
-  const ends = group.map(at(1));
-  const far = Math.max(1, 0.03 * Math.max(...ends));
-  const together = Math.max(...ends) - Math.min(...ends) < far;
-  const speed = Math.max(LEAST_PACE_MPS, distances(motion(group[0]))[n] / (n * STEP_S));
-  const apart = Math.max(LEAST_APART_M, LEAST_APART_S * speed);
-  const halfway: VisibleTrait = {
-    ...trait(at(0.5), apart, TEXTS.earlier, TEXTS.later),
-    amount: (by) => (by > 0 ? TEXTS.earlierBy : TEXTS.laterBy)(seconds(Math.abs(by) / speed)),
-  };
-  const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
-  // With a goal all get equally far, so progress is compared on the way.
-  const pace: VisibleTrait = together
-    ? halfway
-    : {
-        ...trait(at(1), far, more, less),
-        amount: (by) => (by > 0 ? TEXTS.furtherBy : TEXTS.shorterBy)(metres(Math.max(1, Math.abs(by)), 0)),
-      };
-  const [first] = group;
-  const turn = totalTurn(motion(first));
-  const turns = Math.abs(turn) > 0.4;
-  // Positive outwards in a turn, else to the left.
-  const side = new Map(group.map((i) => [i, (turns ? -Math.sign(turn) : 1) * sideOf(motion(first), motion(i), n)]));
-  const offset = (i: number): number => side.get(i)!;
-  const traits: VisibleTrait[] = [
-    pace,
-    trait(at(0.25), apart, TEXTS.fasterStart, TEXTS.slowerStart),
-    trait((i) => Math.abs(motion(i).speed[n]), 1.5, TEXTS.fasterEnd, TEXTS.slowerEnd),
-    {
-      ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.brakesHarder, TEXTS.brakesLess),
-      none: { below: BRAKES_MPS2, word: TEXTS.noBraking },
-    },
-    turns ? trait(offset, 0.5, TEXTS.wider, TEXTS.tighter) : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
-  ];
-  return { traits, halfway };
-}
-
-/** Largest offset of the second path to the left of the first, metres; negative to the right. */
-function sideOf(a: Motion, b: Motion, n: number): number {
-  let most = 0;
-  for (let i = 2; i <= n; i += 2) {
-    // From the nearest point of the first path, so that pace does not count as offset.
-    let best = Infinity,
-      at = 0;
-    for (let k = 0; k < a.x.length; k += 2) {
-      const d = (a.x[k] - b.x[i]) ** 2 + (a.y[k] - b.y[i]) ** 2;
-      if (d < best) {
-        best = d;
-        at = k;
-      }
-    }
-    if (at === 0 || at >= a.x.length - 2) continue;
-    const left = -(b.x[i] - a.x[at]) * Math.sin(a.heading[at]) + (b.y[i] - a.y[at]) * Math.cos(a.heading[at]);
-    if (Math.abs(left) > Math.abs(most)) most = left;
+    if ([...names.values()].every(({ name }) => name.length <= LONGEST)) return names;
   }
-  return most;
+  return null;
+}
+
+const relationTo = ({ about }: Nameable, id: string): Relation | undefined =>
+  about?.relations.find((r) => r.with === id);
+
+const basisOf = ({ head, alone }: NameGroup, r: Relation): string =>
+  `${alone ? '' : head.manoeuvre}|${r.kind}:${r.with}`;
+
+const ORDERS = { before: TEXTS.before, after: TEXTS.after } as const;
+
+/** Between the two at the crossing, seconds; less is no order to the eye. */
+const CLEAR_S = 0.8;
+
+/** Its order with another where their ways meet, if that is clear and within the time of the future. */
+function orderOf(m: Nameable, id: string): keyof typeof ORDERS | null {
+  const r = relationTo(m, id);
+  if (!r || r.kind === 'follows' || r.gap === null || r.gap < CLEAR_S || isMet(m, id)) return null;
+  const isFirst = r.kind === 'before';
+  const last = isFirst ? r.time + r.gap : r.time;
+  return last > lastStep(m.motion) * STEP_S ? null : isFirst ? 'before' : 'after';
+}
+
+/** Does a future have a fault towards another? */
+const isMet = ({ about }: Nameable, id: string): boolean => !!about?.faults.some((f) => f.with === id);
+
+/** The words of a relation with each form of the other's name, after the manoeuvre if that differs. */
+function withOther({ head, alone }: NameGroup, word: string, name: string): string[] {
+  const words = [...new Set([name, shortName(name)])].map((n) => `${word} ${n}`);
+  return alone ? words : words.map((w) => `${head.forms.at(-1)}, ${lowered(w)}`);
+}
+
+const lowered = (w: string): string => w.charAt(0).toLowerCase() + w.slice(1);
+
+/** A given name with the long word shortened. */
+const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
+const SHORT = [
+  [KINDS.pedestrian, TEXTS.ped],
+  [KINDS.motorcycle, TEXTS.moto],
+  [KINDS.cyclist, TEXTS.cycl],
+] as const;
+
+/** Share of the visible difference from which a word for it is true. */
+const SLIGHT = 0.5;
+
+function byTraits(modes: readonly Nameable[], { head, all }: NameGroup): Names {
+  const names: Names = new Map();
+  const traits = traitsOf((i) => modes[i].motion, all);
+  const [own, looks] = lookingAlike(traits, all);
+  const told = tellApart(traits, own);
+  const give = (i: number, end: string): unknown => names.set(i, { name: fit(head.forms, end), basis: head.basis });
+  const offset = ({ values }: VisibleTrait, i: number): number => values.get(i)! - values.get(all[0])!;
+  for (const i of all) give(i, '');
+  for (const [i, trait] of told) {
+    const by = (k: number): number => offset(trait, k);
+    // A single one to this side needs no number.
+    const isOnly = [...told].every(([k, t]) => t === trait && (k === i || by(k) * by(i) <= 0));
+    give(i, isOnly && trait.plain && head.manoeuvre ? trait.plain(by(i)) : trait.words(by(i), i));
+  }
+  for (const [i, like] of looks) {
+    const trait = told.get(like);
+    names.set(i, names.get(like)!);
+    // Like it, but hardly different from the first in what its name says: named by its own difference.
+    if (!trait || (offset(trait, i) * offset(trait, like) > 0 && apart(trait, i, all[0]) >= SLIGHT)) continue;
+    const [most] = [...traits].sort((t, u) => apart(u, i, all[0]) - apart(t, i, all[0]));
+    give(i, most.words(offset(most, i), i));
+  }
+  return names;
+}
+
+/** The best form that is short enough with its difference, else the shortest. */
+function fit(heads: readonly string[], end: string): string {
+  const all = heads.map((h) => (end ? `${h}, ${end}` : h));
+  return all.find((n) => n.length <= LONGEST) ?? all.at(-1)!;
+}
+
+/** Those that differ from each other, and those that look like one of them. */
+function lookingAlike(traits: readonly VisibleTrait[], all: readonly number[]): [number[], Map<number, number>] {
+  const own: number[] = [];
+  const looks = new Map<number, number>();
+  for (const i of all) {
+    const like = own.find((k) => traits.every((t) => apart(t, i, k) < 1));
+    if (like === undefined) own.push(i);
+    else looks.set(i, like);
+  }
+  return [own, looks];
+}
+
+/** Difference in multiples of the visible one. */
+const apart = ({ values, least }: VisibleTrait, i: number, k: number): number =>
+  Math.abs(values.get(i)! - values.get(k)!) / least;
+
+/** The trait that tells each, except the first, from all others; one that tells more of them is better. */
+function tellApart(traits: readonly VisibleTrait[], all: readonly number[]): Map<number, VisibleTrait> {
+  const told = new Map<number, VisibleTrait>();
+  const margin = (t: VisibleTrait, i: number): number =>
+    apart(t, i, all[0]) < 1 ? -1 : Math.min(...all.filter((k) => k !== i).map((k) => apart(t, i, k)));
+  let left = all.slice(1);
+  for (let least = 1; left.length;) {
+    const claims = traits.map((t) => left.filter((i) => margin(t, i) >= least));
+    const most = Math.max(...claims.map((c) => c.length));
+    const best = claims.findIndex((c) => c.length === most);
+    for (const i of claims[best]) told.set(i, traits[best]);
+    left = left.filter((i) => !told.has(i));
+    if (most) continue;
+    // No single trait tells the rest from all: the one that comes nearest.
+    const nearest = Math.max(...left.flatMap((i) => traits.map((t) => margin(t, i))));
+    if (!(nearest < least)) break;
+    least = nearest;
+  }
+  return told;
+}
+
+/** At most so far from where the other passes does one wait for it, metres. */
+const WAITS_WITHIN_M = 15;
+/** A shorter stand is no waiting, seconds. */
+const WAITS_S = 1;
+
+/** The other that passes close by while it stands, if it stands for that one. */
+function waitsFor(mode: Nameable, who: Naming): Relation | null {
+  const { motion: m, about } = mode;
+  const stand = standOf(m);
+  if (!stand || standTime(m) < WAITS_S) return null;
+  const [from, to] = stand.map((i) => (m.first + i) * STEP_S);
+  const [x, y] = [m.x[stand[1]], m.y[stand[1]]];
+  const passes = (r: Relation): boolean => {
+    if (r.kind !== 'gives_way_to' || r.gap === null || who.nameOf(r.with) === null || isMet(mode, r.with)) return false;
+    const left = r.time - r.gap;
+    return Math.hypot(r.at[0] - x, r.at[1] - y) < WAITS_WITHIN_M && left > from && left < to + WAITS_S;
+  };
+  return about?.relations.find(passes) ?? null;
 }

@@ -1,0 +1,117 @@
+// Measures in which futures of one manoeuvre visibly differ, and their words.
+import { JUDGING } from '../base/domain';
+import { distances, STEP_S, type Motion } from '../base/motion';
+import { metres, seconds } from '../base/units';
+import { TEXTS } from '../../texts/scene/names';
+import { totalTurn } from './manoeuvres';
+
+/** A measure of each of a group. */
+export interface VisibleTrait {
+  readonly values: ReadonlyMap<number, number>;
+  /** Smaller differences are invisible. */
+  readonly least: number;
+  /** Words for one that differs from the first by this much. */
+  readonly words: (by: number, i: number) => string;
+  /** Words for the only one on its side of the first, without a number; null where there are none. */
+  readonly plain: ((by: number) => string) | null;
+}
+
+/** Slower is standing to the eye, m/s. */
+export const STANDS_MPS = 0.5;
+
+/** Smaller visible differences: of the way in metres and as a share; of time, seconds; to the side, metres. */
+const LEAST_M = 2;
+const LEAST_SHARE = 0.04;
+const LEAST_S = 0.5;
+const LEAST_ASIDE_M = 0.8;
+
+/** A stand between two drives: its first and last step of the motion. */
+export type Stand = readonly [from: number, to: number];
+
+/** The longest stand after which it visibly drives on; null without one. */
+export function standOf(m: Motion): Stand | null {
+  let best: Stand | null = null;
+  const end = m.x.length - 1;
+  for (let from = 0, i = 0; i <= end; i++) {
+    if (Math.abs(m.speed[i]) < STANDS_MPS) continue;
+    const goesOn = Math.hypot(m.x[end] - m.x[i], m.y[end] - m.y[i]) > LEAST_M;
+    if (goesOn && i > from && (!best || i - from > best[1] - best[0])) best = [from, i - 1];
+    from = i + 1;
+  }
+  return best;
+}
+
+/** Duration of that stand, seconds. */
+export function standTime(m: Motion): number {
+  const stand = standOf(m);
+  return stand ? (stand[1] - stand[0]) * STEP_S : 0;
+}
+
+const sized = (by: number, of: (amount: string) => string, less: (amount: string) => string, amount: string): string =>
+  (by > 0 ? of : less)(amount);
+
+/** The visible traits of a group, the plainest first. All differences are from the first of it. */
+export function traitsOf(motion: (i: number) => Motion, group: readonly number[]): VisibleTrait[] {
+  const first = motion(group[0]);
+  const gone = new Map(group.map((i) => [i, distances(motion(i))]));
+  const n = Math.min(...[...gone.values()].map((d) => d.length)) - 1;
+  const of = (value: (i: number) => number): VisibleTrait['values'] => new Map(group.map((i) => [i, value(i)]));
+  const ends = of((i) => gone.get(i)![n]);
+  // All get at least as far as this.
+  const halfway = Math.min(...ends.values()) / 2;
+  const turn = totalTurn(first);
+  const turns = Math.abs(turn) > JUDGING.turn_rad;
+  // Positive outwards in a turn, else to the left.
+  const sign = turns && turn > 0 ? -1 : 1;
+  return [
+    {
+      values: ends,
+      least: Math.max(LEAST_M, LEAST_SHARE * Math.max(...ends.values())),
+      words: (by) => sized(by, TEXTS.furtherBy, TEXTS.shorterBy, metres(Math.abs(by), 0)),
+      plain: (by) => (by > 0 ? TEXTS.faster : TEXTS.slower),
+    },
+    {
+      values: of((i) => standTime(motion(i))),
+      least: 1,
+      words: (_, i) => {
+        const time = standTime(motion(i));
+        return time < 1 ? TEXTS.noStop : TEXTS.waits(seconds(time));
+      },
+      plain: null,
+    },
+    {
+      values: of((i) => sign * sideOf(first, motion(i), n)),
+      least: LEAST_ASIDE_M,
+      words: (by) =>
+        sized(by, turns ? TEXTS.widerBy : TEXTS.leftBy, turns ? TEXTS.tighterBy : TEXTS.rightBy, metres(Math.abs(by))),
+      plain: null,
+    },
+    {
+      values: of((i) => -gone.get(i)!.findIndex((d) => d >= halfway) * STEP_S),
+      least: LEAST_S,
+      words: (by) => sized(by, TEXTS.earlierBy, TEXTS.laterBy, seconds(Math.abs(by))),
+      plain: null,
+    },
+  ];
+}
+
+/** Largest offset of the second path to the left of the first, metres; negative to the right. */
+function sideOf(a: Motion, b: Motion, n: number): number {
+  let most = 0;
+  for (let i = 2; i <= n; i += 2) {
+    // From the nearest point of the first path, so that pace does not count as offset.
+    let best = Infinity,
+      at = 0;
+    for (let k = 0; k < a.x.length; k += 2) {
+      const d = (a.x[k] - b.x[i]) ** 2 + (a.y[k] - b.y[i]) ** 2;
+      if (d < best) {
+        best = d;
+        at = k;
+      }
+    }
+    if (at === 0 || at >= a.x.length - 2) continue;
+    const left = -(b.x[i] - a.x[at]) * Math.sin(a.heading[at]) + (b.y[i] - a.y[at]) * Math.cos(a.heading[at]);
+    if (Math.abs(left) > Math.abs(most)) most = left;
+  }
+  return most;
+}
