@@ -42,6 +42,8 @@ const OVERFLOW: usize = 8;
 const OVERFLOW_TIME: Duration = Duration::from_secs(2);
 /// Time for a new client to send its first request; afterwards its connection makes room for others.
 const FIRST_REQUEST: Duration = Duration::from_millis(200);
+/// Time between two looks of such a connection for a place.
+const PLACE_LOOK: Duration = Duration::from_millis(50);
 /// Time between two looks for room among the connections beyond all places.
 const ROOM_LOOK: Duration = Duration::from_millis(10);
 /// Time for a refused client to take its answer after its place was given away.
@@ -90,14 +92,6 @@ struct ConnectionTable {
     most: usize,
 }
 
-/// What a new connection gets.
-enum Admission {
-    /// A place like all others.
-    Place(Arc<ConnectionEntry>),
-    /// Work is under way on all places: only questions about the server's health are answered.
-    Overflow(Arc<ConnectionEntry>),
-}
-
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -141,11 +135,9 @@ impl ConnectionTable {
         Self { places: Mutex::default(), next: AtomicU64::new(0), most: most.max(1) }
     }
 
-    /// A place for a new connection. A full table takes one from the connection that waits longest for a refusal, else
-    /// closes the one that is idle longest, else the one with the slowest request; first among those of parties with
-    /// more than a quarter of all places. Of these, a party with less may even take the newest one with work under way.
-    fn enter(&self, stream: ByteStream, party: Party) -> Admission {
-        let place = Arc::new(ConnectionEntry {
+    /// A new connection, which has no place yet.
+    fn entry(&self, stream: ByteStream, party: Party) -> Arc<ConnectionEntry> {
+        Arc::new(ConnectionEntry {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             socket: Arc::new(Socket::new(stream)),
             idle_since: Mutex::new(Instant::now()),
@@ -155,17 +147,35 @@ impl ConnectionTable {
             party,
             pause: RefusalPause::default(),
             close: Notify::new(),
-        });
+        })
+    }
+
+    /// Gives a connection a place, or says that work is under way on all of them. A full table takes one from the
+    /// connection that waits longest for a refusal, else closes the one that is idle longest, else the one with the
+    /// slowest request; first among those of parties with more than a quarter of all places. Of these, a party with less
+    /// may even take the newest one with work under way.
+    fn admit(&self, new: &Arc<ConnectionEntry>) -> bool {
         let mut places = lock(&self.places);
         if places.len() >= self.most {
-            let Some(leaves) = self.leaving(&places, party) else {
-                return Admission::Overflow(place);
-            };
+            let Some(leaves) = self.leaving(&places, new.party) else { return false };
             leaves.make_room();
             places.retain(|p| p.number != leaves.number);
         }
-        places.push(Arc::clone(&place));
-        Admission::Place(place)
+        places.push(Arc::clone(new));
+        true
+    }
+
+    /// Gives a connection a place as soon as there is one. Others have sent nothing yet; those that are refused make
+    /// room when they have, at the latest after [`FIRST_REQUEST`].
+    async fn admit_soon(&self, new: &Arc<ConnectionEntry>) -> bool {
+        let until = Instant::now() + FIRST_REQUEST;
+        while Instant::now() < until {
+            tokio::time::sleep(PLACE_LOOK).await;
+            if self.admit(new) {
+                return true;
+            }
+        }
+        false
     }
 
     fn leaving(&self, places: &[Arc<ConnectionEntry>], new: Party) -> Option<Arc<ConnectionEntry>> {
@@ -348,25 +358,31 @@ pub async fn serve(
             }
         };
         let party = stream.party();
-        let place = match table.enter(stream, party) {
-            Admission::Place(place) => place,
-            Admission::Overflow(place) => {
-                overflow.enter(&place);
-                let (router, connection) = (router.clone(), place.connection(&proxies));
-                let overflow = Arc::clone(&overflow);
-                tokio::spawn(async move {
-                    tokio::select! {
-                        _ = tokio::time::timeout(OVERFLOW_TIME, answer_health(router, connection, &place)) => {}
-                        () = place.close.notified() => {}
-                    }
-                    overflow.leave(place.number);
-                });
-                continue;
-            }
-        };
-        let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
+        let place = table.entry(stream, party);
+        let is_beyond = !table.admit(&place);
+        if is_beyond {
+            overflow.enter(&place);
+        }
+        let (table, overflow) = (Arc::clone(&table), Arc::clone(&overflow));
+        let (router, closed) = (router.clone(), closed.clone());
         let (bounds, proxies) = (bounds.clone(), Arc::clone(&proxies));
         tokio::spawn(async move {
+            if is_beyond {
+                let is_admitted = tokio::select! {
+                    is_admitted = table.admit_soon(&place) => is_admitted,
+                    () = place.close.notified() => return overflow.leave(place.number),
+                };
+                if !is_admitted {
+                    drop(closed);
+                    let answered = answer_health(router, place.connection(&proxies), &place);
+                    tokio::select! {
+                        _ = tokio::time::timeout(OVERFLOW_TIME, answered) => {}
+                        () = place.close.notified() => {}
+                    }
+                    return overflow.leave(place.number);
+                }
+                overflow.leave(place.number);
+            }
             connection(router, &place, &proxies, closed, &bounds, stalled).await;
             table.leave(place.number);
         });
