@@ -45,8 +45,12 @@ fn list(text: &str, name: &str) -> Vec<String> {
     let head: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).map(str::trim).collect();
     let head = head.join("\n");
     let Some((_, rest)) = head.split_once(&format!("\n{name} = [")) else { return Vec::new() };
-    let rest = rest.split(']').next().unwrap_or_default();
-    rest.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+    // Between quotes a bracket is part of a name, such as `moto[server]`.
+    let (mut parts, mut names) = (rest.split('"'), Vec::new());
+    while parts.next().is_some_and(|between| !between.contains(']')) {
+        names.extend(parts.next().map(str::to_owned));
+    }
+    names
 }
 
 /// The scripts, by name.

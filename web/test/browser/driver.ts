@@ -24,10 +24,14 @@ if (named && !existsSync(named)) throw new Error(`CHROMIUM is ${named}, and no s
 export const chromiumPath = named ?? PLACES.find((p) => existsSync(p)) ?? null;
 if (!chromiumPath) console.log('Browser tests are skipped: no Chromium found (set CHROMIUM to its path).');
 
+const WEB = fileURLToPath(new URL('../..', import.meta.url));
+/** The built page, a folder for each worker: what builds the program may write web/dist meanwhile. */
+const PAGE = `${WEB}node_modules/.page-${process.env.VITEST_POOL_ID ?? 0}`;
+
 export async function buildPage(): Promise<void> {
   // The test uses the shipped build; under the runner's own NODE_ENV it would be a development build.
   process.env.NODE_ENV = 'production';
-  await build({ root: fileURLToPath(new URL('../..', import.meta.url)), logLevel: 'error' });
+  await build({ root: WEB, logLevel: 'error', build: { outDir: PAGE, emptyOutDir: true } });
 }
 
 export const launch = (): Promise<Browser> => chromium.launch({ executablePath: chromiumPath!, args: FLAGS });
@@ -50,7 +54,7 @@ export class Driver {
     path = '/',
     setup?: (p: Page) => Promise<unknown>,
   ): Promise<Driver> {
-    const server = await startStandIn({ port: 0, delay: 4, ...options });
+    const server = await startStandIn({ port: 0, delay: 4, page: PAGE, ...options });
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: 'reduce' });
     const page = await context.newPage();
     const d = new Driver(page, server);

@@ -10,6 +10,8 @@ export interface StandInOptions {
   collision?: boolean;
   judged?: boolean;
   scenes?: string[];
+  /** Folder of the built page; web/dist without it. */
+  page?: string;
 }
 export interface StandIn {
   url: string;

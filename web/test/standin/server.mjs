@@ -46,6 +46,7 @@ export function startStandIn(options = {}) {
     busy: 0,
     judged: false,
     scenes: [],
+    page: DIST,
     ...options,
   };
   const scenes = new Map();
@@ -345,8 +346,9 @@ export function startStandIn(options = {}) {
     if (url.pathname === '/healthz') return void res.end('ok');
     if (url.pathname.startsWith('/v1/'))
       return void api(req, res, url).catch((e) => problem(res, 500, 'internal', String(e)));
-    let file = normalize(join(DIST, url.pathname));
-    if (!file.startsWith(DIST) || !existsSync(file) || statSync(file).isDirectory()) file = join(DIST, 'index.html');
+    let file = normalize(join(o.page, url.pathname));
+    if (!file.startsWith(o.page) || !existsSync(file) || statSync(file).isDirectory())
+      file = join(o.page, 'index.html');
     res.writeHead(200, {
       'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream',
       'Content-Security-Policy': CSP,

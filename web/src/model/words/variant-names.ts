@@ -41,11 +41,13 @@ export interface Deed {
 interface WeightedWords {
   readonly words: string;
   readonly weight: number;
+  /** Several may be named by them. */
+  readonly shared?: boolean;
 }
 
 /**
- * A name for each, no two alike. `unitOf`: unit for speed conditions of a road user; `numbered`: the name of one that
- * differs in nothing, by its id.
+ * A name for each, no two alike but for futures of one name. `unitOf`: unit for speed conditions of a road user;
+ * `numbered`: the name of one that differs in nothing, by its id.
  */
 export function nameVariants(
   all: readonly Nameless[],
@@ -66,7 +68,7 @@ export function nameVariants(
   }
   const taken = new Set<string>();
   return said.map((list, i) => {
-    const first = list.sort((p, q) => q.weight - p.weight).find((s) => !taken.has(s.words));
+    const first = list.sort((p, q) => q.weight - p.weight).find((s) => s.shared || !taken.has(s.words));
     const name = first?.words ?? numbered(all[i].id);
     taken.add(name);
     return name;
@@ -97,7 +99,8 @@ function ofSubject(v: Nameless): WeightedWords[] {
   const a = subjectOf(v);
   const f = a && v.set?.futures.get(a.id);
   const name = f && f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)]?.name;
-  return name ? [{ words: name, weight: Infinity }] : [];
+  if (!name) return [];
+  return [{ words: name, weight: Infinity, shared: f.modes.filter((m) => m.name === name).length > 1 }];
 }
 
 /** Weight of an event in metres, by its mark. */
