@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::oneshot;
-use work::{Caller, Ending, JobKind, JobRequest, Pool, Stop};
+use work::{Caller, Ending, Handle, JobKind, JobRequest, Pool, Stop, Ticket, Work};
 
 /// An end that says when it has come.
 struct Told(Mutex<Option<oneshot::Sender<()>>>);
@@ -114,6 +114,33 @@ fn noted(
     tokio::spawn(async move { pool.run(asked, work).await.unwrap() })
 }
 
+/// Asks for a generation of several steps of so many milliseconds. Between two of them it lets others go; at its end it
+/// notes its name, and the receiver hears of it.
+fn yielding<T: Send + 'static>(
+    pool: &Arc<Pool>,
+    done: &Arc<Mutex<Vec<T>>>,
+    (name, cost, caller): (T, Duration, Caller),
+    (steps, step_ms): (usize, u64),
+) -> (Handle, oneshot::Receiver<()>) {
+    let asked = JobRequest { kind: JobKind::Generate, cost, caller };
+    let (own, noting) = (Arc::clone(pool), Arc::clone(done));
+    let (sender, receiver) = oneshot::channel();
+    let answer = Arc::new(Told(Mutex::new(Some(sender))));
+    let make = |ticket: &Arc<Ticket>| {
+        let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
+        let work: Work = Box::new(move || {
+            for _ in 0..steps {
+                std::thread::sleep(Duration::from_millis(step_ms));
+                own.let_others_go(&ticket);
+            }
+            noting.lock().unwrap().push(name);
+            given.tell();
+        });
+        (answer, work)
+    };
+    (pool.submit(asked, make).unwrap().1, receiver)
+}
+
 #[tokio::test]
 async fn callers_take_turns() {
     let pool = pool(Limits { running: 1, ..Limits::default() });
@@ -162,25 +189,8 @@ async fn what_nobody_waits_for_holds_up_nobody() {
 async fn a_long_call_lets_smaller_ones_of_others_go_first() {
     let pool = pool(Limits { running: 1, ..Limits::default() });
     let done: Arc<Mutex<Vec<&'static str>>> = Arc::default();
-    let (own, noting) = (Arc::clone(&pool), Arc::clone(&done));
     let caller = Caller { connection: Some(1), ..Caller::default() };
-    let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_secs(4), caller };
-    let (sender, receiver) = oneshot::channel();
-    let answer = Arc::new(Told(Mutex::new(Some(sender))));
-    let (_, hold) = pool
-        .submit(asked, |ticket| {
-            let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
-            let work = move || {
-                for _ in 0..4 {
-                    std::thread::sleep(Duration::from_millis(40));
-                    own.let_others_go(&ticket);
-                }
-                noting.lock().unwrap().push("long");
-                given.tell();
-            };
-            (answer, Box::new(work))
-        })
-        .unwrap();
+    let (hold, receiver) = yielding(&pool, &done, ("long", Duration::from_secs(4), caller), (4, 40));
     let waits = [("small", 2, 500), ("own", 1, 500), ("as long", 3, 3_000)];
     let mut calls = Vec::new();
     for call in waits {
@@ -204,26 +214,9 @@ async fn a_long_call_shares_its_thread_with_those_of_another_party() {
     let call = |last: u8| {
         let party = Party::of(std::net::IpAddr::from([10, 0, 0, last]));
         let caller = Caller { party, connection: Some(last.into()), ..Caller::default() };
-        let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_millis(200), caller };
-        let (own, noting) = (Arc::clone(&pool), Arc::clone(&done));
-        let (sender, receiver) = oneshot::channel();
-        let answer = Arc::new(Told(Mutex::new(Some(sender))));
-        let (_, hold) = pool
-            .submit(asked, |ticket| {
-                let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
-                let work = move || {
-                    // The first party's call takes ten times what was expected.
-                    for _ in 0..if last == 1 { 100 } else { 10 } {
-                        std::thread::sleep(Duration::from_millis(20));
-                        own.let_others_go(&ticket);
-                    }
-                    noting.lock().unwrap().push(last);
-                    given.tell();
-                };
-                (answer, Box::new(work))
-            })
-            .unwrap();
-        (hold, receiver)
+        // The first party's call takes ten times what was expected.
+        let steps = if last == 1 { 100 } else { 10 };
+        yielding(&pool, &done, (last, Duration::from_millis(200), caller), (steps, 20))
     };
     let calls = [1, 1, 2, 2, 2].map(call);
     let mut holds = Vec::new();
