@@ -32,9 +32,16 @@ pub fn check() -> anyhow::Result<Outcome> {
     e2e.args(["run", "e2e"]).current_dir(root().join(folder));
     let firefox = FIREFOX.find()?;
     e2e.envs(firefox.as_ref().map(|path| ("FIREFOX", path)));
-    Ok(match (run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))?, firefox) {
+    let outcome = run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))?;
+    Ok(match (outcome, firefox) {
         (Outcome::Passed, None) => {
             Outcome::Skipped(format!("the journey in Firefox, the others pass: {NO_FIREFOX}"))
+        }
+        (Outcome::Passed, Some(_)) => {
+            // Files that failed beside others and passed alone.
+            let unsteady = std::fs::read_to_string(root().join(folder).join("out/unsteady.txt"))?;
+            let told = format!("at the second attempt: {unsteady}");
+            if unsteady.is_empty() { Outcome::Passed } else { Outcome::Told(told) }
         }
         (outcome, _) => outcome,
     })
@@ -46,8 +53,8 @@ const NO_FIREFOX: &str = "no Firefox here; install it (Debian: apt-get install f
 const CHROMIUM: SystemProgram = SystemProgram {
     variable: "CHROMIUM",
     names: &["chromium", "chromium-browser", "google-chrome", "chrome"],
-    package: "chromium",
+    package: Some("chromium"),
 };
 /// Only for the journey of the first minute.
 const FIREFOX: SystemProgram =
-    SystemProgram { variable: "FIREFOX", names: &["firefox", "firefox-esr"], package: "firefox-esr" };
+    SystemProgram { variable: "FIREFOX", names: &["firefox", "firefox-esr"], package: Some("firefox-esr") };

@@ -1,8 +1,9 @@
 //! `checkers`: foreign programs read our files. Each script of `tests/checkers` names the packages that it
-//! needs (PEP 723, and under `[tool.dragtraffic]` those to install without dependencies). It receives the
-//! program and a folder to work in, and prints `N passed, N failed` as its last line.
+//! needs (PEP 723, and under `[tool.dragtraffic]` those to install without dependencies, and programs that no package
+//! has). It receives the program and a folder to work in, and prints `N passed, N failed` as its last line.
 
 use crate::environments::Environment;
+use crate::system::SystemProgram;
 use crate::{Outcome, program, root};
 use anyhow::{Context, ensure};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,12 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 const SCRIPTS: &str = "tests/checkers";
-/// With this set, a script without its packages fails instead of being skipped.
+/// Programs that a script may name as `programs`; it is told their places by their variables.
+const PROGRAMS: &[SystemProgram] =
+    &[SystemProgram { variable: "ESMINI", names: &["esmini", BUILT_ESMINI], package: None }];
+/// Where `support/build_esmini.py` puts it: no registry has it.
+const BUILT_ESMINI: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/esmini/bin/esmini");
+/// With this set, a script without its packages or programs fails instead of being skipped.
 pub static STRICT: AtomicBool = AtomicBool::new(false);
 
 /// All scripts, each in an environment of its own.
@@ -19,8 +25,12 @@ pub fn check() -> anyhow::Result<Outcome> {
     let (mut told, mut skipped, mut failed) = (Vec::new(), Vec::new(), Vec::new());
     for script in scripts()? {
         let name = name_of(&script);
-        match environment(&script)?.python()? {
-            Ok(python) => match run(&python, &script, &program, &name)? {
+        let needed = match programs(&script)? {
+            Ok(programs) => environment(&script)?.python()?.map(|python| (python, programs)),
+            Err(why) => Err(why),
+        };
+        match needed {
+            Ok((python, programs)) => match run(&python, &script, &program, &name, &programs)? {
                 Ok(line) => told.push(format!("{name}: {line}")),
                 Err(line) => failed.push(format!("{name}: {line}")),
             },
@@ -74,6 +84,26 @@ fn environment(script: &Path) -> anyhow::Result<Environment> {
     Ok(Environment::of_script(&name_of(script), with, without))
 }
 
+/// Variables and places of the programs that a script names, or which of them is not here.
+fn programs(script: &Path) -> anyhow::Result<Result<Vec<(&'static str, String)>, String>> {
+    let text = std::fs::read_to_string(script)?;
+    let mut places = Vec::new();
+    for name in list(&text, "programs") {
+        let known = PROGRAMS.iter().find(|program| program.names.contains(&name.as_str()));
+        let known = known.with_context(|| format!("{}: no program is called {name}", script.display()))?;
+        match known.find()? {
+            Some(place) => places.push((known.variable, place)),
+            None => {
+                return Ok(Err(format!(
+                    "{name} is not on the path, {} does not name it, and {SCRIPTS}/support has not built it",
+                    known.variable
+                )));
+            }
+        }
+    }
+    Ok(Ok(places))
+}
+
 /// Those of all scripts.
 ///
 /// # Errors
@@ -83,7 +113,13 @@ pub fn environments() -> anyhow::Result<Vec<anyhow::Result<Environment>>> {
 }
 
 /// The last line of a script, as a success or a failure.
-fn run(python: &Path, script: &Path, program: &Path, name: &str) -> anyhow::Result<Result<String, String>> {
+fn run(
+    python: &Path,
+    script: &Path,
+    program: &Path,
+    name: &str,
+    programs: &[(&str, String)],
+) -> anyhow::Result<Result<String, String>> {
     let folder = root().join("target/checkers").join(name);
     if folder.exists() {
         std::fs::remove_dir_all(&folder)?;
@@ -92,6 +128,7 @@ fn run(python: &Path, script: &Path, program: &Path, name: &str) -> anyhow::Resu
     let output = Command::new(python)
         .arg(script)
         .args([program, &folder])
+        .envs(programs.iter().map(|(variable, place)| (variable, place)))
         .current_dir(root())
         .stderr(Stdio::inherit())
         .output()

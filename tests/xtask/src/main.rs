@@ -76,7 +76,6 @@ const STAGES: &[&[&[Check]]] = &[
     ],
     &[&[
         ("test", suites::check),
-        ("schedules", suites::schedules),
         ("openapi", || drift(&["openapi"], "assets/openapi.json")),
         ("schema", || drift(&["schema"], "assets/schema/scene.v1.schema.json")),
         ("batch-schema", || drift(&["schema", "batch"], "assets/schema/batch.v1.schema.json")),
@@ -173,8 +172,8 @@ fn alone(outcome: anyhow::Result<Outcome>) -> ExitCode {
 
 /// Prints what changed in the golden answers; `accept` keeps it.
 fn golden(mode: &str) -> ExitCode {
-    let mut command = cargo_command();
-    command.arg("test").args(WHOLE).args(["--quiet", "--test", "golden", "--", "--nocapture"]);
+    let mut command = whole_test();
+    command.args(["--quiet", "--test", "golden", "--", "--nocapture"]);
     let status = command.env("GOLDEN", mode).status();
     if status.is_ok_and(|status| status.success()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
@@ -195,6 +194,13 @@ const WHOLE: &[&str] = &["--workspace", "--locked", "--features", "dragtraffic/l
 
 fn clippy() -> anyhow::Result<Outcome> {
     run(cargo_command().arg("clippy").args(WHOLE).args(["--all-targets", "--", "-D", "warnings"]))
+}
+
+/// `cargo test` of everything.
+fn whole_test() -> Command {
+    let mut cargo = cargo_command();
+    cargo.arg("test").args(WHOLE);
+    cargo
 }
 
 fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
@@ -251,9 +257,7 @@ fn maps() -> anyhow::Result<Outcome> {
     if let Outcome::Failed(why) = written {
         return Ok(Outcome::Failed(why));
     }
-    run(cargo_command()
-        .arg("test")
-        .args(WHOLE)
+    run(whole_test()
         .args(["--test", "equal_maps", "--test", "osm", "--", "--include-ignored"])
         .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
         .env("DRAGTRAFFIC_NETCONVERT", netconvert))
@@ -288,8 +292,7 @@ fn drift(command: &[&str], file: &str) -> anyhow::Result<Outcome> {
 /// A program, built as `cargo test --workspace` does, with the features that only tests need, so that nothing
 /// is built twice.
 fn built(name: &str) -> anyhow::Result<PathBuf> {
-    if let Outcome::Failed(why) = run(cargo_command().arg("test").args(WHOLE).args(["--no-run", "--quiet"]))?
-    {
+    if let Outcome::Failed(why) = run(whole_test().args(["--no-run", "--quiet"]))? {
         bail!(why);
     }
     Ok(target().join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))

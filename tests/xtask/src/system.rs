@@ -14,11 +14,11 @@ pub fn apt_lock() -> MutexGuard<'static, ()> {
     APT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A program: the variable that may name it, its names on the path, and its Debian package.
+/// A program: the variable that may name it, its names on the path, and its Debian package if it has one.
 pub struct SystemProgram {
     pub variable: &'static str,
     pub names: &'static [&'static str],
-    pub package: &'static str,
+    pub package: Option<&'static str>,
 }
 
 impl SystemProgram {
@@ -30,6 +30,7 @@ impl SystemProgram {
         if let Some(found) = self.on_path() {
             return Ok(Some(found));
         }
+        let Some(package) = self.package else { return Ok(None) };
         let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout == b"0\n");
         let has_apt = Path::new("/usr/bin/apt-get").exists();
         if !is_root || !has_apt {
@@ -40,10 +41,10 @@ impl SystemProgram {
             run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
         };
         apt(&["update", "-q"])?;
-        match apt(&["install", "-y", "-q", "--no-install-recommends", self.package])? {
+        match apt(&["install", "-y", "-q", "--no-install-recommends", package])? {
             Outcome::Passed | Outcome::Told(_) => Ok(self.on_path()),
             Outcome::Failed(why) | Outcome::Skipped(why) => {
-                bail!("{} could not be installed: {why}", self.package)
+                bail!("{package} could not be installed: {why}")
             }
         }
     }
