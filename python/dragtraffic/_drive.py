@@ -148,7 +148,7 @@ def film(scene: Scene, steps: Sequence[Step]) -> Scene:
     last, there = first + len(steps), {agent["id"] for agent in agents}
     meta = {**document.get("meta", {}), "timestamps_s": None}
     meta["objects_of_interest"] = [id for id in meta.get("objects_of_interest") or [] if id in there]
-    meta["tracks_to_predict"] = [one for one in meta.get("tracks_to_predict") or [] if one.get("id") in there]
+    meta["tracks_to_predict"] = [one for one in meta.get("tracks_to_predict") or [] if one[0] in there]
     now = min(int(document["time"].get("now_step") or 0), last - 1)
     timing = {**document["time"], "steps": last, "now_step": now}
     signals = [_until(signal, last) for signal in document.get("signals") or []]

@@ -1,6 +1,7 @@
 """The extension module: JSON bytes in and out, states as rows of x, y, heading and velocity."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Optional
 
 import numpy as np
@@ -16,8 +17,10 @@ def version() -> str: ...
 class Scene:
     @staticmethod
     def read(
-        content: bytes, name: str, index: int, around: tuple[float, float, float] | None = None
+        content: bytes, path: Path, index: int, around: tuple[float, float, float] | None = None
     ) -> tuple[Scene, bytes]: ...
+    @staticmethod
+    def read_folder(path: Path, index: int) -> tuple[Scene, bytes]: ...
     @staticmethod
     def of_document(document: bytes) -> Scene: ...
     def document(self) -> bytes: ...

@@ -326,6 +326,9 @@ def open(
 ) -> Scene:
     """Opens a scene of any format that ``dragtraffic convert`` reads; ``index`` says which one of a file of many.
 
+    Beside the tracks of a recording (``00_tracks.csv``), its other tables and the map of its place are read too; of a
+    folder its recordings are read, one after the other. ``warnings`` of the scene names the files.
+
     ``around`` reads a part of a map: x, y in the coordinates of the file and a radius of 10 to 5000 m.
 
     Raises:
@@ -333,7 +336,10 @@ def open(
     """
     path = Path(path)
     try:
-        native, said = _native.Scene.read(path.read_bytes(), path.name, index, around)
+        if path.is_dir():
+            native, said = _native.Scene.read_folder(path, index)
+        else:
+            native, said = _native.Scene.read(path.read_bytes(), path, index, around)
     except DragTrafficError as refused:
         raise DragTrafficError(f"{path}: {refused}", refused.code, refused.errors) from None
     scene = Scene._of(native)

@@ -250,3 +250,20 @@ def test_a_part_of_a_map_is_opened(tmp_path: Path) -> None:
     assert len(part.document["map"]["lanes"]) == 1
     with pytest.raises(dragtraffic.DragTrafficError):
         dragtraffic.open(path, around=(400, 0, 1))
+
+
+def test_a_recording_is_opened_with_what_lies_beside_it(tmp_path: Path) -> None:
+    rows = "".join(f"0,{frame},{frame / 2.5},-2,0,2,5,10,0\n" for frame in range(51))
+    for recording in "07", "08":
+        head = "trackId,frame,xCenter,yCenter,heading,width,length,xVelocity,yVelocity\n"
+        (tmp_path / f"{recording}_tracks.csv").write_text(head + rows)
+        (tmp_path / f"{recording}_tracksMeta.csv").write_text("trackId,class\n0,truck_bus\n")
+    lane = '<edge id="e"><lane id="e_0" index="0" speed="9" length="900" width="4" shape="-100,-2 800,-2"/></edge>'
+    (tmp_path / "place.net.xml").write_text(f"<net>{lane}</net>")
+    for scene in (dragtraffic.open(tmp_path / "08_tracks.csv"), dragtraffic.open(tmp_path, index=1)):
+        assert scene.name == "08" and scene.document["agents"][0]["subtype"] == "truck"
+        assert len(scene.document["map"]["lanes"]) == 1
+        said = {warning["code"]: warning["detail"] for warning in scene.warnings}
+        assert said["files-beside"].endswith("08_tracksMeta.csv, place.net.xml") and "100 %" in said["map-laid"]
+    with pytest.raises(dragtraffic.DragTrafficError, match="no scene 2"):
+        dragtraffic.open(tmp_path, index=2)

@@ -10,7 +10,7 @@ from pathlib import Path
 import dragtraffic
 import numpy
 import pytest
-from dragtraffic import DragTrafficError, Scene, State, Step, _drive
+from dragtraffic import DragTrafficError, Run, Scene, State, Step, _drive
 
 ROOT = Path(__file__).resolve().parents[2]
 CROSSING = ROOT / "assets/scenes/demo-crossing.json"
@@ -49,6 +49,14 @@ def test_a_film_has_what_was_driven(scene: Scene) -> None:
     assert not [fault for fault in driven.faults if fault["agent"] == "4"]
     again = dragtraffic.drive(scene, _drive.found(IDM), 4, seconds=4.0, seed=3)
     assert again.film.document == document, "equal planners and seeds give equal films"
+
+
+def test_a_film_of_a_recording_keeps_whom_it_names(scene: Scene) -> None:
+    document = scene.document
+    meta = {**document["meta"], "objects_of_interest": ["2", "4"], "tracks_to_predict": [["2", 1], ["4", 2]]}
+    recording = Scene({**document, "meta": meta})
+    kept = _drive.film(recording, [Run(recording).step()]).document["meta"]
+    assert kept["objects_of_interest"] == ["2", "4"] and kept["tracks_to_predict"] == [["2", 1], ["4", 2]]
 
 
 def test_the_others_react_to_a_planner(scene: Scene) -> None:

@@ -180,3 +180,13 @@ def test_runs_go_on_in_other_processes(scene: Scene, method: str) -> None:
         there = pool.map_async(next_states, [run, run]).get(timeout=120)
     here = run.step().states
     assert all((states == here).all() for states in there)
+
+
+def test_the_number_of_threads_is_the_users_and_else_that_of_the_processors() -> None:
+    command = [sys.executable, "-c", "import dragtraffic, os; print(os.environ['RAYON_NUM_THREADS'])"]
+    free = {name: value for name, value in os.environ.items() if name != "RAYON_NUM_THREADS"}
+    said = []
+    for env in (free, {**free, "RAYON_NUM_THREADS": "3"}):
+        env["PYTHONPATH"] = str(ROOT / "python")
+        said.append(int(subprocess.run(command, env=env, capture_output=True, text=True, check=True).stdout))
+    assert said[0] >= 1 and said[1] == 3

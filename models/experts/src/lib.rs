@@ -22,7 +22,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod cancel;
 mod clock;
 mod engine;
 pub mod features;
@@ -37,7 +36,6 @@ pub mod sentences;
 pub mod tuning;
 pub mod weights;
 
-pub use cancel::Cancel;
 pub use clock::Clock;
 pub use engine::Engine;
 pub use generator::{Generation, Generator};
@@ -50,6 +48,7 @@ pub use request::{
     Warning, WarningCode,
 };
 pub use run::{EgoState, Run, RunError, RunSettings};
+pub use scene::Cancel;
 pub use scene::motion::Limiting;
 pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

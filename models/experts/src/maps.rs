@@ -1,7 +1,7 @@
 //! Derived data of a map, computed once and shared by generation and placement.
 
-use crate::cancel::Cancel;
 use lru::LruCache;
+use scene::Cancel;
 use scene::geometry::crowding::Crowding;
 use scene::routes::LaneGraph;
 use scene::score::Drivable;
@@ -39,7 +39,7 @@ impl KnownMap {
     }
 }
 
-/// Pieces beside a piece, on average, on the most crowded maps of streets.
+/// Pieces in one cell on crowded maps of streets.
 const USUAL_CROWD: f64 = 200.0;
 /// Time to work out a map, for each cell of a piece and for each pair of pieces in a cell. Measured on one core of
 /// 2.6 GHz.
@@ -51,7 +51,7 @@ const PAIR_NS: f64 = 12.0;
 pub struct MapCost {
     /// About how long it takes to work out its lanes and ground; zero once they are known.
     pub preparation: Duration,
-    /// Time of a search on it, compared with a map of streets; 1 or more.
+    /// Time of a search at its most crowded place, compared with a map of streets; 1 or more.
     pub crowded: f64,
 }
 
@@ -112,7 +112,7 @@ impl Maps {
             },
             |known| (known, Duration::ZERO),
         );
-        MapCost { preparation, crowded: (crowding.mean() / USUAL_CROWD).max(1.0) }
+        MapCost { preparation, crowded: (crowding.most as f64 / USUAL_CROWD).max(1.0) }
     }
 
     /// Where vehicles may drive on a map.
@@ -156,6 +156,19 @@ mod tests {
         assert!(!Arc::ptr_eq(&known, &maps.known(&street(60))));
         maps.forget();
         assert!(!Arc::ptr_eq(&known, &maps.known(&again)));
+    }
+
+    #[test]
+    fn a_crowd_costs_the_same_beside_a_long_empty_road() {
+        let crowd = || {
+            (0..1_000).map(|i| Lane::street(i.to_string(), vec![Vec2::new(0.0, 0.0), Vec2::new(5.0, 1.0)]))
+        };
+        let road: Vec<Vec2> = (0..4_000).map(|i| Vec2::new(2.0 * f64::from(i), 100.0)).collect();
+        let cost =
+            |lanes: Vec<Lane>| Maps::default().cost(&LaneMap { lanes, ..LaneMap::default() }.into()).crowded;
+        let with_roads = crowd().chain((0..8).map(|i| Lane::street(format!("road {i}"), road.clone())));
+        assert_eq!((cost(crowd().collect()), cost(with_roads.collect())), (5.0, 5.0));
+        assert_eq!(cost(vec![Lane::street("road", road)]), 1.0);
     }
 
     #[test]

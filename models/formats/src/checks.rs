@@ -3,15 +3,17 @@
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
 use crate::around::Chosen;
-use crate::format::{ExportOptions, ExportedMotion, ImportOptions};
+use crate::format::{ExportOptions, ExportedMotion, FolderFiles, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::osm::extract;
 use crate::registry;
 use crate::source::Source;
+use crate::table::beside;
 use crate::womd::{self, Options};
 use scene::routes::LaneGraph;
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{AgentType, Scene, State};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A property that must hold for any bytes. Returns whether the bytes were read; panics on a violation.
@@ -36,6 +38,7 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("nocturne", |bytes| both_ways("nocturne", bytes)),
     ("csv", |bytes| recording("csv", bytes)),
     ("csv-columns", columns_pair),
+    ("csv-folder", folder),
     ("parquet", |bytes| recording("parquet", bytes)),
     ("av2", |bytes| recording("av2", bytes)),
     ("av2-pair", |bytes| pair("av2", bytes)),
@@ -150,6 +153,34 @@ pub fn columns_pair(bytes: &[u8]) -> bool {
     read("csv", file, &ImportOptions { max_scenes: 4, columns, ..ImportOptions::default() })
 }
 
+/// A table in CSV in its folder. Zero bytes stand between what its columns are (nothing: as they are found), the table
+/// and the other files of the folder; each file begins with its name and a line feed.
+///
+/// # Panics
+/// When a scene is read that the native format does not hold, or a file is taken that is not beside the table.
+pub fn folder(bytes: &[u8]) -> bool {
+    let mut parts = bytes.split(|byte| *byte == 0);
+    let columns = parts.next().filter(|columns| !columns.is_empty());
+    let named = |part: &[u8]| {
+        let end = part.iter().position(|byte| *byte == b'\n').unwrap_or(part.len());
+        let (name, content) = part.split_at(end);
+        (String::from_utf8_lossy(name).into_owned(), content.get(1..).unwrap_or_default().to_vec())
+    };
+    let Some((name, file)) = parts.next().map(named) else { return false };
+    let files: BTreeMap<String, Vec<u8>> = parts.map(named).filter(|(other, _)| *other != name).collect();
+    let beside = beside(&name, columns.as_ref().map(|columns| columns as &dyn Source), || {
+        Ok::<_, std::convert::Infallible>(files.keys().cloned().collect())
+    });
+    let Ok(beside) = beside;
+    let other = |other: String| {
+        let content = files.get(&other).expect("a file of the folder is beside the table").clone();
+        (other, Arc::new(content) as Arc<dyn Source>)
+    };
+    let folder = Some(FolderFiles { name, others: beside.into_iter().map(other).collect() });
+    let columns = columns.map(|columns| Arc::new(columns.to_vec()) as Arc<dyn Source>);
+    read("csv", &file, &ImportOptions { max_scenes: 4, columns, folder, ..ImportOptions::default() })
+}
+
 /// A map in the format with this id that is read is a scene that the native format holds.
 ///
 /// # Panics
@@ -187,9 +218,10 @@ fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {
 }
 
 fn read(format: &str, bytes: &[u8], options: &ImportOptions) -> bool {
-    let format = registry::by_id(format).expect("the format is in the table");
     let mut read = false;
-    for (scene, _) in format.import(bytes, options).into_iter().flatten() {
+    // Maps that come with a table are laid by the registry.
+    let scenes = registry::import(bytes, "", format, options).into_iter().flatten();
+    for (scene, _) in scenes.flatten() {
         native::read(&native::write(&scene)).expect("what was written is read");
         works(&scene);
         read = true;

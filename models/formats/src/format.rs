@@ -4,10 +4,11 @@ use crate::around::Around;
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::netconvert::Netconvert;
-use crate::problem::{self, FieldProblem, Imported, ReadError};
+use crate::problem::{self, FieldProblem, ImportWarning, Imported, ReadError};
 use crate::refusals;
 use crate::source::Source;
-use scene::{Agent, Scene, Shown, Timing};
+use crate::written::FileBounds;
+use scene::{Agent, Cancel, Scene, Shown, Timing};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
@@ -61,6 +62,10 @@ pub struct ImportOptions {
     /// The column file, for formats that accept one ([`Format::takes_columns`]): a JSON object from this
     /// program's column names to the table's. Faults in it are reported under [`COLUMNS_POINTER`].
     pub columns: Option<Arc<dyn Source>>,
+    /// The folder of the file, for tables ([`crate::table::beside`]).
+    pub folder: Option<FolderFiles>,
+    /// Maps that may lie under the road users of the file ([`crate::registry::grounded`]).
+    pub ground: Arc<GroundMaps>,
     /// The part of a map that is read, for formats of maps ([`Format::takes_around`]). All of it when absent.
     pub around: Option<Around>,
 }
@@ -81,6 +86,8 @@ impl Default for ImportOptions {
             net: None,
             netconvert: None,
             columns: None,
+            folder: None,
+            ground: Arc::default(),
             around: None,
         }
     }
@@ -118,7 +125,7 @@ impl ExportedMotion {
 }
 
 /// Options for writing a file of any format.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
     /// Which motion, where the format has room for one only.
     pub motion: ExportedMotion,
@@ -132,12 +139,14 @@ pub struct ExportOptions {
     pub continued: bool,
     /// Most bytes of the file; unbounded when absent.
     pub most_bytes: Option<u64>,
+    /// Stops the writing when nobody waits for the file any more.
+    pub cancel: Cancel,
 }
 
 impl ExportOptions {
-    /// Most bytes of the file.
-    pub(crate) fn most(&self) -> u64 {
-        self.most_bytes.unwrap_or(u64::MAX)
+    /// Bounds of the file.
+    pub(crate) fn bounds(&self) -> FileBounds {
+        FileBounds::new(self.most_bytes.unwrap_or(u64::MAX), self.cancel.clone())
     }
 }
 
@@ -148,6 +157,36 @@ pub struct Exported {
     pub bytes: Vec<u8>,
     /// Losses of the export.
     pub losses: Vec<Loss>,
+}
+
+/// A file of a folder by its name there, and the other files of the folder that are read with it.
+#[derive(Clone, Debug)]
+pub struct FolderFiles {
+    /// The name of the file itself.
+    pub name: String,
+    /// The others, each with its name.
+    pub others: Vec<(String, Arc<dyn Source>)>,
+}
+
+/// Files with their names.
+pub type NamedSources<'a> = Vec<(String, Box<dyn Source + 'a>)>;
+
+/// Maps that come with a file.
+#[derive(Debug, Default)]
+pub struct MapFiles<'a> {
+    /// The files.
+    pub files: NamedSources<'a>,
+    /// What is said of those that are left out.
+    pub warnings: Vec<ImportWarning>,
+}
+
+/// Maps that may lie under the road users of a file.
+#[derive(Debug, Default)]
+pub struct GroundMaps {
+    /// Scenes whose maps they are.
+    pub maps: Vec<Scene>,
+    /// What was said while they were read.
+    pub warnings: Vec<ImportWarning>,
 }
 
 /// Scenes of a file, read one at a time on demand; a broken scene does not end the iteration.
@@ -219,8 +258,20 @@ pub trait Format: Sync {
         false
     }
 
-    /// Reads the scenes of a file.
+    /// Reads the scenes of a file. Tables have the map of the options under each on which most of its vehicles are.
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a>;
+
+    /// Maps that come with a file of road users, with their names.
+    ///
+    /// # Errors
+    /// A file that holds them and is broken.
+    fn maps<'a>(
+        &self,
+        _file: &'a dyn Source,
+        _options: &'a ImportOptions,
+    ) -> Result<MapFiles<'a>, ReadError> {
+        Ok(MapFiles::default())
+    }
 
     /// Reads all scenes of a file in memory.
     fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
@@ -231,6 +282,7 @@ pub trait Format: Sync {
     ///
     /// # Errors
     /// `InvalidInput` when the format cannot hold that many scenes in one file, `FileTooLarge` beyond
-    /// [`ExportOptions::most_bytes`], as far as the format can tell before all is written.
+    /// [`ExportOptions::most_bytes`], as far as the format can tell before all is written, and any once
+    /// [`ExportOptions::cancel`] is set.
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported>;
 }

@@ -92,7 +92,8 @@ mod written;
 mod xml;
 
 pub use format::{
-    COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes,
+    COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, FolderFiles, Format, ImportOptions,
+    NET_POINTER, Scenes,
 };
 pub use loss::Loss;
 pub use pack::unzipped;

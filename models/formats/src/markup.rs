@@ -1,6 +1,6 @@
 //! XML as it is written: elements that close in the order in which they open, with text that cannot break out.
 
-use crate::written::too_long;
+use crate::written::FileBounds;
 use std::fmt::{Display, Write};
 use std::io;
 
@@ -14,16 +14,16 @@ pub(crate) struct Markup {
     /// The part that grows.
     text: String,
     open: Vec<&'static str>,
-    /// Most bytes of the document. What lies beyond is dropped, and the document refused at its end.
-    most: u64,
+    /// Of the document. What lies beyond is dropped, and the document refused at its end.
+    bounds: FileBounds,
     bytes: u64,
 }
 
 impl Markup {
-    /// An empty document of at most so many bytes.
-    pub fn new(most: u64) -> Self {
+    /// An empty document within bounds.
+    pub fn new(bounds: FileBounds) -> Self {
         let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-        Self { parts: Vec::new(), text, open: Vec::new(), most, bytes: 0 }
+        Self { parts: Vec::new(), text, open: Vec::new(), bounds, bytes: 0 }
     }
 
     /// Closes a part that is long enough.
@@ -31,10 +31,18 @@ impl Markup {
         if self.text.len() >= PART_BYTES {
             self.bytes += self.text.len() as u64;
             let part = std::mem::take(&mut self.text);
-            if self.bytes <= self.most {
+            if self.check().is_ok() {
                 self.parts.push(part);
             }
         }
+    }
+
+    /// Refuses a document that will be refused at its end, so that no more of it is written.
+    ///
+    /// # Errors
+    /// Those of [`FileBounds::check`].
+    pub fn check(&self) -> io::Result<()> {
+        self.bounds.check(self.bytes)
     }
 
     fn start(&mut self, name: &'static str, attributes: &[(&str, &str)]) {
@@ -74,15 +82,13 @@ impl Markup {
     /// The document, with all elements ended.
     ///
     /// # Errors
-    /// `FileTooLarge` beyond the most bytes.
+    /// Those of [`FileBounds::check`].
     pub fn finish(mut self) -> io::Result<Vec<u8>> {
         while !self.open.is_empty() {
             self.close();
         }
         let bytes = self.bytes + self.text.len() as u64;
-        if bytes > self.most {
-            return Err(too_long(bytes, self.most));
-        }
+        self.bounds.check(bytes)?;
         let mut whole = Vec::with_capacity(bytes as usize);
         self.parts.push(self.text);
         self.parts.into_iter().for_each(|part| whole.extend(part.into_bytes()));
@@ -115,10 +121,11 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::Cancel;
 
     #[test]
     fn text_stays_text() {
-        let mut markup = Markup::new(u64::MAX);
+        let mut markup = Markup::new(FileBounds::default());
         markup.open("a", &[("x", "1\"><b/>")]);
         markup.leaf("c", "</c>&\u{0}\n");
         markup.empty("d", &[]);
@@ -133,7 +140,7 @@ mod tests {
     fn a_document_in_parts_is_whole_and_one_beyond_its_bound_is_not_kept() {
         let long = "x".repeat(1_000);
         let written = |most: u64| {
-            let mut markup = Markup::new(most);
+            let mut markup = Markup::new(FileBounds::new(most, Cancel::default()));
             (0..5_000).for_each(|_| markup.empty("a", &[("x", &long)]));
             let kept: usize = markup.parts.iter().map(String::len).sum();
             (kept, markup.finish())
@@ -145,5 +152,11 @@ mod tests {
         let (kept, refused) = written(2_500_000);
         assert_eq!(refused.unwrap_err().kind(), io::ErrorKind::FileTooLarge);
         assert!(kept <= 2_500_000, "{kept}");
+        let cancel = Cancel::default();
+        let mut left = Markup::new(FileBounds::new(u64::MAX, cancel.clone()));
+        left.open("a", &[]);
+        left.check().unwrap();
+        cancel.cancel();
+        assert_eq!(left.check().unwrap_err().kind(), io::ErrorKind::ConnectionAborted);
     }
 }

@@ -102,6 +102,20 @@ impl UtmZone {
         ((code / 100 == 326 || south) && (1..=60).contains(&number)).then_some(Self { number, south })
     }
 
+    /// The zone in which a place lies (latitude and longitude in degrees), with the wider ones of Norway and Svalbard.
+    pub fn at(lat_deg: f64, lon_deg: f64) -> Self {
+        let whole = ((lon_deg + 180.0) / 6.0).floor().rem_euclid(60.0) as u32 + 1;
+        let number = match (lat_deg, lon_deg) {
+            (56.0..64.0, 3.0..12.0) => 32,
+            (72.0..=84.0, 0.0..9.0) => 31,
+            (72.0..=84.0, 9.0..21.0) => 33,
+            (72.0..=84.0, 21.0..33.0) => 35,
+            (72.0..=84.0, 33.0..42.0) => 37,
+            _ => whole,
+        };
+        Self { number, south: lat_deg < 0.0 }
+    }
+
     /// The zone of a name such as [`Self::name`] gives.
     fn named(name: &str) -> Option<Self> {
         let number = value(name, "zone").filter(|number| (1.0..=60.0).contains(number))?;
@@ -167,6 +181,16 @@ mod tests {
         let south = UtmZone::of_epsg(32_717).unwrap();
         assert!((south.metres(0.0, -81.0) - Vec2::new(500_000.0, 10_000_000.0)).norm() < 1e-6);
         assert!(south.name().contains("+zone=17 +south") && UtmZone::of_epsg(4326).is_none());
+        for (lat, lon, epsg) in [
+            (50.78, 6.07, 32_632),
+            (-33.9, 151.2, 32_756),
+            (60.4, 5.3, 32_632),
+            (78.2, 15.6, 32_633),
+            (0.0, 180.0, 32_601),
+            (0.0, -180.0, 32_601),
+        ] {
+            assert_eq!(Some(UtmZone::at(lat, lon)), UtmZone::of_epsg(epsg), "{lat} {lon}");
+        }
         // The quarter of a meridian on WGS 84.
         assert!((project(89.999_999_9, 0.0).y - 10_001_965.729).abs() < 0.02);
         let zone = UtmZone::of_epsg(32_632).unwrap();

@@ -42,6 +42,8 @@ pub mod what {
         LINES = "lines";
         LINE_BYTES = "bytes in a line";
         LINE_METRES = "m of reference lines";
+        MAPS = "maps that come with a table";
+        MAP_BYTES = "bytes of maps that come with a table";
         MEMBERS = "members of a relation";
         MEMORY = "lists, dictionaries and arrays";
         MESSAGES = "messages of one kind";
@@ -110,7 +112,7 @@ pub mod wanted {
         BOUNDS = "two or more points";
         BOUNDED = "a finite number that is not too large";
         BYTES = "bytes";
-        COLUMN_OR_VALUE = "either column or value";
+        COLUMN_OR_VALUE = "a column, a value for all rows, or both";
         COLUMN_VALUES = "as many values in a column as there are rows";
         COORDINATE = "a coordinate in metres";
         COORDINATE_OR_INVALID = "a coordinate in metres (or valid = 0)";
@@ -128,6 +130,7 @@ pub mod wanted {
         FINITE = "finite numbers at valid steps";
         FINITE_POINTS = "finite points";
         FLAT_COLUMN = "a flat column of numbers or text";
+        FRAME_RATE = "frames a second";
         FUTURE = "a number of a future";
         HALF = "length_m or width_m in add_half, or one of them with a minus";
         HEADER = "the whole header of a page";
@@ -165,6 +168,8 @@ pub mod wanted {
         REFERENCE = "a known reference";
         ROOT_END = "the end of the document";
         ROW_GROUP = "all columns in each row group";
+        OF_RECORDING = "a value, or a column with \"file\": \"recording\"";
+        OF_TRACKS = "a column of the tracks: other tables are found by it";
         ROWS_OF_NUMBERS = "rows of numbers";
         ROWS_OF_XYZ = "rows of x, y and z";
         SCENARIO = "tracks and map_features of a ScenarioNet scenario";
@@ -181,6 +186,8 @@ pub mod wanted {
         STEP_SIZE = "0.001 to 10 s";
         SUMO_NET = "a SUMO network (<net>)";
         TEXT = "a text";
+        TABLE_FILES = "tracks and, if there are some, agents, agents_by and recording: names with one * each";
+        TABLE_PART = "time_s with first and last time, agent_id with a list of ids, or both";
         TEXT_OR_NUMBER = "a text, a number or a boolean as value";
         THRIFT = "a description in Thrift";
         TIME = "a time in seconds";

@@ -2,7 +2,7 @@
 
 use crate::av2::Argoverse;
 use crate::commonroad::format::CommonRoad;
-use crate::format::{Format, ImportOptions, Info, NET_POINTER, Scenes};
+use crate::format::{Format, GroundMaps, ImportOptions, Info, NET_POINTER, Scenes};
 use crate::foxglove::Mcap;
 use crate::geojson::GeoJson;
 use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
@@ -18,21 +18,21 @@ use crate::opendrive::format::OPENDRIVE;
 use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
 use crate::osm_items::holds_lanelets;
-use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
 use crate::refusals;
 use crate::scenarionet::format::ScenarioNet;
 use crate::sentences;
-use crate::source::{BYTE_ORDER_MARK, Source, head};
+use crate::source::{Source, head, without_mark};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
-use crate::table::{Csv, Parquet};
-use crate::underlay;
+use crate::table::TableFormat;
 use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
 use crate::womd::rollouts::SimAgents;
 use scene::Scene;
 use scene::message::Message;
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 /// Ends of the names of compressed files.
 const COMPRESSED: [&str; 2] = ["gz", "zst"];
@@ -57,8 +57,8 @@ pub static FORMATS: &[&dyn Format] = &[
     &ScenarioNet,
     &GPUDRIVE,
     &NOCTURNE,
-    &Csv,
-    &Parquet,
+    &TableFormat::Csv,
+    &TableFormat::Parquet,
     &Argoverse,
     &NuScenesTables,
     #[cfg(not(target_family = "wasm"))]
@@ -106,7 +106,7 @@ pub fn sniff(bytes: &[u8], name: &str) -> Option<&'static dyn Format> {
 /// # Errors
 /// `format-unknown`.
 pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadError> {
-    let bytes = unmarked_head(bytes);
+    let bytes = without_mark(bytes);
     let scored = FORMATS.iter().map(|format| (format.sniff(bytes, name), *format));
     let best = scored.filter(|(score, _)| *score > 0).max_by_key(|(score, _)| *score);
     if let Some((BY_CONTENT.., format)) = best {
@@ -124,11 +124,6 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     }
 }
 
-/// How a file begins, without a byte order mark.
-fn unmarked_head(head: &[u8]) -> &[u8] {
-    head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head)
-}
-
 /// The format of a file: by how it begins, and where two formats begin alike, by all of it.
 ///
 /// # Errors
@@ -136,7 +131,7 @@ fn unmarked_head(head: &[u8]) -> &[u8] {
 pub fn identified(file: &dyn Source, name: &str) -> Result<&'static dyn Format, ReadError> {
     let head = head(file);
     // Compressed files that break at once have no head either.
-    if head.len() as u64 == file.encoded_len() && unmarked_head(&head).trim_ascii().is_empty() {
+    if head.len() as u64 == file.encoded_len() && without_mark(&head).trim_ascii().is_empty() {
         return Err(refused(refusals::empty_file()));
     }
     let found = recognised(&head, name)?;
@@ -157,10 +152,11 @@ pub fn import(
     format: &str,
     options: &ImportOptions,
 ) -> Result<Vec<Result<Imported, ReadError>>, ReadError> {
-    Ok(scenes(&bytes, name, format, options)?.collect())
+    let options = grounded(&bytes, name, format, options)?;
+    Ok(scenes(&bytes, name, format, &options)?.collect())
 }
 
-/// The same, lazily: each scene is read on demand.
+/// The same, lazily: each scene is read on demand, with the maps of [`grounded`] options under tables.
 ///
 /// # Errors
 /// `format-unknown`.
@@ -170,7 +166,7 @@ pub fn scenes<'a>(
     format: &str,
     options: &'a ImportOptions,
 ) -> Result<Scenes<'a>, ReadError> {
-    let found = if format == "auto" { identified(file, name)? } else { by_id(format).ok_or_else(unknown)? };
+    let found = of_id(file, name, format)?;
     let called = called(name, &found.info());
     let named = move |(mut scene, warnings): Imported| {
         if scene.name.is_empty() {
@@ -178,30 +174,65 @@ pub fn scenes<'a>(
         }
         (scene, warnings)
     };
-    let ground = match &options.net {
-        Some(net) if found.takes_columns() => Some(ground(net, options)?),
-        _ => None,
-    };
-    let laid = move |read: Imported| match &ground {
-        Some(ground) => underlay::lay(read, ground),
-        None => Ok(read),
-    };
-    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named).and_then(&laid))))
+    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
-/// The map that lies beside a table.
-fn ground(net: &dyn Source, options: &ImportOptions) -> Result<Scene, ReadError> {
-    let read = || {
-        let format = identified(net, "")?;
-        let options = ImportOptions { netconvert: options.netconvert.clone(), ..ImportOptions::default() };
-        let empty = || refused(sentences::not_a_known_format(format.info().id));
-        let map = format.scenes(net, &options).next().ok_or_else(empty)??.0;
-        if map.map.lanes.is_empty() {
-            return Err(ReadError::other_content(refusals::file_has_no(refusals::what::LANE)));
+/// The format of this id; for `auto` that of the file.
+fn of_id(file: &dyn Source, name: &str, id: &str) -> Result<&'static dyn Format, ReadError> {
+    if id == "auto" { identified(file, name) } else { by_id(id).ok_or_else(unknown) }
+}
+
+/// The options with the maps of a file of road users, for [`scenes`]: the map that is said to belong to a table
+/// ([`ImportOptions::net`]), else those that come with it. Of the latter, one that cannot be read is passed over and
+/// said.
+///
+/// # Errors
+/// `format-unknown`, those of the map under [`NET_POINTER`], a broken file that holds maps.
+pub fn grounded(
+    file: &dyn Source,
+    name: &str,
+    format: &str,
+    options: &ImportOptions,
+) -> Result<ImportOptions, ReadError> {
+    let ground = Arc::new(ground(of_id(file, name, format)?, file, options)?);
+    Ok(ImportOptions { ground, ..options.clone() })
+}
+
+fn ground(format: &dyn Format, file: &dyn Source, options: &ImportOptions) -> Result<GroundMaps, ReadError> {
+    let mut ground = GroundMaps::default();
+    match &options.net {
+        Some(net) if format.takes_columns() => {
+            ground.maps.push(place(net, "", options).map_err(|error| error.under(NET_POINTER))?);
         }
-        Ok(map)
-    };
-    read().map_err(|error| error.under(NET_POINTER))
+        _ => {
+            let maps = format.maps(file, options)?;
+            ground.warnings = maps.warnings;
+            for (name, map) in maps.files {
+                match place(map.as_ref(), &name, options) {
+                    Ok(map) => ground.maps.push(map),
+                    Err(error) => {
+                        let why = error.problems.first().map_or("", |problem| problem.detail.as_str());
+                        let message = sentences::map_unread(&name, why);
+                        ground.warnings.push(ImportWarning::new("map-unread", message));
+                    }
+                }
+            }
+        }
+    }
+    Ok(ground)
+}
+
+/// A scene of the map of a place.
+fn place(map: &dyn Source, name: &str, options: &ImportOptions) -> Result<Scene, ReadError> {
+    let format = identified(map, name)?;
+    let options = ImportOptions { netconvert: options.netconvert.clone(), ..ImportOptions::default() };
+    let empty = || refused(sentences::not_a_known_format(format.info().id));
+    let mut scene = format.scenes(map, &options).next().ok_or_else(empty)??.0;
+    scene.name = called(name, &format.info());
+    if scene.map.lanes.is_empty() {
+        return Err(ReadError::other_content(refusals::file_has_no(refusals::what::LANE)));
+    }
+    Ok(scene)
 }
 
 /// Name of a file without the extensions of formats and compression.

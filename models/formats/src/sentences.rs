@@ -48,6 +48,26 @@ scene::messages! {
     columns_missing(missing: &str, columns: &str) =
         "columns-missing",
         "no column {missing}; there are {columns}. A file of columns can name them (--columns, a part columns of a form)";
+    columns_recognised(sets: &str) =
+        "columns-recognised", "The columns are read as those of the data set {sets}; --columns names others";
+    agents_table_missing() =
+        "agents-table-missing", "The table of road users is not there, which says their types";
+    recording_table_missing() =
+        "recording-table-missing",
+        "The table of the recording is not there, which says frame rate, speed limit and place";
+    rows_in_part(kept: usize, found: usize, before_s: f64) =
+        "rows-in-part",
+        "{found} rows are more than are read at once; the {kept} rows before {before_s:.1} s are read. \
+         \"only\" in a file of columns chooses another part by time_s or agent_id";
+    files_beside(count: usize, names: &str) =
+        "files-beside",
+        [count] "{count} file of the same folder is read with the table: {names}",
+        "{count} files of the same folder are read with the table: {names}";
+    map_unread(name: &str, why: &str) = "map-unread", "The map {name} cannot be read: {why}";
+    speed_limit_of_recording(limit_mps: f64, count: usize) =
+        "speed-limit-of-recording",
+        [count] "{count} lane without a speed limit has that of the recording, {limit_mps:.1} m/s",
+        "{count} lanes without a speed limit have that of the recording, {limit_mps:.1} m/s";
     agents_near_ego(found: usize, kept: usize) =
         "agents-near-ego", "{found} road users; the {kept} nearest to the ego are kept";
     agents_near_centre(found: usize, kept: usize, within_m: f64) =
@@ -255,6 +275,8 @@ scene::messages! {
         "map-elsewhere",
         "The map lies under the road users, but only {percent:.0} % of the places of vehicles are on its lanes: it is \
          that of another place, or in another frame";
+    map_chosen(name: &str, maps: usize) =
+        "map-chosen", "Of {maps} maps, that of {name} has most of the vehicles on its lanes";
     map_laid(percent: f64) =
         "map-laid",
         "The map lies under the road users: {percent:.0} % of the places of vehicles are on its lanes";

@@ -52,6 +52,13 @@ impl<S: Source + ?Sized> Source for Arc<S> {
     }
 }
 
+/// Whether a file begins with these bytes.
+pub(crate) fn begins_with(file: &dyn Source, bytes: &[u8]) -> bool {
+    let mut head = Vec::with_capacity(bytes.len());
+    let read = file.open().and_then(|input| input.take(bytes.len() as u64).read_to_end(&mut head));
+    read.is_ok() && head == bytes
+}
+
 /// What text in UTF-8 may begin with; it is no part of the text.
 pub const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -68,15 +75,22 @@ pub fn unmarked<R: Read>(mut input: R) -> io::Result<impl Read + use<R>> {
     Ok(io::Cursor::new(begins).chain(input))
 }
 
-/// The first bytes of a file, by which it is recognised; for a file identified at its end (Parquet), the last
-/// ones follow.
+/// The same bytes without a byte order mark.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
+/// Beginnings of files that are identified at their end: Parquet, and zips, whose list of files stands there.
+const BY_END: [&[u8]; 2] = [b"PAR1", b"PK\x03\x04"];
+
+/// The first bytes of a file, by which it is recognised; for a file identified at its end, the last ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {
     let mut head = Vec::new();
     // A broken file is recognised by what comes before the fault.
     if let Ok(input) = file.open() {
         let mut input = input.take(HEAD);
         let _ = input.read_to_end(&mut head);
-        if head.starts_with(b"PAR1") {
+        if BY_END.iter().any(|mark| head.starts_with(mark)) {
             let mut tail = Vec::new();
             let mut rest = input.into_inner();
             while rest.by_ref().take(TAIL).read_to_end(&mut tail).is_ok_and(|count| count > 0) {

@@ -2,6 +2,7 @@
 
 use crate::around::MapPart;
 use crate::cut::cut;
+use crate::format::GroundMaps;
 use crate::frame::Frame;
 use crate::limits::MAX_GOAL_DISTANCE_M;
 use crate::problem::{ImportWarning, Imported, ReadError};
@@ -10,7 +11,7 @@ use crate::repairs::checked;
 use crate::sentences;
 use crate::settle::place;
 use scene::geometry::segments::{SegmentIndex, pieces};
-use scene::map::LaneMap;
+use scene::map::{Lane, LaneMap};
 use scene::{AgentType, Scene, Shared, Vec2};
 use std::cell::Cell;
 
@@ -20,32 +21,86 @@ const BESIDE_M: f64 = 100.0;
 const FARTHEST_M: f64 = 1e8;
 /// A vehicle is on a lane up to so far beside it, metres.
 const ON_LANE_M: f64 = 0.5;
+/// Of several maps, one that begins farther away is that of another place, metres.
+const ELSEWHERE_M: f64 = 50_000.0;
 /// Every so many steps are looked at.
 const LOOKED_AT: usize = 10;
 /// With fewer vehicles on lanes the map is that of another place or frame.
 const FITS: f64 = 0.5;
 
-/// Lays the map of a scene under the road users of another, whose frames have the same source.
+/// What a recording says about its place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Placing {
+    /// Where the zero of its own frame lies in the frame of the scene's source, metres.
+    pub shift: Option<Vec2>,
+    /// Of its lanes, m/s.
+    pub limit_mps: Option<f64>,
+}
+
+/// A map under the road users of a scene.
+struct LaidMap<'a> {
+    map: LaneMap,
+    /// Places of vehicles that lie on its lanes; nothing where there are no vehicles.
+    share: Option<f64>,
+    cut: ImportWarning,
+    from: &'a Scene,
+}
+
+/// Lays that of the maps under the road users of a scene on which most vehicles are. Their frames have the same
+/// source, or that of a map without a projection is the own one of the recording.
 ///
 /// # Errors
 /// What a scene cannot hold.
-pub(crate) fn lay((mut scene, mut warnings): Imported, ground: &Scene) -> Result<Imported, ReadError> {
+pub(crate) fn lay(
+    (mut scene, mut warnings): Imported,
+    ground: &GroundMaps,
+    placing: Placing,
+) -> Result<Imported, ReadError> {
+    warnings.extend(ground.warnings.iter().cloned());
     let states = scene.agents.iter().flat_map(|agent| agent.track.states.iter().flatten());
     let corners = states.map(|state| state.position()).fold(None, |corners, at| {
         let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
         Some((low.inf(&at), high.sup(&at)))
     });
-    let Some((low, high)) = corners else { return Ok((scene, warnings)) };
+    let (Some((low, high)), false) = (corners, ground.maps.is_empty()) else { return Ok((scene, warnings)) };
+    let middle = (low + high) / 2.0;
+    let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
+    let file = Frame::of(&scene.meta.origin).place(middle).map(f64::round);
+    let part = MapPart { middle, ..MapPart::about(file, radius_m) };
+    let laid = |from, shift| {
+        let mut map = placed(from, &scene, shift)?;
+        let cut = cut(&mut map, &mut Vec::new(), &part);
+        Some(LaidMap { share: on_lanes(&scene, &map), map, cut, from })
+    };
+    let mut best: Option<LaidMap<'_>> = None;
+    for from in &ground.maps {
+        let own = placing.shift.filter(|_| from.meta.origin.crs.is_none());
+        let shifts = std::iter::once(Vec2::zeros()).chain(own);
+        let near = |shift: &Vec2| {
+            let begin = from.map.lanes.first().and_then(|lane| lane.points.xy.first());
+            let begin = begin.map(|p| mover(from, &scene, *shift)(*p));
+            ground.maps.len() == 1 || begin.is_some_and(|p| (p - middle).norm() < ELSEWHERE_M)
+        };
+        for map in shifts.filter(near).filter_map(|shift| laid(from, shift)) {
+            let worth =
+                |laid: &LaidMap<'_>| (laid.share.unwrap_or(0.0), usize::from(!laid.map.lanes.is_empty()));
+            if best.as_ref().is_none_or(|best| worth(&map) > worth(best)) {
+                best = Some(map);
+            }
+        }
+    }
     let mut share = Some(0.0);
-    if let Some(mut map) = placed(ground, &scene) {
-        let middle = (low + high) / 2.0;
-        let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
-        let file = Frame::of(&scene.meta.origin).place(middle).map(f64::round);
-        let part = MapPart { middle, ..MapPart::about(file, radius_m) };
-        warnings.push(cut(&mut map, &mut Vec::new(), &part));
-        share = on_lanes(&scene, &map);
-        scene.map = Shared::from(map);
-        scene.meta.origin.crs = scene.meta.origin.crs.take().or_else(|| ground.meta.origin.crs.clone());
+    if let Some(mut laid) = best {
+        warnings.push(laid.cut);
+        share = laid.share;
+        if ground.maps.len() > 1 {
+            let message = sentences::map_chosen(&laid.from.name, ground.maps.len());
+            warnings.push(ImportWarning::new("map-chosen", message));
+        }
+        warnings.extend(placing.limit_mps.and_then(|limit_mps| limit(&mut laid.map, limit_mps)));
+        let crs = laid.from.meta.origin.crs.clone();
+        scene.map = Shared::from(laid.map);
+        scene.meta.origin.crs = scene.meta.origin.crs.take().or(crs);
     }
     warnings.extend(share.map(|share| {
         let percent = 100.0 * share;
@@ -57,21 +112,38 @@ pub(crate) fn lay((mut scene, mut warnings): Imported, ground: &Scene) -> Result
     checked(scene, warnings)
 }
 
-/// The map of a scene in the frame of another; nothing where it lies on the other side of the globe.
-fn placed(ground: &Scene, scene: &Scene) -> Option<LaneMap> {
+/// Gives this limit to the lanes of vehicles that have none.
+fn limit(map: &mut LaneMap, limit_mps: f64) -> Option<ImportWarning> {
+    let without = |lane: &&mut Lane| lane.lane_type.carries_vehicles() && lane.speed_limit_mps.is_none();
+    let lanes = map.lanes.iter_mut().filter(without);
+    let count = lanes.map(|lane| lane.speed_limit_mps = Some(limit_mps)).count();
+    let message = || sentences::speed_limit_of_recording(limit_mps, count);
+    (count > 0).then(|| ImportWarning::new("speed-limit-of-recording", message()))
+}
+
+/// Puts places of a scene, shifted, into the frame of another.
+fn mover(ground: &Scene, scene: &Scene, shift: Vec2) -> impl Fn(Vec2) -> Vec2 + use<> {
     let (from, to) = (Frame::of(&ground.meta.origin), Frame::of(&scene.meta.origin));
     let crs = |scene: &Scene| TransverseMercator::named(scene.meta.origin.crs.as_deref()?);
     let differ = crs(ground).zip(crs(scene)).filter(|(from, to)| from != to);
-    let lost = Cell::new(false);
-    let mut map = LaneMap::clone(&ground.map);
-    place(&mut map, |p| {
-        let mut p = from.place(p);
+    move |p| {
+        let mut p = from.place(p) + shift;
         // Maps and tables in degrees are projected each about its own middle.
         if let Some((from, to)) = differ {
             let (lat, lon) = from.degrees(p);
             p = to.metres(lat, lon);
         }
-        p = to.place_back(p);
+        to.place_back(p)
+    }
+}
+
+/// The map of a scene, shifted, in the frame of another; nothing where it lies on the other side of the globe.
+fn placed(ground: &Scene, scene: &Scene, shift: Vec2) -> Option<LaneMap> {
+    let moved = mover(ground, scene, shift);
+    let lost = Cell::new(false);
+    let mut map = LaneMap::clone(&ground.map);
+    place(&mut map, |p| {
+        let p = moved(p);
         // Numbers that are none are not near either.
         let near = p.x.abs() <= FARTHEST_M && p.y.abs() <= FARTHEST_M;
         lost.set(lost.get() || !near);

@@ -4,11 +4,15 @@ use crate::limits::MAX_EXPANSION;
 use crate::problem::{ReadError, code};
 use crate::refusals::{self, more_than, what};
 use crate::source::Source;
-use flate2::read::MultiGzDecoder;
+use flate2::CrcReader;
+use flate2::read::{DeflateDecoder, MultiGzDecoder};
 use scene::message::Message;
+use std::fmt;
 use std::io::{self, BufReader, Read};
-use zip::ZipArchive;
+use std::ops::Range;
+use std::sync::Arc;
 use zip::result::ZipError;
+use zip::{CompressionMethod, ZipArchive};
 
 /// The expansion ratio is checked after this many decoded bytes.
 const RATIO_FROM: u64 = 1 << 20;
@@ -117,32 +121,143 @@ pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReade
     Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
 }
 
-/// Files of a zip whose names in small letters are wanted, each with its name.
+/// Beginning of a zip.
+pub(crate) const ZIP: &[u8] = b"PK\x03\x04";
+
+/// A file in a zip. The zip is in memory, packed; the file is unpacked while it is read.
+#[derive(Clone)]
+pub(crate) struct ZipEntry {
+    zip: Arc<Vec<u8>>,
+    packed: Range<usize>,
+    is_deflated: bool,
+    /// Once unpacked, bytes.
+    size: u64,
+    checksum: u32,
+}
+
+impl fmt::Debug for ZipEntry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ZipEntry").field("packed", &self.packed).field("size", &self.size).finish()
+    }
+}
+
+impl ZipEntry {
+    /// Its bytes from the first one on.
+    pub fn reader(&self) -> Box<dyn Read + Send> {
+        let range = ZipRange { zip: Arc::clone(&self.zip), left: self.packed.clone() };
+        let inner: Box<dyn Read + Send> =
+            if self.is_deflated { Box::new(DeflateDecoder::new(range)) } else { Box::new(range) };
+        let (left, checksum) = (self.size, self.checksum);
+        Box::new(CheckedEntry { inner: CrcReader::new(BufReader::new(inner)), left, checksum })
+    }
+
+    /// Size in bytes once unpacked.
+    pub fn unpacked_len(&self) -> u64 {
+        self.size
+    }
+}
+
+impl Source for ZipEntry {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        Ok(self.reader())
+    }
+
+    fn encoded_len(&self) -> u64 {
+        self.packed.len() as u64
+    }
+}
+
+/// Packed bytes of a file.
+struct ZipRange {
+    zip: Arc<Vec<u8>>,
+    left: Range<usize>,
+}
+
+impl Read for ZipRange {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.zip.get(self.left.clone()).unwrap_or_default().read(buffer)?;
+        self.left.start += count;
+        Ok(count)
+    }
+}
+
+/// So many bytes with this checksum.
+struct CheckedEntry {
+    inner: CrcReader<BufReader<Box<dyn Read + Send>>>,
+    left: u64,
+    checksum: u32,
+}
+
+impl Read for CheckedEntry {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(buffer.len());
+        let count = self.inner.read(buffer.get_mut(..most).unwrap_or_default())?;
+        self.left -= count as u64;
+        let ends = count == 0 && !buffer.is_empty();
+        if ends && (self.left > 0 || self.inner.crc().sum() != self.checksum) {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "a file of the zip is damaged"));
+        }
+        Ok(count)
+    }
+}
+
+/// Files of a zip of at most so many bytes whose names in small letters are wanted, each with its name.
 ///
 /// # Errors
-/// `malformed-file` for a broken zip, the bounds of a file.
+/// `malformed-file` for a broken zip or a file that is encrypted or packed by another method than deflate.
+pub(crate) fn entries(
+    file: &dyn Source,
+    most: u64,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<(String, ZipEntry)>, ReadError> {
+    let mut packed = Vec::new();
+    let input = file.open().map_err(|error| fault(&error, 0))?;
+    input.take(most).read_to_end(&mut packed).map_err(|error| fault(&error, 0))?;
+    let told = |words: &str| ReadError::malformed(0, refusals::unreadable("ZIP", words));
+    let broken = |error: ZipError| told(&error.to_string());
+    let mut zip = ZipArchive::new(io::Cursor::new(packed.as_slice())).map_err(broken)?;
+    let mut found = Vec::new();
+    for i in 0..zip.len().min(MAX_FILES) {
+        let file = zip.by_index_raw(i).map_err(broken)?;
+        let name = String::from_utf8_lossy(file.name_raw()).into_owned();
+        if !wanted(&name.to_ascii_lowercase()) {
+            continue;
+        }
+        let is_deflated = file.compression() == CompressionMethod::Deflated;
+        if file.encrypted() || !(is_deflated || file.compression() == CompressionMethod::Stored) {
+            return Err(told(&format!("{name}: encrypted, or packed by another method than deflate")));
+        }
+        let from = file.data_start().and_then(|from| usize::try_from(from).ok());
+        let to = from.zip(usize::try_from(file.compressed_size()).ok()).and_then(|(a, b)| a.checked_add(b));
+        let Some(range) = from.zip(to).map(|(from, to)| from..to).filter(|range| range.end <= packed.len())
+        else {
+            return Err(told(&format!("{name}: cut off")));
+        };
+        found.push((name, range, is_deflated, file.size(), file.crc32()));
+    }
+    let zip = Arc::new(packed);
+    let entry = |(name, packed, is_deflated, size, checksum)| {
+        (name, ZipEntry { zip: Arc::clone(&zip), packed, is_deflated, size, checksum })
+    };
+    Ok(found.into_iter().map(entry).collect())
+}
+
+/// Files of a zip whose names in small letters are wanted, unpacked, each with its name in small letters.
+///
+/// # Errors
+/// Those of [`entries`], the bounds of a file.
 pub(crate) fn zipped(
     file: &dyn Source,
     most: u64,
     wanted: impl Fn(&str) -> bool,
 ) -> Result<Vec<(String, Vec<u8>)>, ReadError> {
-    let mut packed = Vec::new();
-    let input = file.open().map_err(|error| fault(&error, 0))?;
-    input.take(most).read_to_end(&mut packed).map_err(|error| fault(&error, 0))?;
-    let broken = |error: ZipError| ReadError::malformed(0, refusals::unreadable("ZIP", &error.to_string()));
-    let mut zip = ZipArchive::new(io::Cursor::new(packed)).map_err(broken)?;
     let (mut files, mut left) = (Vec::new(), most);
-    for i in 0..zip.len().min(MAX_FILES) {
-        let file = zip.by_index(i).map_err(broken)?;
-        let name = String::from_utf8_lossy(file.name_raw()).to_ascii_lowercase();
-        if !wanted(&name) {
-            continue;
-        }
+    for (name, entry) in entries(file, most, wanted)? {
         let mut bytes = Vec::new();
-        let unpacked = open(file, Bounds::of(left));
+        let unpacked = open(entry.reader(), Bounds::of(left));
         unpacked.and_then(|mut file| file.read_to_end(&mut bytes)).map_err(|error| fault(&error, 0))?;
         left -= bytes.len() as u64;
-        files.push((name, bytes));
+        files.push((name.to_ascii_lowercase(), bytes));
     }
     Ok(files)
 }

@@ -168,6 +168,47 @@ mod opendrive {
     }
 
     #[test]
+    fn a_link_that_one_lane_states_holds_for_both() {
+        // Road 1 says nothing of what follows; lane -2 of road 2 begins beside where lane -1 ends.
+        let first = section(0.0, &[(-1, ""), (1, "<predecessor id='1'/>")]);
+        let second = section(0.0, &[(-2, "<predecessor id='-1'/>"), (-1, "<predecessor id='-1'/>"), (1, "")]);
+        let (scene, _) = map(&two_roads(&first, &second), "a.xodr");
+        assert_eq!(links(&scene.map), [("1.0.-1", "2.0.-1")]);
+        assert_eq!(lane(&scene.map, "2.0.-1").predecessors, ["1.0.-1"]);
+    }
+
+    #[test]
+    fn a_road_that_is_named_by_its_wrong_end_is_met_where_it_is() {
+        let first = section(0.0, &[(-1, "<successor id='-1'/>")]);
+        let second = section(0.0, &[(-1, "<predecessor id='-1'/><successor id='-1'/>")])
+            + &section(25.0, &[(-1, "<predecessor id='-1'/>")]);
+        let text = two_roads(&first, &second);
+        let wrong = text.replace("elementId='2' contactPoint='start'", "elementId='2' contactPoint='end'");
+        let wrong = wrong.replace("elementId='1' contactPoint='end'", "elementId='1' contactPoint='start'");
+        assert_ne!(wrong, text);
+        let (scene, _) = map(&wrong, "a.xodr");
+        assert_eq!(links(&scene.map), [("1.0.-1", "2.0.-1"), ("2.0.-1", "2.1.-1")]);
+    }
+
+    #[test]
+    fn records_a_rounding_out_of_order_hold_in_the_order_of_the_file() {
+        let lanes = section(0.0, &[(-1, "")]);
+        // The second record ends before it begins; the third leads back from 30 m to 40 m.
+        let offsets = "<laneOffset s='0' a='-2'/><laneOffset s='30.00000000002' a='-2'/>\
+                       <laneOffset s='29.99999999998' a='-2' b='0.2'/><laneOffset s='40' a='0'/>";
+        let lanes = format!("{offsets}{lanes}");
+        let (scene, warnings) = map(&two_roads(&lanes, &section(0.0, &[(-1, "")])), "a.xodr");
+        let at = |x: f64| {
+            let places = lane(&scene.map, "1.0.-1").points.xy.iter().map(|p| place(&scene, *p));
+            places.min_by(|a, b| (a.x - x).abs().total_cmp(&(b.x - x).abs())).unwrap().y
+        };
+        for (x, y) in [(20.0, -3.75), (35.0, -2.75), (45.0, -1.75)] {
+            assert!((at(x) - y).abs() < 0.15, "{x}: {}", at(x));
+        }
+        assert!(warnings.iter().all(|warning| warning.code != "map-faults"), "{warnings:?}");
+    }
+
+    #[test]
     fn links_across_gaps_are_dropped_and_said() {
         let imported = map(include_str!("fixtures/foreign/xodr-link-across-40-m.xodr"), "a.xodr");
         assert!(
@@ -210,6 +251,16 @@ mod opendrive {
         let again = map(&written(&scene, "opendrive"), "b.xodr").0;
         let back = place(&again, again.map.lanes[0].points.xy[0]);
         assert!((back - start).norm() < 0.01, "{back:?}");
+    }
+
+    #[test]
+    fn a_link_between_sections_that_one_of_them_states_holds() {
+        for (before, after) in [("<successor id='-1'/>", ""), ("", "<predecessor id='-1'/>")] {
+            // Lane -2 has no link at all: it ends.
+            let first = section(0.0, &[(-1, before), (-2, "")]) + &section(25.0, &[(-1, after), (-2, "")]);
+            let (scene, _) = map(&two_roads(&first, &section(0.0, &[(-1, "")])), "a.xodr");
+            assert_eq!(links(&scene.map), [("1.0.-1", "1.1.-1")], "{before}{after}");
+        }
     }
 
     #[test]
@@ -505,6 +556,38 @@ mod engines {
         assert_eq!(heading("8"), plain.agent("8").unwrap().track.at(1).unwrap().heading_rad);
         let first = imported.0.agent("7").unwrap().track.at(0).unwrap().heading_rad;
         assert!((first - scene::wrap_angle(turned)).abs() < 1e-9);
+    }
+}
+
+mod argoverse {
+    use super::*;
+
+    #[test]
+    fn a_link_that_one_segment_states_holds_for_both() {
+        let segment = |id: i64, x: f64, before: &str, after: &str| {
+            let side = |y: f64| format!("[{{\"x\": {x}, \"y\": {y}}}, {{\"x\": {}, \"y\": {y}}}]", x + 20.0);
+            format!(
+                "\"{id}\": {{\"id\": {id}, \"lane_type\": \"VEHICLE\", \"left_lane_boundary\": {}, \
+                 \"right_lane_boundary\": {}, \"predecessors\": {before}, \"successors\": {after}}}",
+                side(1.75),
+                side(-1.75)
+            )
+        };
+        let lanes =
+            [segment(1, 0.0, "[]", "[2, 9]"), segment(2, 20.0, "[]", "[]"), segment(3, 40.0, "[2]", "[]")];
+        let text = format!(
+            "{{\"pedestrian_crossings\": {{}}, \"lane_segments\": {{{}}}, \"drivable_areas\": {{}}}}",
+            lanes.join(", ")
+        );
+        let (scene, _) = map(&text, "log_map_archive_a.json");
+        assert_eq!(links(&scene.map), [("1", "2"), ("2", "3")]);
+        let (marked, _) = map(&format!("\u{feff}{text}"), "log_map_archive_a.json");
+        assert_eq!(marked.map, scene.map, "a byte order mark is no part of the text");
+        let before = |id: &str| lane(&scene.map, id).predecessors.clone();
+        assert_eq!(
+            (before("1"), before("2"), before("3")),
+            (vec![], vec!["1".to_owned()], vec!["2".to_owned()])
+        );
     }
 }
 

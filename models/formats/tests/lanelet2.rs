@@ -117,3 +117,80 @@ fn a_street_used_both_ways_is_a_scene_that_can_be_kept() {
     let file = native.export(&[&scene], &formats::ExportOptions::default()).unwrap();
     assert_eq!(formats::native::read(&file.bytes).unwrap().map, scene.map);
 }
+
+/// A map of lanelets by their subtypes and sides, which are lists of nodes: id, x and y.
+fn map_of(nodes: &[(u32, f64, f64)], lanelets: &[(u32, &str, &[u32], &[u32])]) -> String {
+    let node = |(id, x, y): &(u32, f64, f64)| {
+        format!("<node id='{id}' lat='0' lon='0'><tag k='local_x' v='{x}'/><tag k='local_y' v='{y}'/></node>")
+    };
+    let way = |id: u32, nodes: &[u32]| {
+        let nodes: String = nodes.iter().map(|node| format!("<nd ref='{node}'/>")).collect();
+        format!("<way id='{id}'>{nodes}</way>")
+    };
+    let ways = lanelets.iter().map(|(id, _, left, right)| way(id * 10, left) + &way(id * 10 + 1, right));
+    let relation = |(id, subtype, ..): &(u32, &str, &[u32], &[u32])| {
+        format!(
+            "<relation id='{id}'><member type='way' ref='{0}0' role='left'/><member type='way' ref='{0}1' role='right'/>\
+             <tag k='type' v='lanelet'/><tag k='subtype' v='{subtype}'/></relation>",
+            id
+        )
+    };
+    let nodes: String = nodes.iter().map(node).collect();
+    let relations: String = lanelets.iter().map(relation).collect();
+    format!("<osm>{nodes}{}{relations}</osm>", ways.collect::<String>())
+}
+
+#[test]
+fn a_turn_about_a_point_leads_from_one_side_to_the_other() {
+    // The ends of the turn's sides are as near to each other either way.
+    let nodes = [
+        (1, 0.0, 0.0),
+        (2, 50.0, 0.0),
+        (3, 0.0, -3.0),
+        (4, 51.0, -2.9),
+        (5, 50.16, 0.0),
+        (6, 53.5, -1.5),
+        (7, 54.0, 0.0),
+        (8, 53.5, 1.5),
+        (9, 50.83, 2.88),
+        (10, 0.16, 0.1),
+        (11, 0.0, 3.0),
+    ];
+    let there: (u32, &str, &[u32], &[u32]) = (100, "road", &[1, 2], &[3, 4]);
+    let back: (u32, &str, &[u32], &[u32]) = (102, "road", &[5, 10], &[9, 11]);
+    for (left, right) in
+        [(&[2, 5][..], &[4, 6, 7, 8, 9][..]), (&[5, 2], &[9, 8, 7, 6, 4]), (&[5, 2], &[4, 6, 7, 8, 9])]
+    {
+        let map = import(&map_of(&nodes, &[there, (101, "road", left, right), back])).unwrap().0.map;
+        assert_eq!(lane(&map, "100").successors, ["101"], "{left:?} {right:?}");
+        assert_eq!(lane(&map, "101").successors, ["102"], "{left:?} {right:?}");
+        let turn = &lane(&map, "101").points.xy;
+        assert!((turn[0].y - turn[turn.len() - 1].y) < -2.0, "{turn:?}");
+    }
+}
+
+#[test]
+fn roads_and_pavements_that_meet_are_no_way_for_anybody() {
+    let nodes = [
+        (1, 0.0, 0.0),
+        (2, 0.0, -3.0),
+        (3, 9.0, 0.0),
+        (4, 9.0, -3.0),
+        (5, 19.0, 0.0),
+        (6, 19.0, -3.0),
+        (7, 29.0, 0.0),
+        (8, 29.0, -3.0),
+    ];
+    let kinds = |kinds: [&str; 3]| {
+        let lanelets: [(u32, &str, &[u32], &[u32]); 3] = [
+            (100, kinds[0], &[1, 3], &[2, 4]),
+            (101, kinds[1], &[3, 5], &[4, 6]),
+            (102, kinds[2], &[5, 7], &[6, 8]),
+        ];
+        let map = import(&map_of(&nodes, &lanelets)).unwrap().0.map;
+        ["100", "101"].map(|id| lane(&map, id).successors.len())
+    };
+    assert_eq!(kinds(["road", "walkway", "walkway"]), [0, 1]);
+    assert_eq!(kinds(["walkway", "walkway", "road"]), [1, 0]);
+    assert_eq!(kinds(["bicycle_lane", "road", "bicycle_lane"]), [1, 1]);
+}

@@ -1,21 +1,12 @@
 //! nuScenes tables as scenes, from a writer of tables after the published schema.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
+mod zipped;
+
 use formats::{ImportOptions, Imported, ReadError, registry};
 use scene::{AgentType, Subtype, Vec2};
 use serde_json::{Value, json};
-use std::io::{Cursor, Write};
-use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
-
-fn zipped(files: &[(String, Value)]) -> Vec<u8> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, value) in files {
-        zip.start_file(name.as_str(), SimpleFileOptions::default()).unwrap();
-        zip.write_all(value.to_string().as_bytes()).unwrap();
-    }
-    zip.finish().unwrap().into_inner()
-}
+use zipped::zipped;
 
 /// Two scenes of ten samples each at 2 Hz: a car that turns, an adult, and the ego, which drives east at 8 m/s.
 fn tables() -> Vec<(String, Value)> {
@@ -95,15 +86,23 @@ fn expansion() -> (String, Value) {
     ("maps/expansion/boston-seaport.json".into(), value)
 }
 
-fn read(bytes: &[u8]) -> Vec<Result<Imported, ReadError>> {
-    registry::import(bytes, "mini.zip", "auto", &ImportOptions::default()).unwrap()
+fn read(files: &[(String, Value)]) -> Vec<Result<Imported, ReadError>> {
+    read_after("", files)
+}
+
+/// The texts begin with `mark`.
+fn read_after(mark: &str, files: &[(String, Value)]) -> Vec<Result<Imported, ReadError>> {
+    let texts: Vec<(&str, String)> =
+        files.iter().map(|(name, value)| (name.as_str(), format!("{mark}{value}"))).collect();
+    let texts: Vec<(&str, &str)> = texts.iter().map(|(name, text)| (*name, text.as_str())).collect();
+    registry::import(&zipped(&texts), "mini.zip", "auto", &ImportOptions::default()).unwrap()
 }
 
 #[test]
 fn scenes_have_their_road_users_and_the_map_round_them() {
     let mut files = tables();
     files.push(expansion());
-    let mut list = read(&zipped(&files));
+    let mut list = read(&files);
     assert_eq!(list.len(), 2);
     let (scene, warnings) = list.remove(0).unwrap();
     assert_eq!((scene.name.as_str(), scene.time.steps), ("scene-0060", 46));
@@ -144,6 +143,15 @@ fn scenes_have_their_road_users_and_the_map_round_them() {
 }
 
 #[test]
+fn a_byte_order_mark_is_no_part_of_a_table() {
+    let mut files = tables();
+    files.push(expansion());
+    let scenes =
+        |mark: &str| -> Vec<_> { read_after(mark, &files).into_iter().map(|read| read.unwrap().0).collect() };
+    assert_eq!(scenes("\u{feff}"), scenes(""));
+}
+
+#[test]
 fn broken_tables_are_refused_by_name() {
     let change = |name: &str, to: Option<Value>| {
         let mut files = tables();
@@ -152,7 +160,7 @@ fn broken_tables_are_refused_by_name() {
             Some(value) => files[at].1 = value,
             None => drop(files.remove(at)),
         }
-        read(&zipped(&files)).remove(0)
+        read(&files).remove(0)
     };
     let pointer = |read: Result<Imported, ReadError>| read.unwrap_err().problems[0].pointer.clone();
     assert_eq!(pointer(change("/sample.json", Some(json!({"a": 1})))), "/sample.json");

@@ -107,6 +107,10 @@ fn road_users_come_go_and_follow_their_tracks() {
     assert_eq!(text.matches("<AddEntityAction>").count(), 1);
     assert_eq!(text.matches("<DeleteEntityAction/>").count(), 1);
     assert_eq!(text.matches("<Private ").count(), 1, "the bus is not there at first");
+    // A way that begins at once would end the initial actions while they are done.
+    let at_once = "<SimulationTimeCondition value=\"0\" rule=\"greaterThan\"/>";
+    assert_eq!(text.matches(at_once).count(), 1);
+    holds("<SimulationTimeCondition value=\"0.5\" rule=\"greaterOrEqual\"/>");
     // The rear axle is behind the centre of the box, which is the scene's position.
     let ahead_m = 0.3 * scene.agents[0].size.length_m;
     holds(&format!("<Center x=\"{}\"", (ahead_m * 1e6).round() / 1e6));

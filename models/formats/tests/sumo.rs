@@ -80,8 +80,9 @@ fn near(found: Option<[f64; 4]>, expected: [f64; 4]) {
 
 #[test]
 fn a_recording_becomes_windows_on_its_network() {
+    let wide = format!("\u{feff}{FCD}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     for bytes in
-        [FCD.as_bytes().to_vec(), CSV.as_bytes().to_vec(), gzip(FCD.as_bytes()), gzip(CSV.as_bytes())]
+        [FCD.as_bytes().to_vec(), CSV.as_bytes().to_vec(), gzip(FCD.as_bytes()), gzip(CSV.as_bytes()), wide]
     {
         let list = scenes(&bytes, &with_net());
         assert_eq!(list.len(), 2);

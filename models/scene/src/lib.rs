@@ -25,6 +25,7 @@
 //! ```
 
 pub mod agent;
+mod cancel;
 pub mod condition;
 pub mod generated;
 pub mod geometry;
@@ -50,6 +51,7 @@ pub mod signal;
 pub mod via;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
+pub use cancel::Cancel;
 pub use condition::{Conditions, Goal, MAX_CROSSED_EDGES, Start};
 pub use generated::{AgentFutures, Future, Generated, Sample};
 pub use geometry::{Vec2, wrap_angle};

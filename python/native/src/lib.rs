@@ -18,4 +18,13 @@ mod _native {
     use super::run::NativeRun;
     #[pymodule_export]
     use super::scene::NativeScene;
+    use super::{Bound, PyModule, PyResult};
+
+    /// The engine's products of matrices are small: to wake a second thread takes longer than a product. Runs and calls
+    /// are cut over threads instead.
+    #[pymodule_init]
+    fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+        gemm::set_threading_threshold(usize::MAX);
+        Ok(())
+    }
 }

@@ -1,9 +1,9 @@
 //! Scenes, and what the operations make of them.
 
 use crate::calls::{cancellable, raised, reply, request};
-use api::export::{self, MotionChoice};
+use api::export::{self, FilePart, MotionChoice};
 use api::generate::GenerationRun;
-use api::import::{Companions, SceneFile};
+use api::import::{Companions, ReadFile, ReadScene, SceneFile};
 use api::place::PlaceBody;
 use api::score::ScoreRequest;
 use api::{Code, GenerateRequest, Problem, Subject};
@@ -14,7 +14,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scene::Scene;
 use serde_json::json;
+use std::io;
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A scene as the engine has it.
@@ -30,31 +32,89 @@ impl NativeScene {
     }
 }
 
+/// Scenes of a file: those to pass over, and the most to take.
+fn of_file(
+    content: &[u8],
+    path: &Path,
+    window: (usize, usize),
+    around: Option<(f64, f64, f64)>,
+) -> Result<ReadFile, Problem> {
+    let circle = around.map(|(x, y, radius_m)| format!("{x},{y},{radius_m}"));
+    let around = circle.as_deref().map(api::import::around).transpose()?;
+    let beside = Companions { around, folder: dragtraffic::beside(path, None), ..dragtraffic::companions() };
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    SceneFile::of(&content, None, &name, &beside, window)?.read(&content)
+}
+
+/// A scene as Python has it, with what its reader said.
+fn opened<'py>(py: Python<'py>, read: ReadScene) -> PyResult<(NativeScene, Bound<'py, PyBytes>)> {
+    let warnings = read.warnings.iter().map(|w| json!({"code": w.code, "detail": w.detail}));
+    let warnings = reply(py, &warnings.collect::<Vec<_>>())?;
+    Ok((NativeScene::of(read.scene), warnings))
+}
+
 #[pymethods]
 impl NativeScene {
-    /// The scene at an index of a file's content, and what the reader changed or left out. `name` has the file's ending;
-    /// `around` is the circle of a map that is read: x, y and radius.
+    /// The scene at an index of a file's content, and what the reader changed or left out. `path` is where the file
+    /// lies: its name has the ending, and beside it may lie what is read with a table of a recording. `around` is the
+    /// circle of a map that is read: x, y and radius.
     #[staticmethod]
-    #[pyo3(signature = (content, name, index, around = None))]
+    #[pyo3(signature = (content, path, index, around = None))]
     fn read<'py>(
         py: Python<'py>,
         content: &[u8],
-        name: &str,
+        path: PathBuf,
         index: usize,
         around: Option<(f64, f64, f64)>,
     ) -> PyResult<(Self, Bound<'py, PyBytes>)> {
         let read = cancellable(py, |_, _| {
-            let circle = around.map(|(x, y, radius_m)| format!("{x},{y},{radius_m}"));
-            let around = circle.as_deref().map(api::import::around).transpose()?;
-            let beside = Companions { around, ..dragtraffic::companions() };
-            let file = SceneFile::of(&content, None, name, &beside, (index, 1))?;
-            let read = file.read(&content)?;
+            let read = of_file(content, &path, (index, 1), around)?;
             let none = || Problem::new(Code::NotFound, format!("there is no scene {index} in this file"));
             read.scenes.into_iter().next().ok_or_else(none)
         })?;
-        let warnings = read.warnings.iter().map(|w| json!({"code": w.code, "detail": w.detail}));
-        let warnings = reply(py, &warnings.collect::<Vec<_>>())?;
-        Ok((Self::of(read.scene), warnings))
+        opened(py, read)
+    }
+
+    /// The scene at an index of the recordings of a folder, one after the other.
+    #[staticmethod]
+    fn read_folder<'py>(
+        py: Python<'py>,
+        path: PathBuf,
+        index: usize,
+    ) -> PyResult<(Self, Bound<'py, PyBytes>)> {
+        let read = cancellable(py, |_, _| {
+            let unreadable =
+                |error: io::Error| Problem::new(Code::NotFound, format!("cannot be read: {error}"));
+            let mut left = index;
+            for file in dragtraffic::recordings(&path).map_err(unreadable)? {
+                let content = std::fs::read(&file).map_err(unreadable)?;
+                let mut read = match of_file(&content, &file, (0, left.saturating_add(1)), None) {
+                    Ok(read) => read,
+                    // A recording that cannot be read is one without a scene.
+                    Err(problem) if left == 0 => return Err(problem),
+                    Err(_) => {
+                        left -= 1;
+                        continue;
+                    }
+                };
+                let count = read.scenes.len() + read.skipped.len();
+                if count <= left {
+                    left -= count;
+                } else if read.skipped.iter().any(|(at, _)| *at == left) {
+                    return Err(read.skipped.swap_remove(read.skipped.len() - 1).1);
+                } else {
+                    return read
+                        .scenes
+                        .pop()
+                        .ok_or_else(|| Problem::internal("a scene was counted and is not there"));
+                }
+            }
+            Err(Problem::new(
+                Code::NotFound,
+                format!("there is no scene {index} in the recordings of this folder"),
+            ))
+        })?;
+        opened(py, read)
     }
 
     /// The scene of a document.
@@ -130,7 +190,7 @@ impl NativeScene {
         sample: Option<usize>,
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
         let written = cancellable(py, |_, _| {
-            export::write(&self.scene, format, sample, MotionChoice::default(), None)
+            export::write(&self.scene, format, sample, MotionChoice::default(), FilePart::default())
         })?;
         Ok((PyBytes::new(py, &written.bytes), reply(py, &written.losses)?))
     }

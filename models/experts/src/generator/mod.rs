@@ -47,7 +47,6 @@ pub use generation::Generation;
 pub use others::WAITS_STEPS;
 pub(crate) use others::{extend_along_road, state_between};
 
-use crate::cancel::Cancel;
 use crate::clock::{self, Clock};
 use crate::maps::Maps;
 use crate::net::Expert;
@@ -55,6 +54,7 @@ use crate::request::{Answer, GenerateError, Request};
 use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
 use resources::Resources;
+use scene::Cancel;
 use scene::map::Lane;
 use scene::{Agent, LaneMap, Scene, State, Subtype, Vec2};
 use std::borrow::Cow;

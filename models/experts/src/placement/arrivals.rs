@@ -15,13 +15,13 @@ use super::placed::{PlacedAgent, rounded};
 use super::pose::{Pose, draw_size};
 use super::random;
 use super::request::{ArmTraffic, Arrivals};
-use crate::cancel::Cancel;
 use crate::request::GenerateError;
 use crate::tuning::placing::arms::FREE_SHARE;
 use crate::tuning::placing::arrivals::{
     BACK_M, CAR_M, ENTRY_GAP_M, ENTRY_M, ENTRY_SIDE_M, LEAST_HEADWAY_S, REACH_M, REACH_MPS, REACH_S, SHARES,
     WAIT_S,
 };
+use scene::Cancel;
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::{direction, wrap_angle};
 use scene::limits::Limits;

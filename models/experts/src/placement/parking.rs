@@ -9,12 +9,12 @@ use super::pose::{Pose, draw_size};
 use super::random;
 use super::region::in_ring;
 use super::request::{Parked, counted};
-use crate::cancel::Cancel;
 use crate::request::GenerateError;
 use crate::tuning::placing::parking::{
     ASKEW_RAD, BAY_M, CAR_M, CLEAR_M, DRIVEWAY_M, DRIVEWAY_SIDE_M, END_ROOM_M, FAST_MPS, KERB_M,
     LANE_REACH_M, LONGEST_M, MIDDLE_M, NEAR_M, NOSE_IN, PLACE_M, ROOM_M, SIDE_ROOM_M, WIDEST_M,
 };
+use scene::Cancel;
 use scene::map::LaneType;
 use scene::random::Stream;
 use scene::routes::graph::{GraphLane, LaneSource};

@@ -3,10 +3,10 @@
 use super::model::{PlacementInfo, PlacementModel};
 use super::place::place;
 use super::request::{PlaceRequest, Placement};
-use crate::cancel::Cancel;
 use crate::maps::Maps;
 use crate::request::GenerateError;
 use crate::weights::WeightsError;
+use scene::Cancel;
 use std::sync::Arc;
 
 /// Places road users. Cheap to share; calls may run at the same time.

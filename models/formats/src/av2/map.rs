@@ -2,7 +2,7 @@
 
 use crate::problem::{ImportWarning, ReadError};
 use crate::sentences;
-use crate::source::Source;
+use crate::source::{Source, without_mark};
 use crate::surface;
 use crate::unpack::{self, Bounds};
 use crate::{bounds, polyline};
@@ -85,7 +85,8 @@ pub(super) fn read(file: &dyn Source) -> Result<Place, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
     input.map_err(|error| unpack::fault(&error, 0))?;
-    serde_json::from_slice(&bytes).map_err(|error| ReadError::malformed_json(&error, error.to_string()))
+    serde_json::from_slice(without_mark(&bytes))
+        .map_err(|error| ReadError::malformed_json(&error, error.to_string()))
 }
 
 fn about(points: &[Point], origin: Vec2) -> Vec<Vec2> {
@@ -225,14 +226,25 @@ fn lane(segment: &Segment, origin: Vec2) -> Option<Lane> {
     })
 }
 
-/// Lanes that follow each other and that lie side by side. The file has links to lanes that it has not.
+/// Lanes that follow each other and that lie side by side. The file has links to lanes that it has not, and many that
+/// one of their two lanes alone has.
 fn link(segments: &[&Segment], map: &mut LaneMap) {
     let index: HashMap<i64, usize> = segments.iter().enumerate().map(|(i, s)| (s.id, i)).collect();
+    let add = |list: &mut Vec<String>, id: i64| {
+        let id = id.to_string();
+        if !list.contains(&id) {
+            list.push(id);
+        }
+    };
     for (i, segment) in segments.iter().enumerate() {
-        let known = |ids: &[i64]| -> Vec<String> {
-            ids.iter().filter(|id| index.contains_key(id)).map(i64::to_string).collect()
-        };
-        let (predecessors, successors) = (known(&segment.predecessors), known(&segment.successors));
+        for (next, at) in segment.successors.iter().filter_map(|id| Some((*id, *index.get(id)?))) {
+            add(&mut map.lanes[i].successors, next);
+            add(&mut map.lanes[at].predecessors, segment.id);
+        }
+        for (before, at) in segment.predecessors.iter().filter_map(|id| Some((*id, *index.get(id)?))) {
+            add(&mut map.lanes[i].predecessors, before);
+            add(&mut map.lanes[at].successors, segment.id);
+        }
         let beside = |other: Option<i64>| -> Vec<Neighbor> {
             let Some(&other) = other.and_then(|id| index.get(&id)).filter(|other| **other != i) else {
                 return Vec::new();
@@ -252,7 +264,6 @@ fn link(segments: &[&Segment], map: &mut LaneMap) {
         };
         let (left, right) = (beside(segment.left_neighbor_id), beside(segment.right_neighbor_id));
         let lane = &mut map.lanes[i];
-        (lane.predecessors, lane.successors) = (predecessors, successors);
         (lane.left_neighbors, lane.right_neighbors) = (left, right);
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let problem = PlanningTask::of(scene, &shown);
     let made = problem.is_none().then(|| ids.free());
     let name = benchmark_id(scene);
-    let mut out = Markup::new(options.most());
+    let mut out = Markup::new(options.bounds());
     let licence = scene.licence().map(|licence| format!("{LICENCE}{licence}")).unwrap_or_default();
     out.open(
         super::document::ROOT,
@@ -56,7 +56,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         }
     }
     out.close();
-    drawn.write(&mut out);
+    drawn.write(&mut out)?;
     let numbers: Vec<i64> = scene.agents.iter().map(|agent| ids.take(&agent.id)).collect();
     let fixed = |agent: &Agent| unwritten::is_fixed(scene, agent, options.motion);
     let users = scene.agents.iter().zip(&shown).zip(&numbers);

@@ -8,6 +8,7 @@ use crate::polyline::offset_right;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, StopSign};
 use scene::{Scene, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
+use std::io;
 
 /// Half the length of a stop line, in widths of its lane.
 const HALF: f64 = 0.5;
@@ -127,8 +128,9 @@ impl<'a> MapElements<'a> {
     }
 
     /// Lanelets, signs and lights.
-    pub fn write(&self, out: &mut Markup) {
+    pub fn write(&self, out: &mut Markup) -> io::Result<()> {
         for lane in &self.scene.map.lanes {
+            out.check()?;
             self.lane(lane, out);
         }
         for (id, area) in &self.crosswalks {
@@ -157,6 +159,7 @@ impl<'a> MapElements<'a> {
         for (id, signal) in &self.lights {
             light(*id, signal, self.steps, out);
         }
+        Ok(())
     }
 
     fn lane(&self, lane: &Lane, out: &mut Markup) {

@@ -9,7 +9,6 @@ use crate::format::{
 };
 use crate::loss::{Loss, code};
 use crate::source::Source;
-use crate::written::too_long;
 use mcap::McapWriter;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
 use serde_json::{Value, json};
@@ -75,6 +74,7 @@ fn log(scene: &Scene, options: &ExportOptions) -> io::Result<Vec<u8>> {
     };
     put(&mut file, frames, 0, &scene_update::transform(scene))?;
     put(&mut file, map, 0, &scene_update::map(&scene.map))?;
+    let bounds = options.bounds();
     let (shown, steps) = options.motion.all(scene);
     let tracks: Vec<(&Agent, Shown<'_>)> = scene.agents.iter().zip(shown).collect();
     for step in 0..steps {
@@ -83,9 +83,7 @@ fn log(scene: &Scene, options: &ExportOptions) -> io::Result<Vec<u8>> {
             put(&mut file, signals, step, &scene_update::signals(scene, step))?;
         }
         put(&mut file, users, step, &scene_update::users(&tracks, step))?;
-        if file.size() > options.most() {
-            return Err(too_long(file.size(), options.most()));
-        }
+        bounds.check(file.size())?;
     }
     file.metadata("dragtraffic", &about(scene));
     file.finish()

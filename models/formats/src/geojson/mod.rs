@@ -52,7 +52,7 @@ impl Format for GeoJson {
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
         let scene = one_scene(scenes)?;
-        let mut file = BoundedFile::new(options.most());
+        let mut file = BoundedFile::new(options.bounds());
         if options.gzip {
             let mut encoder = GzEncoder::new(&mut file, Compression::default());
             write(scene, options, &mut encoder)?;

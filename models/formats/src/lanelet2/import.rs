@@ -14,7 +14,7 @@ use crate::sides::LaneletKind;
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, polyline};
-use scene::map::{Area, Boundary, Lane, LaneMap, Neighbor, ROAD_LINE_TYPES, StopSign, TypedLine};
+use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TYPES, StopSign, TypedLine};
 use scene::{Origin, Vec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -103,7 +103,7 @@ fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
         };
         let (points, width_m) = lanelet.middle();
         let tags = &lanelet.relation.tags;
-        let walked = lane_type == scene::map::LaneType::Sidewalk;
+        let walked = lane_type == LaneType::Sidewalk;
         let ways: &[bool] = if lanelet.two_way() && !walked { &[true, false] } else { &[true] };
         for forward in ways {
             let id = format!("{}{}", lanelet.id, if *forward { "" } else { map_file::AGAINST });
@@ -189,10 +189,14 @@ fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
         }
     }
     for (lane, end) in ends {
-        for next in starts.get(&end).into_iter().flatten().filter(|next| **next != lane) {
-            let [before, after] = [lane, *next].map(|i| map.lanes[i].id.clone());
+        // Nobody goes on from a road to where people only walk, or back.
+        let walked = |lane: usize| map.lanes[lane].lane_type == LaneType::Sidewalk;
+        let follows = |next: &&usize| **next != lane && walked(**next) == walked(lane);
+        let following: Vec<usize> = starts.get(&end).into_iter().flatten().filter(follows).copied().collect();
+        for next in following {
+            let [before, after] = [lane, next].map(|i| map.lanes[i].id.clone());
             map.lanes[lane].successors.push(after);
-            map.lanes[*next].predecessors.push(before);
+            map.lanes[next].predecessors.push(before);
         }
     }
     let travelled = |lane: &Lane| lane.lane_type.carries_vehicles() || lane.lane_type.carries_cyclists();
@@ -300,7 +304,7 @@ fn ground(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> bool {
     for lanelet in lanelets {
         let Some(lane) = by_id.get(&lanelet.id.to_string()).map(|i| &map.lanes[*i]) else { continue };
         let LaneletKind::Lane(kind) = lanelet.kind else { continue };
-        if !kind.carries_vehicles() && kind != scene::map::LaneType::BikeLane {
+        if !kind.carries_vehicles() && kind != LaneType::BikeLane {
             continue;
         }
         let (right, left) = lanelet.sides();

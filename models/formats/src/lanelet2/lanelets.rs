@@ -5,6 +5,7 @@ use crate::sides::{self, LaneletKind};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::LaneType;
+use std::collections::HashMap;
 
 /// One lanelet.
 pub(super) struct Lanelet<'a> {
@@ -38,14 +39,19 @@ impl Lanelet<'_> {
 
 /// All lanelets with two sides, and how many have none.
 pub(super) fn lanelets(osm: &Osm) -> (Vec<Lanelet<'_>>, usize) {
-    let all = osm.relations.iter().filter(|relation| is(&relation.tags, "type", "lanelet"));
-    let (mut found, mut broken) = (Vec::new(), 0);
-    for relation in all {
-        match lanelet(osm, relation) {
-            Some(lanelet) => found.push(lanelet),
-            None => broken += 1,
-        }
+    let all = || osm.relations.iter().filter(|relation| is(&relation.tags, "type", "lanelet"));
+    let mut paired: Vec<(&OsmRelation, SidePair)> =
+        all().filter_map(|relation| Some((relation, SidePair::of(osm, relation)?))).collect();
+    let mut ends: HashMap<End, usize> = HashMap::new();
+    for end in paired.iter().flat_map(|(_, sides)| sides.ends()) {
+        *ends.entry(end).or_default() += 1;
     }
+    for (_, sides) in &mut paired {
+        sides.meet(&ends);
+    }
+    let found: Vec<Lanelet<'_>> =
+        paired.into_iter().filter_map(|(relation, sides)| sides.lanelet(relation)).collect();
+    let broken = all().count() - found.len();
     (found, broken)
 }
 
@@ -91,36 +97,82 @@ fn joins(a: &[i64], b: &[i64]) -> bool {
     [a.first(), a.last()].iter().any(|end| *end == b.first() || *end == b.last())
 }
 
-fn lanelet<'a>(osm: &Osm, relation: &'a OsmRelation) -> Option<Lanelet<'a>> {
-    let ways: [Vec<i64>; 2] = [relation.all("left").collect(), relation.all("right").collect()];
-    let (mut left, mut right) = (side(osm, &ways[0])?, side(osm, &ways[1])?);
-    let last = |line: &[Vec2]| line[line.len() - 1];
-    // Sides are drawn in any direction: they must run the same way, and the left one on the left.
-    let along = (left.1[0] - right.1[0]).norm() + (last(&left.1) - last(&right.1)).norm();
-    let against = (left.1[0] - last(&right.1)).norm() + (last(&left.1) - right.1[0]).norm();
-    if against < along {
-        right.0.reverse();
-        right.1.reverse();
+/// An end of a lanelet: ids of the points of its two sides there, the smaller one first.
+type End = (i64, i64);
+
+/// The two sides of a lanelet, which run the same way.
+struct SidePair {
+    ways: [Vec<i64>; 2],
+    left: SideLine,
+    right: SideLine,
+}
+
+impl SidePair {
+    /// Sides are drawn in any direction: the ends of those that run the same way are near each other.
+    fn of(osm: &Osm, relation: &OsmRelation) -> Option<Self> {
+        let ways: [Vec<i64>; 2] = [relation.all("left").collect(), relation.all("right").collect()];
+        let (left, right) = (side(osm, &ways[0])?, side(osm, &ways[1])?);
+        let mut sides = Self { ways, left, right };
+        let last = |line: &[Vec2]| line[line.len() - 1];
+        let (left, right) = (&sides.left.1, &sides.right.1);
+        let along = (left[0] - right[0]).norm() + (last(left) - last(right)).norm();
+        let against = (left[0] - last(right)).norm() + (last(left) - right[0]).norm();
+        if against < along {
+            turn(&mut sides.right);
+        }
+        Some(sides)
     }
-    let ring = right.1.iter().chain(left.1.iter().rev()).copied();
-    let ring: Vec<Vec2> = ring.collect();
-    let area: f64 = (0..ring.len()).map(|i| cross(ring[i], ring[(i + 1) % ring.len()])).sum();
-    if area < 0.0 {
-        for line in [&mut left, &mut right] {
-            line.0.reverse();
-            line.1.reverse();
+
+    fn ends(&self) -> [End; 2] {
+        let [(left, left_end), (right, right_end)] =
+            [first_and_last(&self.left), first_and_last(&self.right)];
+        [end(left, right), end(left_end, right_end)]
+    }
+
+    /// In a turn about a point the ends of either pairing are as near: the one with which more other lanelets begin or
+    /// end where this one does is right. `ends` counts the ends of all lanelets.
+    fn meet(&mut self, ends: &HashMap<End, usize>) {
+        let shared = |own: [End; 2], by: usize| {
+            own.iter().filter(|end| ends.get(end).is_some_and(|count| *count > by)).count()
+        };
+        let as_is = shared(self.ends(), 1);
+        turn(&mut self.right);
+        if shared(self.ends(), 0) <= as_is {
+            turn(&mut self.right);
         }
     }
-    let ends_of = |ids: &[i64]| (ids[0], ids[ids.len() - 1]);
-    Some(Lanelet {
-        id: relation.id,
-        ways,
-        ends: [ends_of(&left.0), ends_of(&right.0)],
-        left: left.1,
-        right: right.1,
-        relation,
-        kind: kind(relation)?,
-    })
+
+    /// The lanelet, with the left side on the left.
+    fn lanelet(mut self, relation: &OsmRelation) -> Option<Lanelet<'_>> {
+        let ring: Vec<Vec2> = self.right.1.iter().chain(self.left.1.iter().rev()).copied().collect();
+        let area: f64 = (0..ring.len()).map(|i| cross(ring[i], ring[(i + 1) % ring.len()])).sum();
+        if area < 0.0 {
+            turn(&mut self.left);
+            turn(&mut self.right);
+        }
+        Some(Lanelet {
+            id: relation.id,
+            ways: self.ways,
+            ends: [first_and_last(&self.left), first_and_last(&self.right)],
+            left: self.left.1,
+            right: self.right.1,
+            relation,
+            kind: kind(relation)?,
+        })
+    }
+}
+
+fn end(a: i64, b: i64) -> End {
+    (a.min(b), a.max(b))
+}
+
+fn first_and_last((ids, _): &SideLine) -> (i64, i64) {
+    (ids[0], ids[ids.len() - 1])
+}
+
+fn turn((ids, places): &mut SideLine) {
+    ids.reverse();
+    places.reverse();
 }
 
 /// Road users that a lanelet is for.

@@ -6,6 +6,7 @@ use crate::problem::{ImportWarning, ReadError};
 use crate::repairs;
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
+use crate::source::without_mark;
 use scene::Shared;
 use scene::Vec2;
 use scene::map::{Area, Lane, LaneMap, LaneType, Points, TypedLine};
@@ -92,7 +93,7 @@ impl Expansion {
     /// # Errors
     /// `malformed-json` with the file.
     pub fn read(bytes: &[u8], name: &str) -> Result<Self, ReadError> {
-        serde_json::from_slice(bytes)
+        serde_json::from_slice(without_mark(bytes))
             .map_err(|error| ReadError::malformed_json(&error, error.to_string()).under(&format!("/{name}")))
     }
 

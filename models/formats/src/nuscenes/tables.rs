@@ -2,6 +2,7 @@
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, what};
+use crate::source::without_mark;
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, Deserializer, SeqAccess, Visitor};
 use std::collections::{HashMap, HashSet};
@@ -196,7 +197,7 @@ fn rows<T: DeserializeOwned>(bytes: &[u8], table: &str, take: impl FnMut(T)) -> 
         }
     }
 
-    let mut json = serde_json::Deserializer::from_reader(bytes.take(u64::MAX));
+    let mut json = serde_json::Deserializer::from_reader(without_mark(bytes).take(u64::MAX));
     let read =
         json.deserialize_seq(TableRows(take, PhantomData)).and_then(|whole| json.end().map(|()| whole));
     match read {

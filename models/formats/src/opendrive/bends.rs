@@ -1,13 +1,18 @@
 //! How roads bend and where their lanes are moved aside, for the memory that they take and the ends of their sections.
 
 use crate::xml::Element;
+use scene::{Vec2, geometry};
 
 /// Most memory for each metre of lane, bytes: points, borders and crossing edges.
-pub(super) const LANE_MEMORY: f64 = 800.0;
+const LANE_MEMORY: f64 = 800.0;
 /// Memory for each metre of lane of roads that hardly bend, bytes: the lanes have fewer points. It holds for the first
-/// roads of a file alone, since more of them may cross each other over and over.
-const STRAIGHT_MEMORY: f64 = 300.0;
-pub(super) const STRAIGHT_ROADS: usize = 2;
+/// roads of a file alone, since each is compared with those before it.
+const STRAIGHT_MEMORY: f64 = 200.0;
+const STRAIGHT_ROADS: usize = 128;
+/// Memory for each pair of lanes of two such roads that may cross, bytes: their edges are cut where they do.
+const CROSSING_MEMORY: f64 = 500.0;
+/// Widest lane that counts for where a road lies, metres.
+const LANE_M: f64 = 5.0;
 /// A road that hardly bends: greatest curvature, 1/m, and turn from its start to its end, radians: a whole ring, which
 /// crosses itself a few times at most. At each of its records it may bend over so many metres.
 const STRAIGHT_CURVATURE: f64 = 0.01;
@@ -20,8 +25,10 @@ pub(super) struct RoadBends {
     /// Greatest curvature, 1/m, and turn of all pieces, radians.
     curvature: f64,
     turn_rad: f64,
-    /// Length of the piece that is open, metres.
-    piece_m: f64,
+    /// The piece that is open: start, direction in radians, length in metres.
+    piece: (Vec2, f64, f64),
+    /// Corners of the box that all pieces lie in.
+    corners: Option<(Vec2, Vec2)>,
     /// Records at which lanes may bend.
     records: usize,
 }
@@ -29,31 +36,70 @@ pub(super) struct RoadBends {
 impl RoadBends {
     /// Takes an element of the road.
     pub fn take(&mut self, element: &Element) {
-        let size = |name| number(element, name).unwrap_or(0.0).abs();
+        let value = |name| number(element, name).unwrap_or(0.0);
+        let (start, heading_rad, length_m) = self.piece;
         match element.name.as_str() {
+            "line" => self.reach(start + geometry::direction(heading_rad) * length_m, 0.0),
             "arc" | "spiral" => {
-                let curvatures = ["curvature", "curvStart", "curvEnd"].map(size);
+                let curvatures = ["curvature", "curvStart", "curvEnd"].map(|name| value(name).abs());
                 let most = curvatures.into_iter().fold(0.0, f64::max);
                 self.curvature = self.curvature.max(most);
-                self.turn_rad += most * self.piece_m;
+                self.turn_rad += most * length_m;
+                self.reach(start, length_m);
             }
             "poly3" | "paramPoly3" => self.curvature = f64::INFINITY,
             "geometry" => {
-                self.piece_m = size("length");
+                self.piece = (Vec2::new(value("x"), value("y")), value("hdg"), value("length").abs());
+                self.reach(self.piece.0, 0.0);
                 self.records += 1;
             }
-            "laneOffset" | "width" | "border" | "laneSection" => self.records += 1,
+            "laneSection" => self.records += 1,
+            // A constant bends no lane.
+            "laneOffset" | "width" | "border" => {
+                self.records += usize::from(["b", "c", "d"].into_iter().any(|term| value(term) != 0.0));
+            }
             _ => {}
         }
     }
 
+    /// Widens the box by a place and what lies round it.
+    fn reach(&mut self, place: Vec2, around_m: f64) {
+        let around = Vec2::new(around_m, around_m);
+        let (least, most) = self.corners.unwrap_or((place, place));
+        self.corners = Some((least.inf(&(place - around)), most.sup(&(place + around))));
+    }
+
     /// Memory for each metre of the lanes of a road of this length, bytes.
-    pub fn lane_memory(&self, length_m: f64) -> f64 {
+    fn lane_memory(&self, length_m: f64) -> f64 {
         if self.curvature > STRAIGHT_CURVATURE || self.turn_rad > STRAIGHT_TURN_RAD {
             return LANE_MEMORY;
         }
         let bent = (self.records as f64 * BEND_M / length_m.max(BEND_M)).min(1.0);
         LANE_MEMORY * bent + STRAIGHT_MEMORY * (1.0 - bent)
+    }
+}
+
+/// Roads that hardly bend, to find those that may cross.
+#[derive(Default)]
+pub(super) struct StraightRoads(Vec<(Vec2, Vec2, f64)>);
+
+impl StraightRoads {
+    /// Memory for the lanes of a road, bytes a metre, and for where it may cross those before it, bytes.
+    pub fn take(&mut self, bends: &RoadBends, length_m: f64, lanes: usize) -> (f64, f64) {
+        let memory = bends.lane_memory(length_m);
+        let Some((least, most)) =
+            bends.corners.filter(|_| memory < LANE_MEMORY && self.0.len() < STRAIGHT_ROADS)
+        else {
+            return (LANE_MEMORY, 0.0);
+        };
+        let lanes = lanes as f64;
+        let aside = Vec2::new(lanes, lanes) * LANE_M;
+        let (least, most) = (least - aside, most + aside);
+        let apart = |a: &Vec2, b: &Vec2| a.x > b.x || a.y > b.y;
+        let near = self.0.iter().filter(|(from, to, _)| !apart(from, &most) && !apart(&least, to));
+        let pairs: f64 = near.map(|(.., others)| others * lanes).sum();
+        self.0.push((least, most, lanes));
+        (memory, CROSSING_MEMORY * pairs)
     }
 }
 

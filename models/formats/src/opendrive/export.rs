@@ -56,14 +56,16 @@ pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     }
     let beside = Roadside::of(scene, &drawn);
     let rule = if keeps_left(&scene.map) { LEFT_HAND } else { RIGHT_HAND };
-    let mut out = Markup::new(options.most());
+    let mut out = Markup::new(options.bounds());
     out.open("OpenDRIVE", &[]);
     header(scene, &mut out);
     let mut off_m = 0.0_f64;
     for (i, road) in drawn.roads.iter().enumerate() {
+        out.check()?;
         off_m = off_m.max(write_road(i, (road, &drawn), (&scene.map, rule), &beside, &mut out));
     }
     for (number, connecting) in &drawn.junctions {
+        out.check()?;
         write_junction(*number, connecting, (&drawn, rule), &mut out);
     }
     out.close();

@@ -5,7 +5,7 @@
 //! limits far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates
 //! move to the middle of the file's first road, because the crate keeps them in single precision.
 
-use super::bends::{LANE_MEMORY, LaneOffset, RoadBends, STRAIGHT_ROADS, number};
+use super::bends::{LaneOffset, RoadBends, StraightRoads, number};
 use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
 use crate::around::Chosen;
 use crate::limits::memory_for;
@@ -86,6 +86,9 @@ const KEPT: &[(&str, &[&str])] = &[
     ("junction", &["connection", "controller"]),
     ("connection", &["laneLink", "predecessor", "successor"]),
 ];
+/// Records that hold from their place on, and the attribute of it.
+const RECORDS: &[(&str, &str)] =
+    &[("laneOffset", "s"), ("elevation", "s"), ("width", "sOffset"), ("border", "sOffset")];
 /// Elements that a scene does not show, with their names in messages.
 const LEFT_OUT: &[(&str, &str)] = &[
     ("superelevation", "superelevation"),
@@ -122,8 +125,8 @@ pub(super) struct Filtered {
     pub faults: Vec<String>,
     /// No road is taken.
     pub is_empty: bool,
-    /// Links of lanes at junctions.
-    pub junctions: Vec<JunctionLink>,
+    /// Links of lanes at the ends of roads and at junctions.
+    pub links: Links,
     /// Lanes that have borders in a section with widths, and their length, metres.
     pub bordered: (usize, f64),
 }
@@ -158,7 +161,7 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Filtered, R
     filter.out.is_empty = filter.links.roads.is_empty();
     let mut edits = filter.edits;
     edits.extend(filter.links.edits());
-    filter.out.junctions = filter.links.junctions;
+    filter.out.links = filter.links;
     filter.out.text = short::edited(filter.out.text, edits);
     Ok(filter.out)
 }
@@ -240,6 +243,8 @@ struct Filter {
     junction: String,
     connection: (String, String, bool),
     lane_link: Option<JunctionLink>,
+    /// The record before: its name, how deep it lies, the number of lanes so far, and its place.
+    last_record: Option<(&'static str, usize, usize, f64)>,
     /// What is read; whether the open road comes near, and what there was before it.
     chosen: Chosen,
     is_near: bool,
@@ -257,6 +262,7 @@ struct Filter {
     /// Metres of drawn lanes: all but the centre lanes; and memory for them, bytes.
     drawn_m: f64,
     drawn_memory: f64,
+    straight: StraightRoads,
     steps: f64,
     /// Most bytes of memory.
     room: u64,
@@ -316,10 +322,32 @@ impl Filter {
                 self.keep(element, &[])
             }
             _ => {
+                let ordered = self.in_order(element);
+                let element = ordered.as_ref().unwrap_or(element);
                 self.note(&parent, element);
                 self.keep(element, &[])
             }
         }
+    }
+
+    /// A record that begins a rounding before the one that it follows, moved to where that one begins. The crate sorts
+    /// records by their places; of two at one place the later one of the file holds, as its writer meant it.
+    fn in_order(&mut self, element: &Element) -> Option<Element> {
+        let (name, place) = *RECORDS.iter().find(|(name, _)| *name == element.name)?;
+        let at = number(element, place)?;
+        // Elements that hold records close before others of their name open.
+        let (depth, before) = (self.open.len(), self.last_record);
+        self.last_record = Some((name, depth, self.lanes, at));
+        let (.., before) =
+            before.filter(|(other, d, lane, _)| (*other, *d, *lane) == (name, depth, self.lanes))?;
+        if at >= before || before - at > SAME_M {
+            return None;
+        }
+        self.last_record = Some((name, depth, self.lanes, before));
+        let mut moved = element.clone();
+        moved.attributes.retain(|(name, _)| name != place);
+        moved.attributes.push((place.to_owned(), before.to_string()));
+        Some(moved)
     }
 
     /// Notes what is linked, and what holds where.
@@ -531,6 +559,7 @@ impl Filter {
             self.out.left_hand.insert(id.clone());
         }
         self.road = Road { id, length_m, ..Road::default() };
+        self.last_record = None;
         self.is_near = false;
         self.before = BeforeRoad {
             text: self.out.text.len(),
@@ -700,9 +729,9 @@ impl Filter {
             let carried = raised.into_iter().filter(|lane| !gives[usize::from(*lane > 0)]);
             road.sections[i].raised.extend(carried);
         }
-        let is_first = self.links.roads.len() <= STRAIGHT_ROADS;
-        let lane_memory = if is_first { road.bends.lane_memory(road.length_m) } else { LANE_MEMORY };
         let widest = road.sections.iter().map(|section| section.lanes).max().unwrap_or(0);
+        let (lane_memory, crossing_memory) = self.straight.take(&road.bends, road.length_m, widest);
+        self.drawn_memory += crossing_memory;
         for (i, section) in road.sections.iter().enumerate() {
             let end_m = road.sections.get(i + 1).map_or(road.length_m, |next| next.s_m).min(road.length_m);
             self.lanes_m += (end_m - section.s_m).max(0.0) * section.lanes as f64;

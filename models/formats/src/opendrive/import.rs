@@ -64,7 +64,7 @@ pub(crate) fn read_with_roads(
         next.to_string()
     };
     let mut map = LaneMap::default();
-    let found = lanes::draw(&network, &sections, &file.junctions, &mut map);
+    let found = lanes::draw(&network, &sections, &file.links, &mut map);
     if map.lanes.is_empty() {
         return Err(ReadError::other_content(refusals::file_has_no(what::LANE)));
     }

@@ -1,7 +1,7 @@
 //! Lanes of a network as lanes of a map: which of them traffic uses, and what follows what.
 
 use super::sections::{MAX_PIECES, Section, SectionLane, dense};
-use super::short::JunctionLink;
+use super::short::Links;
 use crate::map_file;
 use scene::Vec2;
 use scene::map::{Lane, LaneMap, LaneType, Neighbor, Points};
@@ -73,12 +73,7 @@ pub(super) fn is_road(section: &Section, at: usize) -> bool {
 }
 
 /// Draws the lanes of all sections, with their links and neighbours.
-pub(super) fn draw(
-    network: &RoadNetwork,
-    sections: &[Section],
-    junctions: &[JunctionLink],
-    map: &mut LaneMap,
-) -> Found {
+pub(super) fn draw(network: &RoadNetwork, sections: &[Section], links: &Links, map: &mut LaneMap) -> Found {
     let mut found = Found::new();
     let mut ids = HashSet::new();
     for section in sections {
@@ -114,7 +109,7 @@ pub(super) fn draw(
         beside(section, &found, map);
     }
     link(network, &found, map);
-    link_back(sections, junctions, &found, map);
+    link_stated(sections, links, &found, map);
     found
 }
 
@@ -248,31 +243,41 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
     }
 }
 
-/// Links lanes that lead through a junction towards the incoming road to that road: a `<laneLink>` holds for both
-/// directions, but the crate takes it as the way into the junction alone.
-fn link_back(sections: &[Section], junctions: &[JunctionLink], found: &Found, map: &mut LaneMap) {
-    // Lanes of the sections at both ends of each road, by the road and the number.
+/// Links lanes that the file links on one side alone, where they meet. The crate takes a `<laneLink>` as the way into
+/// the junction alone, and a lane's link as the way out of that lane; but both hold for both directions, and a road's
+/// end is sometimes named wrongly.
+fn link_stated(sections: &[Section], links: &Links, found: &Found, map: &mut LaneMap) {
+    // Lanes of all sections by road, section and number, and of those at both ends of each road by road and number.
+    let mut within: HashMap<(&str, usize, i32), LaneId> = HashMap::new();
     let mut ends: HashMap<(&str, i32), Vec<LaneId>> = HashMap::new();
     let is_end = |i: usize| {
         let road = |i: usize| sections.get(i).map(|section| section.road.as_str());
         road(i) != i.checked_sub(1).and_then(road) || road(i) != road(i + 1)
     };
-    for section in (0..sections.len()).filter(|i| is_end(*i)).map(|i| &sections[i]) {
+    for (i, section) in sections.iter().enumerate() {
         for lane in &section.lanes {
-            ends.entry((section.road.as_str(), lane.number)).or_default().push(lane.id);
+            within.insert((section.road.as_str(), section.number, lane.number), lane.id);
+            if is_end(i) {
+                ends.entry((section.road.as_str(), lane.number)).or_default().push(lane.id);
+            }
         }
     }
-    let drawn = |road: &str, lane: i32| -> Vec<usize> {
-        let lanes = ends.get(&(road, lane)).into_iter().flatten();
-        lanes.filter_map(|id| found.get(id)).flatten().map(|drawn| drawn.lane).collect()
-    };
-    for junction in junctions {
-        for from in drawn(&junction.connecting, junction.to) {
-            if !map.lanes[from].successors.is_empty() {
-                continue;
-            }
-            let to = drawn(&junction.incoming, junction.from).into_iter().find(|to| leads_on(map, from, *to));
-            if let Some(to) = to {
+    let at_ends = links.stated().into_iter().map(|pair| {
+        let of = |end| ends.get(&end).map_or(&[][..], Vec::as_slice);
+        [of(pair.0), of(pair.1)]
+    });
+    let inside = links.stated_within().into_iter().map(|(road, pair)| {
+        pair.map(|(section, lane)| within.get(&(road, section, lane)).map_or(&[][..], std::slice::from_ref))
+    });
+    for pair in at_ends.chain(inside) {
+        let [one, other] = pair.map(|ids| -> Vec<usize> {
+            ids.iter().filter_map(|id| found.get(id)).flatten().map(|drawn| drawn.lane).collect()
+        });
+        let both = one.iter().flat_map(|a| other.iter().flat_map(move |b| [(*a, *b), (*b, *a)]));
+        for (from, to) in both {
+            let open = map.lanes[from].successors.is_empty() || map.lanes[to].predecessors.is_empty();
+            let walked = [from, to].iter().all(|lane| map.lanes[*lane].lane_type == LaneType::Sidewalk);
+            if from != to && open && !walked && leads_on(map, from, to) {
                 let [before, after] = [from, to].map(|i| map.lanes[i].id.clone());
                 map.lanes[from].successors.push(after);
                 map.lanes[to].predecessors.push(before);

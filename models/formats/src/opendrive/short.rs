@@ -1,14 +1,18 @@
 //! Links of lanes through sections that are too short to have lanes. The crate leaves such sections out, and with
 //! them the renumbering that they carry: here the links around them are joined to one.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use std::ops::Range;
 
 /// Sections shorter than this have no lanes in the crate, metres.
 pub(super) const SHORT_M: f64 = 1e-3;
 
+/// A lane at an end of a road: the road, and the number of the lane there.
+pub(super) type RoadLane<'a> = (&'a str, i32);
+
 /// A `<predecessor>` or `<successor>` of a lane.
+#[derive(Clone, Debug)]
 pub(super) struct LaneLink {
     pub lane: i32,
     /// The successor.
@@ -19,7 +23,7 @@ pub(super) struct LaneLink {
 }
 
 /// Links of a lane section.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct LinkedSection {
     pub s_m: f64,
     /// Sides that the section gives, right and left: the others go on from the section before.
@@ -29,6 +33,7 @@ pub(super) struct LinkedSection {
 }
 
 /// Target of a road's end.
+#[derive(Clone, Debug)]
 pub(super) struct RoadEnd {
     pub is_junction: bool,
     pub id: String,
@@ -37,7 +42,7 @@ pub(super) struct RoadEnd {
 }
 
 /// Links of a road.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct RoadLinks {
     pub sections: Vec<LinkedSection>,
     /// At the start, at the end.
@@ -64,6 +69,14 @@ impl RoadLinks {
             section = if after { section + 1 } else { section.wrapping_sub(1) };
         }
         Some((lane, true))
+    }
+
+    /// The lane of the next road to which a link of the first or last section with lanes leads.
+    fn beyond(&self, link: &LaneLink) -> Option<i32> {
+        let own = |section: &LinkedSection| section.links.iter().any(|other| std::ptr::eq(other, link));
+        let at = self.sections.iter().position(own)?;
+        let next = if link.after { at + 1 } else { at.wrapping_sub(1) };
+        self.through(next, link.to, link.after).filter(|(_, beyond)| *beyond).map(|(lane, _)| lane)
     }
 
     /// The lane that carries on a lane of the first or last section, where that section is short.
@@ -96,7 +109,7 @@ pub(super) struct JunctionLink {
 }
 
 /// Links of a file.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Links {
     pub roads: HashMap<String, RoadLinks>,
     pub junctions: Vec<JunctionLink>,
@@ -124,6 +137,62 @@ impl Links {
             edits.push((link.at.clone(), text));
         }
         edits
+    }
+
+    /// Lanes that the file links across the end of a road, each as its road and its number there: by the lane's own
+    /// link, and by a junction.
+    pub fn stated(&self) -> Vec<(RoadLane<'_>, RoadLane<'_>)> {
+        let mut pairs = Vec::new();
+        let mut joined = HashSet::new();
+        for link in &self.junctions {
+            let (incoming, connecting) = (link.incoming.as_str(), link.connecting.as_str());
+            joined.insert((incoming, connecting));
+            let ends = (self.incoming(link), self.inward(connecting, link.at_end, link.to));
+            if let (Some(from), Some(to)) = ends {
+                pairs.push(((incoming, from), (connecting, to)));
+            }
+        }
+        let mut roads: Vec<_> = self.roads.iter().collect();
+        roads.sort_by_key(|(id, _)| id.as_str());
+        for (id, road) in roads {
+            for (after, end) in road.ends.iter().enumerate() {
+                let Some(end) = end.as_ref().filter(|end| !end.is_junction) else { continue };
+                // Where a junction links lanes of the two roads, it says all of them.
+                let other = end.id.as_str();
+                if joined.contains(&(id.as_str(), other)) || joined.contains(&(other, id.as_str())) {
+                    continue;
+                }
+                let mut own = road.sections.iter().filter(|section| !section.is_short);
+                let section = if after == 1 { own.next_back() } else { own.next() };
+                let links = section.into_iter().flat_map(|section| &section.links);
+                for link in links.filter(|link| usize::from(link.after) == after) {
+                    let to = road.beyond(link).and_then(|lane| self.inward(other, end.at_end, lane));
+                    pairs.extend(to.map(|to| ((id.as_str(), link.lane), (other, to))));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Lanes that the file links within a road: the road, and for both its section and its number there.
+    pub fn stated_within(&self) -> Vec<(&str, [(usize, i32); 2])> {
+        let mut pairs = Vec::new();
+        let mut roads: Vec<_> = self.roads.iter().collect();
+        roads.sort_by_key(|(id, _)| id.as_str());
+        for (id, road) in roads {
+            for (i, section) in road.sections.iter().enumerate().filter(|(_, section)| !section.is_short) {
+                for link in &section.links {
+                    let onward = |at: usize| if link.after { at + 1 } else { at.wrapping_sub(1) };
+                    let Some((to, false)) = road.through(onward(i), link.to, link.after) else { continue };
+                    let mut next = onward(i);
+                    while road.sections.get(next).is_some_and(|section| section.is_short) {
+                        next = onward(next);
+                    }
+                    pairs.push((id.as_str(), [(i, link.lane), (next, to)]));
+                }
+            }
+        }
+        pairs
     }
 
     fn of_road(&self, road: &RoadLinks, edits: &mut Vec<(Range<usize>, String)>) {

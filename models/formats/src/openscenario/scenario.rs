@@ -1,7 +1,7 @@
 //! From a scene to OpenSCENARIO 1.2.
 
 use super::signals;
-use crate::format::{EGO, ExportOptions};
+use crate::format::ExportOptions;
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::unwritten;
@@ -19,6 +19,8 @@ const PERFORMANCE: [(&str, &str); 3] =
     [("maxSpeed", "70"), ("maxAcceleration", "10"), ("maxDeceleration", "10")];
 /// Who moves less than this in the last step stands, metres.
 const STANDS_M: f64 = 0.05;
+/// Rule of a time from which on something holds.
+const FROM: &str = "greaterOrEqual";
 /// Day of files that do not depend on when they were written.
 const DAY: &str = "1970-01-01T00:00:00";
 
@@ -60,7 +62,7 @@ pub(super) fn write(
     let written = road_users(scene, options, losses);
     let end =
         written.iter().map(ScenarioEntity::last_step).fold(scene.time.steps.saturating_sub(1), usize::max);
-    let mut out = Markup::new(options.most());
+    let mut out = Markup::new(options.bounds());
     out.open("OpenSCENARIO", &[]);
     header(scene, &mut out);
     out.empty("CatalogLocations", &[]);
@@ -79,7 +81,7 @@ pub(super) fn write(
         story(&written, end, &mut out);
     }
     out.open("StopTrigger", &[]);
-    condition("end", end as f64 * STEP_S, &mut out);
+    condition("end", FROM, end as f64 * STEP_S, &mut out);
     out.close();
     lost(scene, options, &written, losses);
     out.finish()
@@ -155,6 +157,13 @@ fn entity(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
         out.empty("Dimensions", &size);
         out.close();
     };
+    let properties = |out: &mut Markup| {
+        out.open("Properties", &[]);
+        if let Some(role) = &road_user.agent.role {
+            out.empty("Property", &[("name", "role"), ("value", role)]);
+        }
+        out.close();
+    };
     out.open("ScenarioObject", &[("name", &road_user.name)]);
     if road_user.is_vehicle() {
         let category = category(road_user.shown.agent_type, road_user.agent.subtype);
@@ -178,11 +187,7 @@ fn entity(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
         axle("FrontAxle", (REAR + FRONT) * length_m, "0.5", out);
         axle("RearAxle", 0.0, "0", out);
         out.close();
-        out.open("Properties", &[]);
-        if road_user.agent.role.as_deref() == Some(EGO) {
-            out.empty("Property", &[("name", "role"), ("value", EGO)]);
-        }
-        out.close();
+        properties(out);
     } else {
         let child = road_user.agent.subtype == Subtype::Child;
         let name = if child { "child" } else { "adult" };
@@ -198,7 +203,7 @@ fn entity(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
             ],
         );
         bounding_box(out);
-        out.empty("Properties", &[]);
+        properties(out);
     }
     out.close();
     out.close();
@@ -269,11 +274,11 @@ fn init(written: &[ScenarioEntity<'_>], out: &mut Markup) {
 }
 
 /// A condition on the time, as a trigger of its own.
-fn condition(name: &str, from_s: f64, out: &mut Markup) {
+fn condition(name: &str, rule: &str, from_s: f64, out: &mut Markup) {
     out.open("ConditionGroup", &[]);
     out.open("Condition", &[("name", name), ("delay", "0"), ("conditionEdge", "none")]);
     out.open("ByValueCondition", &[]);
-    out.empty("SimulationTimeCondition", &[("value", &decimal(from_s)), ("rule", "greaterOrEqual")]);
+    out.empty("SimulationTimeCondition", &[("value", &decimal(from_s)), ("rule", rule)]);
     out.close();
     out.close();
     out.close();
@@ -310,7 +315,7 @@ fn story(written: &[ScenarioEntity<'_>], end: usize, out: &mut Markup) {
         out.close();
     }
     out.open("StartTrigger", &[]);
-    condition("begin", 0.0, out);
+    condition("begin", FROM, 0.0, out);
     out.close();
     out.close();
     out.close();
@@ -323,7 +328,9 @@ fn event(name: &str, step: usize, out: &mut Markup, action: impl FnOnce(&mut Mar
     action(out);
     out.close();
     out.open("StartTrigger", &[]);
-    condition(&format!("{name} at"), step as f64 * STEP_S, out);
+    // What is due at once waits until the initial actions are done: players would stop these, and warn of it.
+    let rule = if step > 0 { FROM } else { "greaterThan" };
+    condition(&format!("{name} at"), rule, step as f64 * STEP_S, out);
     out.close();
     out.close();
 }

@@ -9,6 +9,7 @@ use crate::problem::{ReadError, at_most};
 use crate::projection::TransverseMercator;
 use crate::refusals::{self, what};
 use crate::source::Source;
+use crate::written::FileBounds;
 use scene::Vec2;
 use std::collections::HashSet;
 
@@ -71,7 +72,7 @@ pub(crate) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Extract, Re
         let message = message.unwrap_or_else(|| refusals::file_has_no(what::HIGHWAY));
         return Err(ReadError::other_content(message));
     }
-    let mut out = Markup::new(u64::MAX);
+    let mut out = Markup::new(FileBounds::default());
     out.open("osm", &[("version", "0.6")]);
     let mut places = Vec::new();
     let mut members = 0;

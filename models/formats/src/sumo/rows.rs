@@ -7,7 +7,7 @@ use crate::problem::ReadError;
 use crate::refusals::{self, wanted, what};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Scanner, XmlEvent};
+use crate::xml::{self, Element, Scanner, XmlEvent};
 use scene::Vec2;
 use scene::message::{Message, Word};
 use std::io::{BufRead, Read};
@@ -72,7 +72,7 @@ impl<'a> FcdRows<'a> {
     /// `cannot-represent` for what is no FCD.
     pub fn of(head: &[u8], input: Box<dyn BufRead + 'a>) -> Result<Self, ReadError> {
         let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
-        if matches!(first, None | Some(b'<')) {
+        if matches!(first, None | Some(b'<')) || xml::root_of(head).is_some() {
             let scanner = Scanner::new(input, MAX_ROW);
             return Ok(Self::Xml(XmlRows { scanner, root: false, time_s: None, pending: None }));
         }

@@ -1,13 +1,18 @@
 //! Columns of a table: this program's by their names, others' by a file that maps them.
 
-use super::{COLUMNS, LATITUDE, LONGITUDE, SPEED};
+use super::names::{FileNames, TableKind};
+use super::{
+    COLUMNS, FRAME, FRAME_RATE, LATITUDE, LONGITUDE, ORIGIN_X, ORIGIN_Y, PLACE_LATITUDE, PLACE_LONGITUDE,
+    SPEED, SPEED_LIMIT,
+};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, expected, shown, wanted};
-use crate::source::Source;
+use crate::source::{Source, without_mark};
 use crate::unpack::{self, Bounds};
 use scene::message::Message;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::borrow::Borrow;
+use std::collections::{BTreeMap, HashSet};
 use std::io::Read;
 
 /// Most bytes of a column file.
@@ -15,13 +20,21 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Member of a column file that describes a wide table, and most columns of one of its parts.
 const WIDE: &str = "wide";
 const MOST_WIDE: usize = 256;
+/// Members that name a public data set, the files of a recording, and the part that is read.
+const SET: &str = "set";
+const FILES: &str = "files";
+const ONLY: &str = "only";
+/// Most ids of a part.
+const MOST_IDS: usize = 10_000;
 
 /// Source of a value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnSource {
+    /// The table that has the column.
+    pub file: TableKind,
     /// Name of the column; nothing where every row has the same value.
     pub column: Option<String>,
-    /// ... this one.
+    /// ... this one; beside a column, the value where files lack the column.
     pub value: Option<String>,
     /// Numbers are `factor * number + offset`.
     pub factor: f64,
@@ -40,6 +53,58 @@ pub(super) struct ColumnSource {
 pub(super) struct Columns {
     pub sources: BTreeMap<&'static str, ColumnSource>,
     pub wide: Option<Wide>,
+    /// Of recordings that have several files.
+    pub files: Option<FileNames>,
+    pub only: TablePart,
+}
+
+/// The part of a recording that is read.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct TablePart {
+    /// First and last time, seconds of the recording.
+    pub time_s: Option<(f64, f64)>,
+    /// Ids of road users.
+    pub agent_id: Option<HashSet<TrackId>>,
+}
+
+/// An id in a column file, a text or a whole number.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(from = "TextOrNumber")]
+pub(super) struct TrackId(String);
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum TextOrNumber {
+    Text(String),
+    Number(i64),
+}
+
+impl From<TextOrNumber> for TrackId {
+    fn from(told: TextOrNumber) -> Self {
+        match told {
+            TextOrNumber::Text(text) => Self(text),
+            TextOrNumber::Number(number) => Self(number.to_string()),
+        }
+    }
+}
+
+impl Borrow<str> for TrackId {
+    fn borrow(&self) -> &str {
+        &self.0
+    }
+}
+
+impl TablePart {
+    /// Whether rows of this road user are read.
+    pub fn takes_id(&self, id: &str) -> bool {
+        self.agent_id.as_ref().is_none_or(|ids| ids.contains(id))
+    }
+
+    /// Whether rows of this time are read.
+    pub fn takes_time(&self, time_s: f64) -> bool {
+        self.time_s.is_none_or(|(from_s, to_s)| (from_s..=to_s).contains(&time_s))
+    }
 }
 
 /// A table with a row for each road user: so many columns of it, then so many for each time, again and again.
@@ -79,6 +144,8 @@ enum Told {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct More {
+    #[serde(default)]
+    file: TableKind,
     column: Option<String>,
     value: Option<serde_json::Value>,
     unit: Option<String>,
@@ -91,10 +158,20 @@ struct More {
     optional: bool,
 }
 
-/// All names that a column file may map.
-fn names() -> impl Iterator<Item = &'static str> {
+/// Names that a table of ours may have.
+fn own_names() -> impl Iterator<Item = &'static str> {
     COLUMNS.into_iter().chain([SPEED, LATITUDE, LONGITUDE])
 }
+
+/// All names that a column file may map.
+fn names() -> impl Iterator<Item = &'static str> {
+    let others = [FRAME, FRAME_RATE, ORIGIN_X, ORIGIN_Y, PLACE_LATITUDE, PLACE_LONGITUDE, SPEED_LIMIT];
+    own_names().chain(others)
+}
+
+/// Names that only the table of a recording, or the column file itself, has.
+const OF_RECORDING: [&str; 6] =
+    [FRAME_RATE, ORIGIN_X, ORIGIN_Y, PLACE_LATITUDE, PLACE_LONGITUDE, SPEED_LIMIT];
 
 const UNITS: &str = "m, ft, cm, km, s, ks, ms, us, ns, rad, deg, m/s, km/h, mph, ft/s";
 
@@ -122,7 +199,33 @@ impl Columns {
         let own = |name| {
             (name, ColumnSource { column: Some(String::from(name)), factor: 1.0, ..ColumnSource::default() })
         };
-        Self { sources: names().map(own).collect(), wide: None }
+        Self { sources: own_names().map(own).collect(), ..Self::default() }
+    }
+
+    /// Those of the public data set that has most of these columns, with the names of all sets that have as many;
+    /// nothing where no set has its columns here.
+    pub fn recognised(names: &[String]) -> Option<(Self, String)> {
+        let found = |column: &String| names.contains(column);
+        let mut best: Option<(usize, Self, Vec<&str>)> = None;
+        for (set, _) in PRESETS {
+            let Ok(columns) = Self::read(&set.as_bytes()) else { continue };
+            let told = || {
+                let own = own_names().collect::<HashSet<_>>();
+                let tracks = columns.sources.values().filter(|source| source.file == TableKind::Tracks);
+                tracks.filter(move |source| source.column.as_deref().is_some_and(|name| !own.contains(name)))
+            };
+            let needed = |source: &&ColumnSource| !source.optional && source.value.is_none();
+            if !told().filter(needed).all(|source| source.column.as_ref().is_some_and(found)) {
+                continue;
+            }
+            let count = told().filter_map(|source| source.column.as_ref()).filter(|name| found(name)).count();
+            match &mut best {
+                Some((most, _, sets)) if *most == count => sets.push(set),
+                Some((most, ..)) if *most > count => {}
+                _ => best = Some((count, columns, vec![set])),
+            }
+        }
+        best.map(|(_, columns, sets)| (columns, sets.join(", ")))
     }
 
     /// Columns from a column file, or those of the data set that it names, with this program's names for unmapped
@@ -136,17 +239,44 @@ impl Columns {
         let input = input.and_then(|mut input| input.read_to_end(&mut bytes));
         input.map_err(|error| unpack::fault(&error, 0))?;
         let named = std::str::from_utf8(&bytes).ok().and_then(|text| preset(text.trim().trim_matches('"')));
-        let malformed = |error: serde_json::Error| ReadError::malformed_json(&error, error.to_string());
-        let mut told: BTreeMap<String, serde_json::Value> =
-            serde_json::from_slice(named.map_or(bytes.as_slice(), str::as_bytes)).map_err(malformed)?;
         let mut columns = Self::own();
+        columns.take(named.map_or(bytes.as_slice(), str::as_bytes))?;
+        Ok(columns)
+    }
+
+    /// Takes in the members of a column file.
+    fn take(&mut self, text: &[u8]) -> Result<(), ReadError> {
+        let malformed = |error: serde_json::Error| ReadError::malformed_json(&error, error.to_string());
+        let refused = |name: &str, message: Message| {
+            ReadError::from(FieldProblem::new(format!("/{name}"), code::INVALID_FIELD, message))
+        };
+        let mut told: BTreeMap<String, serde_json::Value> =
+            serde_json::from_slice(without_mark(text)).map_err(malformed)?;
+        if let Some(set) = told.remove(SET) {
+            let found = set.as_str().and_then(preset).ok_or_else(|| {
+                let sets = PRESETS.map(|(set, _)| set).join(", ");
+                refused(SET, refusals::one_of(&sets))
+            })?;
+            self.take(found.as_bytes())?;
+        }
         if let Some(wide) = told.remove(WIDE) {
             let wide: Wide = serde_json::from_value(wide).map_err(malformed)?;
             if wide.repeated == 0 || wide.fixed.max(wide.repeated) > MOST_WIDE {
-                let message = expected(wanted::WIDE_COLUMNS);
-                return Err(FieldProblem::new(format!("/{WIDE}"), code::INVALID_FIELD, message).into());
+                return Err(refused(WIDE, expected(wanted::WIDE_COLUMNS)));
             }
-            columns.wide = Some(wide);
+            self.wide = Some(wide);
+        }
+        if let Some(files) = told.remove(FILES) {
+            let read = serde_json::from_value(files).ok().filter(FileNames::can_be);
+            self.files = Some(read.ok_or_else(|| refused(FILES, expected(wanted::TABLE_FILES)))?);
+        }
+        if let Some(only) = told.remove(ONLY) {
+            let can_be = |only: &TablePart| {
+                only.time_s.is_none_or(|(from_s, to_s)| from_s <= to_s)
+                    && only.agent_id.as_ref().is_none_or(|ids| (1..=MOST_IDS).contains(&ids.len()))
+            };
+            let read = serde_json::from_value(only).ok().filter(can_be);
+            self.only = read.ok_or_else(|| refused(ONLY, expected(wanted::TABLE_PART)))?;
         }
         for (name, told) in told {
             let fault = |message: Message| {
@@ -164,9 +294,16 @@ impl Columns {
                 }
                 Told::More(more) => more.origin().map_err(fault)?,
             };
-            columns.sources.insert(own, origin);
+            if OF_RECORDING.contains(&own) && origin.file != TableKind::Recording && origin.column.is_some() {
+                return Err(fault(expected(wanted::OF_RECORDING)));
+            }
+            // The rows of other tables are found by the id.
+            if own == "agent_id" && origin.file != TableKind::Tracks {
+                return Err(fault(expected(wanted::OF_TRACKS)));
+            }
+            self.sources.insert(own, origin);
         }
-        Ok(columns)
+        Ok(())
     }
 }
 
@@ -189,7 +326,7 @@ impl More {
             }
             Some(_) => return Err(expected(wanted::TEXT_OR_NUMBER)),
         };
-        if self.column.is_some() == value.is_some() {
+        if self.column.is_none() && value.is_none() {
             return Err(expected(wanted::COLUMN_OR_VALUE));
         }
         let half = match self.add_half.as_deref() {
@@ -200,8 +337,8 @@ impl More {
                 Some((sign, known.ok_or_else(|| expected(wanted::HALF))?))
             }
         };
-        let Self { column, words, optional, .. } = self;
-        Ok(ColumnSource { column, value, factor, offset, words, half, optional })
+        let Self { file, column, words, optional, .. } = self;
+        Ok(ColumnSource { file, column, value, factor, offset, words, half, optional })
     }
 }
 
@@ -231,9 +368,9 @@ mod tests {
             let columns = read(name).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(columns, read(&format!("\"{}\"", name.to_uppercase())).unwrap(), "{name}");
             let own = Columns::own();
-            assert!(
-                columns.sources.iter().filter(|(name, source)| own.sources[*name] != **source).count() > 4
-            );
+            let theirs =
+                columns.sources.iter().filter(|(name, source)| own.sources.get(*name) != Some(*source));
+            assert!(theirs.count() > 4);
         }
         assert_eq!(read("klingon").unwrap_err().code(), "malformed-json");
         assert_eq!(read("pneuma").unwrap().wide, Some(Wide { fixed: 4, repeated: 6 }));
@@ -244,7 +381,15 @@ mod tests {
         for (text, code, at) in [
             ("[", "malformed-json", ""),
             (r#"{"xx": "a"}"#, "invalid-field", "/xx"),
-            (r#"{"x_m": {"column": "a", "value": 1}}"#, "invalid-field", "/x_m"),
+            (r#"{"x_m": {"unit": "m"}}"#, "invalid-field", "/x_m"),
+            (r#"{"x_m": {"file": "attic", "column": "a"}}"#, "invalid-field", "/x_m"),
+            (r#"{"agent_id": {"file": "agents", "column": "a"}}"#, "invalid-field", "/agent_id"),
+            (r#"{"agent_id": {"file": "recording", "value": "1"}}"#, "invalid-field", "/agent_id"),
+            (r#"{"frame_rate_hz": "fps"}"#, "invalid-field", "/frame_rate_hz"),
+            (r#"{"set": "klingon"}"#, "invalid-field", "/set"),
+            (r#"{"files": {"agents": "*_meta.csv"}}"#, "invalid-field", "/files"),
+            (r#"{"files": {"tracks": "a*b*.csv"}}"#, "invalid-field", "/files"),
+            (r#"{"only": {"time_s": [5, 1]}}"#, "invalid-field", "/only"),
             (r#"{"x_m": {"column": "a", "unit": "yd"}}"#, "invalid-field", "/x_m"),
             (r#"{"x_m": {"column": "a", "factor": 0}}"#, "invalid-field", "/x_m"),
             (r#"{"x_m": {"column": "a", "add_half": "height_m"}}"#, "invalid-field", "/x_m"),

@@ -1,138 +1,248 @@
 //! From a table to scenes: rows of a scenario stand together, its road users in any order.
 
 use super::columns::{ColumnSource, Columns};
+use super::companions::{AgentsTable, NamedTable, RecordingFacts, RecordingFiles};
+use super::gathered::Gathered;
+use super::names::TableKind;
 use super::notes::{KEY, Notes};
-use super::rows::Rows;
+use super::rows::{Rows, TableFile};
 use super::write::plain;
-use super::{GENERATED, LATITUDE, LOG, LONGITUDE, SPEED};
+use super::{FRAME, FRAME_RATE, GENERATED, LATITUDE, LOG, LONGITUDE, SPEED};
 use crate::columnar::ColumnValue;
 use crate::format::{COLUMNS_POINTER, ImportOptions};
 use crate::limits::MAX_STEPS;
-use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code};
+use crate::problem::{FieldProblem, ImportWarning, Imported, ReadError, code, pointer_token};
 use crate::projection::TransverseMercator;
-use crate::recording::{
-    MAX_SAMPLES, MAX_USERS, RecordedAgent, RecordedFuture, RecordedState, Recording, Said, kind_of,
-};
+use crate::recording::{RecordedAgent, RecordedFuture, RecordedState, Said, kind_of};
 use crate::refusals::{self, wanted, what};
 use crate::sentences;
-use crate::source::Source;
+use crate::underlay::{self, Placing};
 use scene::geometry::direction;
 use scene::message::Word;
-use scene::{AgentType, Meta, STEP_S, Subtype, Vec2};
+use scene::{AgentType, Meta, Origin, STEP_S, Subtype, Vec2};
 use std::borrow::Cow;
 use std::collections::hash_map::DefaultHasher;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 /// Coordinates reach so far, metres; times, seconds (a clock that counts nanoseconds as seconds is none).
 const MAX_METRES: f64 = 1e9;
 const MAX_SECONDS: f64 = 1e11;
 /// Bytes of an id.
 const MAX_ID: usize = 256;
-/// Most possible motions of one scenario.
-const MAX_FUTURES: usize = 100_000;
+/// A recording whose own coordinates stay within this of its zero keeps its frame, metres.
+const OWN_FRAME_M: f64 = 1_000.0;
 
 /// A column that is read.
 struct Picked {
-    /// Position in the file; nothing where every row has the same value.
-    at: Option<usize>,
+    at: ColumnPlace,
     origin: ColumnSource,
 }
 
-/// Scenes of a table, scenario after scenario.
+/// Where the values of a column stand.
+#[derive(Clone, Copy)]
+enum ColumnPlace {
+    /// All are the value of the column file.
+    Everywhere,
+    /// This column of the rows.
+    Row(usize),
+    /// This column of the table of road users.
+    Agent(usize),
+}
+
+/// Scenes of a recording, scenario after scenario.
 pub(super) struct Scenarios<'a> {
     rows: Rows<'a>,
+    /// Tables of tracks that follow, the next one last, and the name of the one that is read.
+    tracks: Vec<NamedTable<'a>>,
+    file: String,
+    told: Columns,
     columns: BTreeMap<&'static str, Picked>,
+    agents: Option<AgentsTable>,
+    facts: RecordingFacts,
+    /// What scenes are called without a name in the table.
+    called: String,
+    /// What was said while the files were opened.
+    warnings: Vec<ImportWarning>,
     options: &'a ImportOptions,
     notes: Notes,
     gathered: Option<Gathered>,
     /// Scenarios that came to their end, by hash.
     ended: HashSet<u64>,
     ready: Option<Box<dyn Iterator<Item = Result<Imported, ReadError>>>>,
+    /// Bytes of the tracks, which bound how many rows are held.
+    encoded: u64,
     /// The current row is read but not yet assigned to a scene.
     pending: bool,
     given: bool,
     over: bool,
 }
 
-/// A scenario that is being read.
-struct Gathered {
-    name: String,
-    recording: Recording,
-    users: HashMap<String, usize>,
-    futures: HashMap<(usize, u64, u64), usize>,
-    samples: usize,
-    /// Every time is that of its step, and the last one.
-    aligned: bool,
-    last_step: f64,
-    unknown_words: usize,
-    untyped: bool,
-    /// Of degrees, as soon as there are some.
-    projection: Option<TransverseMercator>,
+/// Finds the columns of a table of tracks.
+fn pick(
+    names: &[String],
+    told: &Columns,
+    agents: Option<&AgentsTable>,
+) -> Result<BTreeMap<&'static str, Picked>, ReadError> {
+    let mut picked = BTreeMap::new();
+    for (name, origin) in &told.sources {
+        let in_row = || names.iter().position(|found| Some(found) == origin.column.as_ref());
+        let place = match (origin.file, &origin.column, agents) {
+            (TableKind::Recording, ..) => continue,
+            (_, None, _) => Some(ColumnPlace::Everywhere),
+            (TableKind::Agents, Some(_), Some(agents)) => agents.column(name).map(ColumnPlace::Agent),
+            // Some people merge the tables of a recording into one.
+            _ => in_row().map(ColumnPlace::Row),
+        };
+        let place = place.or_else(|| origin.value.as_ref().map(|_| ColumnPlace::Everywhere));
+        match (place, &origin.column) {
+            (Some(at), _) => {
+                picked.insert(*name, Picked { at, origin: origin.clone() });
+            }
+            // A column named by the user must exist.
+            (None, Some(column))
+                if column != name && !origin.optional && origin.file == TableKind::Tracks =>
+            {
+                let message = refusals::no_column(column, &shown(names));
+                let pointer = format!("{COLUMNS_POINTER}/{name}");
+                return Err(FieldProblem::new(pointer, code::INVALID_FIELD, message).into());
+            }
+            (None, _) => {}
+        }
+    }
+    let has = |name: &str| picked.contains_key(name);
+    let on_globe = has(LATITUDE) && has(LONGITUDE);
+    let places = ["x_m", "y_m"].into_iter().filter(|_| !on_globe);
+    let needed = std::iter::once("agent_id").chain(places).filter(|name| !has(name));
+    let mut missing: Vec<&str> = needed.collect();
+    if !(has("time_s") || has("step") || has(FRAME)) {
+        missing.push("time_s or step");
+    }
+    if missing.is_empty() {
+        return Ok(picked);
+    }
+    Err(ReadError::other_content(sentences::columns_missing(&missing.join(", "), &shown(names))))
+}
+
+/// Says which tables of a recording are missing that would say more than its tracks.
+fn missing_tables(files: &RecordingFiles<'_>, told: &Columns) -> Vec<ImportWarning> {
+    let told_of = |kind| told.sources.values().any(|source| source.file == kind && source.column.is_some());
+    let kinds = [
+        (TableKind::Agents, files.agents.is_empty(), sentences::agents_table_missing()),
+        (TableKind::Recording, files.recording.is_empty(), sentences::recording_table_missing()),
+    ];
+    let missing = kinds.into_iter().filter(|(kind, lacks, _)| *lacks && told_of(*kind));
+    missing.map(|(.., message)| ImportWarning::new("tables-missing", message)).collect()
+}
+
+/// A fault of a file of this name.
+fn within(error: ReadError, name: &str) -> ReadError {
+    if name.is_empty() { error } else { error.under(&format!("/{}", pointer_token(name))) }
 }
 
 impl<'a> Scenarios<'a> {
-    pub fn open(file: &'a dyn Source, options: &'a ImportOptions, parquet: bool) -> Result<Self, ReadError> {
-        let columns = match &options.columns {
+    pub fn open(
+        mut files: RecordingFiles<'a>,
+        options: &'a ImportOptions,
+        parquet: bool,
+    ) -> Result<Self, ReadError> {
+        let mut told = match &options.columns {
             Some(file) => Columns::read(file).map_err(|error| error.under(COLUMNS_POINTER))?,
             None => Columns::own(),
         };
-        let mut rows = Rows::open(file, parquet, columns.wide)?;
-        let mut picked = BTreeMap::new();
-        for (name, origin) in columns.sources {
-            let at = match &origin.column {
-                None => None,
-                Some(column) => match rows.names().iter().position(|found| found == column) {
-                    Some(at) => Some(at),
-                    // A column named by the user must exist.
-                    None if origin.optional => continue,
-                    None if column != name => {
-                        let message = refusals::no_column(column, &shown(rows.names()));
-                        let pointer = format!("{COLUMNS_POINTER}/{name}");
-                        return Err(FieldProblem::new(pointer, code::INVALID_FIELD, message).into());
-                    }
-                    None => continue,
-                },
-            };
-            picked.insert(name, Picked { at, origin });
+        let encoded = files.encoded_len();
+        files.tracks.reverse();
+        let (name, first) =
+            files.tracks.pop().ok_or_else(|| ReadError::other_content(refusals::file_has_no(what::ROW)))?;
+        let open = |wide| match (&first, parquet) {
+            (TableFile::Given(file), true) => Rows::parquet(*file),
+            _ => Rows::csv(&first, wide),
+        };
+        let mut rows = open(told.wide).map_err(|error| within(error, &name))?;
+        let mut warnings: Vec<ImportWarning> = files.told.take().into_iter().collect();
+        if options.columns.is_none()
+            && pick(rows.names(), &told, None).is_err()
+            && let Some((columns, sets)) = Columns::recognised(rows.names())
+        {
+            warnings.push(ImportWarning::new("columns-recognised", sentences::columns_recognised(&sets)));
+            if columns.wide.is_some() {
+                rows = open(columns.wide).map_err(|error| within(error, &name))?;
+            }
+            told = columns;
         }
-        let has = |name: &str| picked.contains_key(name);
-        let on_globe = has(LATITUDE) && has(LONGITUDE);
-        let places = ["x_m", "y_m"].into_iter().filter(|_| !on_globe);
-        let needed = std::iter::once("agent_id").chain(places).filter(|name| !has(name));
-        let mut missing: Vec<&str> = needed.collect();
-        if !has("time_s") && !has("step") {
-            missing.push("time_s or step");
-        }
-        if !missing.is_empty() {
-            let message = sentences::columns_missing(&missing.join(", "), &shown(rows.names()));
-            return Err(ReadError::other_content(message));
-        }
-        rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
-        // Notes of another program under our key are ignored.
-        let notes =
-            rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
-        Ok(Self {
+        let agents = match files.agents.as_slice() {
+            [] => None,
+            tables => Some(AgentsTable::read(tables, &told)?),
+        };
+        let facts = RecordingFacts::read(&files.recording, &told)?;
+        warnings.extend(missing_tables(&files, &told));
+        let mut scenarios = Self {
             rows,
-            columns: picked,
+            tracks: files.tracks,
+            file: name,
+            told,
+            columns: BTreeMap::new(),
+            agents,
+            facts,
+            called: files.name,
+            warnings,
             options,
-            notes,
+            notes: Notes::default(),
             gathered: None,
             ended: HashSet::new(),
             ready: None,
+            encoded,
             pending: false,
             given: false,
             over: false,
-        })
+        };
+        scenarios.begin_table().map_err(|error| within(error, &scenarios.file))?;
+        // Notes of another program under our key are ignored.
+        let notes = scenarios.rows.notes();
+        scenarios.notes = notes.get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
+        Ok(scenarios)
+    }
+
+    /// Finds the columns of the table that was opened.
+    fn begin_table(&mut self) -> Result<(), ReadError> {
+        self.columns = pick(self.rows.names(), &self.told, self.agents.as_ref())?;
+        let has = |name: &str| self.columns.contains_key(name);
+        if has(FRAME) && !has("time_s") && !has("step") && self.facts.rate_hz.is_none() {
+            let pointer = format!("{COLUMNS_POINTER}/{FRAME_RATE}");
+            let message = refusals::expected(wanted::FRAME_RATE);
+            return Err(FieldProblem::new(pointer, code::INVALID_FIELD, message).into());
+        }
+        let chosen = self.columns.values().filter_map(|picked| match picked.at {
+            ColumnPlace::Row(at) => Some(at),
+            ColumnPlace::Everywhere | ColumnPlace::Agent(_) => None,
+        });
+        self.rows.choose(chosen.collect())
+    }
+
+    /// Goes to the next row, of the next table where one ends; false at the end.
+    fn advance(&mut self) -> Result<bool, ReadError> {
+        while !self.rows.advance()? {
+            let Some((name, next)) = self.tracks.pop() else { return Ok(false) };
+            self.file = name;
+            self.rows = Rows::csv(&next, self.told.wide)?;
+            self.begin_table()?;
+        }
+        Ok(true)
     }
 
     fn value(&self, name: &str) -> ColumnValue<'_> {
         let Some(picked) = self.columns.get(name) else { return ColumnValue::Nothing };
-        match (picked.at, &picked.origin.value) {
-            (Some(at), _) => self.rows.value(at),
-            (None, Some(value)) => ColumnValue::Text(value),
-            (None, None) => ColumnValue::Nothing,
-        }
+        let everywhere = || picked.origin.value.as_deref();
+        let text = match (picked.at, &self.agents) {
+            (ColumnPlace::Row(at), _) => return self.rows.value(at),
+            (ColumnPlace::Agent(at), Some(agents)) => {
+                let id = self.text("agent_id");
+                id.and_then(|id| agents.value(&id, at)).or_else(everywhere)
+            }
+            (ColumnPlace::Everywhere | ColumnPlace::Agent(_), _) => everywhere(),
+        };
+        text.map_or(ColumnValue::Nothing, ColumnValue::Text)
     }
 
     fn text(&self, name: &str) -> Option<Cow<'_, str>> {
@@ -211,36 +321,33 @@ impl<'a> Scenarios<'a> {
         if id.len() > MAX_ID {
             return Err(self.fault("agent_id", &id, wanted::ID_BYTES));
         }
+        if !self.told.only.takes_id(&id) {
+            return Ok(());
+        }
         let step = self.number("step", 1e9, wanted::STEP)?;
         let mut time_s = self.number("time_s", MAX_SECONDS, wanted::TIME)?;
+        if let (true, Some(rate_hz)) = (time_s.is_nan(), self.facts.rate_hz) {
+            time_s = self.number(FRAME, MAX_SECONDS, wanted::STEP)? / rate_hz;
+        }
         if time_s.is_nan() {
             time_s = step * STEP_S;
         }
         if time_s.is_nan() {
             return Err(self.fault("time_s", "", wanted::TIME_OR_STEP));
         }
+        if !(self.told.only.takes_time(time_s) && to.takes_time(time_s)) {
+            return Ok(());
+        }
         to.aligned &= step >= 0.0 && (time_s - step * STEP_S).abs() < 1e-3;
         to.last_step = to.last_step.max(step);
         let sample = self.sample(time_s, to)?;
-        let user = match to.users.get(id.as_ref()) {
-            Some(user) => *user,
+        let user = match to.user(&id) {
+            Some(user) => user,
             None => {
                 let user = self.user(&id, to)?;
-                to.users.insert(id.clone().into_owned(), to.recording.users.len());
-                to.recording.users.push(user);
-                to.recording.users.len() - 1
+                to.add_user(user)
             }
         };
-        to.samples += 1;
-        let counts = [
-            (to.samples, MAX_SAMPLES, what::ROWS),
-            (to.users.len(), MAX_USERS, what::ROAD_USERS),
-            (to.futures.len(), MAX_FUTURES, what::FUTURES),
-        ];
-        if let Some((most, what)) = refusals::exceeded(&counts) {
-            let message = refusals::more_than(most, what);
-            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, message).into());
-        }
         let list = match self.future()? {
             None => to.recording.users.get_mut(user).map(|user| &mut user.samples),
             Some((sample, mode)) => {
@@ -263,7 +370,7 @@ impl<'a> Scenarios<'a> {
         if let Some(list) = list {
             list.push(sample);
         }
-        Ok(())
+        to.bound(self.encoded)
     }
 
     /// Half of the size that a column adds, in the direction in which it counts, metres.
@@ -285,7 +392,9 @@ impl<'a> Scenarios<'a> {
             let metres = |name| {
                 Ok::<_, ReadError>(self.number(name, MAX_METRES, wanted::COORDINATE)? + self.half(name)?)
             };
-            return Ok(Vec2::new(metres("x_m")?, metres("y_m")?));
+            let own = Vec2::new(metres("x_m")?, metres("y_m")?);
+            to.farthest_m = to.farthest_m.max(own.amax());
+            return Ok(own + self.facts.shift.unwrap_or_default());
         }
         // About the first place: the rows behind it are not known yet.
         if to.projection.is_none() {
@@ -371,7 +480,9 @@ impl<'a> Scenarios<'a> {
         gathered.name.hash(&mut hasher);
         self.ended.insert(hasher.finish());
         let note = self.notes.scenes.iter().find(|note| note.scenario_id == gathered.name);
-        let mut said = Said { name: gathered.name.clone(), ..Said::default() };
+        let name = if gathered.name.is_empty() { &self.called } else { &gathered.name };
+        let mut said = Said { name: name.clone(), warnings: self.warnings.clone(), ..Said::default() };
+        said.warnings.extend(gathered.left_out());
         said.meta =
             note.map_or_else(|| Meta { source: "table".into(), ..Meta::default() }, |note| note.meta());
         if let Some(note) = note {
@@ -396,15 +507,24 @@ impl<'a> Scenarios<'a> {
             let message = sentences::types_unknown(gathered.unknown_words);
             said.warnings.push(ImportWarning::new("types-unknown", message));
         }
-        said.crs = gathered.projection.map(|projection| projection.name());
+        let zone = self.facts.zone.map(|zone| zone.name());
+        said.crs = zone.or_else(|| gathered.projection.map(|projection| projection.name()));
+        let shift = self.facts.shift;
+        // A small recording keeps its own frame about its own zero.
+        if let (Some(at), true) = (shift, gathered.farthest_m <= OWN_FRAME_M) {
+            said.origin = Some(Origin { x_m: at.x, y_m: at.y, crs: said.crs.clone(), ..Origin::default() });
+        }
         gathered.recording.said = said;
-        self.ready = Some(Box::new(gathered.recording.scenes()));
+        let (ground, placing) =
+            (Arc::clone(&self.options.ground), Placing { shift, limit_mps: self.facts.limit_mps });
+        let lay = move |read: Imported| underlay::lay(read, &ground, placing);
+        self.ready = Some(Box::new(gathered.recording.scenes().map(move |read| read.and_then(&lay))));
     }
 
     /// Reads on to the end of the scenario.
     fn read(&mut self) -> Result<(), ReadError> {
         loop {
-            if !self.pending && !self.rows.advance()? {
+            if !self.pending && !self.advance()? {
                 self.over = true;
                 self.finish();
                 return Ok(());
@@ -423,18 +543,7 @@ impl<'a> Scenarios<'a> {
                 if name.len() > MAX_ID || self.ended.contains(&hasher.finish()) {
                     return Err(self.fault("scenario_id", &name, wanted::SCENARIO_ROWS));
                 }
-                self.gathered = Some(Gathered {
-                    name,
-                    recording: Recording::default(),
-                    users: HashMap::new(),
-                    futures: HashMap::new(),
-                    samples: 0,
-                    aligned: true,
-                    last_step: 0.0,
-                    unknown_words: 0,
-                    untyped: false,
-                    projection: None,
-                });
+                self.gathered = Some(Gathered::new(name));
             }
             self.add()?;
         }
@@ -472,7 +581,7 @@ impl Iterator for Scenarios<'_> {
             if let Err(error) = self.read() {
                 (self.over, self.given) = (true, true);
                 self.gathered = None;
-                return Some(Err(error));
+                return Some(Err(within(error, &self.file)));
             }
         }
     }

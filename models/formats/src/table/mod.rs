@@ -2,14 +2,20 @@
 //! and Parquet with the same columns, both ways. Positions are those of the scene's source: its origin is added back.
 
 mod columns;
+mod companions;
 mod format;
+mod gathered;
+mod groups;
 mod import;
+mod names;
 mod notes;
+mod recordings;
 mod rows;
 mod write;
 
 pub use columns::{PRESETS, preset};
-pub use format::{Csv, Parquet};
+pub use format::TableFormat;
+pub use groups::{TableGroup, beside, firsts, groups, is_map};
 pub use write::cell;
 
 /// Columns of a row, in order; units are in their names. `sample`, `mode` and `probability` are set only for
@@ -43,6 +49,16 @@ const SPEED: &str = "speed_mps";
 /// Read in place of `x_m` and `y_m`, degrees; never written.
 const LATITUDE: &str = "lat_deg";
 const LONGITUDE: &str = "lon_deg";
+/// Read in place of `time_s`: numbers of pictures, and how many there are in a second.
+const FRAME: &str = "frame";
+const FRAME_RATE: &str = "frame_rate_hz";
+/// Where the zero of a recording lies in its zone of UTM, metres, and a place of it that tells the zone, degrees.
+const ORIGIN_X: &str = "origin_x_m";
+const ORIGIN_Y: &str = "origin_y_m";
+const PLACE_LATITUDE: &str = "place_lat_deg";
+const PLACE_LONGITUDE: &str = "place_lon_deg";
+/// Of the lanes that say none themselves.
+const SPEED_LIMIT: &str = "speed_limit_mps";
 /// The two words of `source`.
 const LOG: &str = "log";
 const GENERATED: &str = "generated";

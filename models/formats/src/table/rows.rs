@@ -6,7 +6,7 @@ use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{ReadError, code};
 use crate::refusals::{self, wanted, what};
 use crate::source::Source;
-use crate::unpack::{self, Bounds};
+use crate::unpack::{self, Bounds, ZipEntry};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Read};
 
@@ -17,6 +17,52 @@ const MAX_WIDE_ROW: u64 = 8 << 20;
 /// Most columns of CSV.
 const MAX_COLUMNS: usize = 1_024;
 
+/// A file with a table: one that was given, or one of a zip.
+#[derive(Clone, Debug)]
+pub(super) enum TableFile<'a> {
+    Given(&'a dyn Source),
+    Packed(ZipEntry),
+}
+
+impl<'a> TableFile<'a> {
+    /// Its bytes from the first one on.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn open(&self) -> io::Result<Box<dyn Read + Send + 'a>> {
+        match self {
+            Self::Given(file) => file.open(),
+            Self::Packed(entry) => Ok(entry.reader()),
+        }
+    }
+
+    /// Size in bytes before decompression.
+    pub fn encoded_len(&self) -> u64 {
+        match self {
+            Self::Given(file) => file.encoded_len(),
+            Self::Packed(entry) => entry.encoded_len(),
+        }
+    }
+
+    /// Size in bytes once it is out of its zip.
+    pub fn unpacked_len(&self) -> u64 {
+        match self {
+            Self::Given(file) => file.encoded_len(),
+            Self::Packed(entry) => entry.unpacked_len(),
+        }
+    }
+}
+
+impl Source for TableFile<'_> {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        TableFile::open(self)
+    }
+
+    fn encoded_len(&self) -> u64 {
+        TableFile::encoded_len(self)
+    }
+}
+
 /// Rows of a table.
 pub(super) enum Rows<'a> {
     Csv(CsvRows<'a>),
@@ -24,15 +70,20 @@ pub(super) enum Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Opens a file of CSV or Parquet.
+    /// Opens a file of CSV.
     ///
     /// # Errors
     /// Those of the file.
-    pub fn open(file: &'a dyn Source, parquet: bool, wide: Option<Wide>) -> Result<Self, ReadError> {
-        if parquet {
-            return Ok(Self::Parquet(Box::new(columnar::ParquetTable::open(file)?), Vec::new()));
-        }
+    pub fn csv(file: &TableFile<'a>, wide: Option<Wide>) -> Result<Self, ReadError> {
         CsvRows::open(file, wide).map(Self::Csv)
+    }
+
+    /// Opens a file of Parquet.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn parquet(file: &dyn Source) -> Result<Self, ReadError> {
+        Ok(Self::Parquet(Box::new(columnar::ParquetTable::open(file)?), Vec::new()))
     }
 
     /// Names of the columns.
@@ -129,7 +180,7 @@ pub(super) struct CsvRows<'a> {
 }
 
 impl<'a> CsvRows<'a> {
-    fn open(file: &'a dyn Source, wide: Option<Wide>) -> Result<Self, ReadError> {
+    fn open(file: &TableFile<'a>, wide: Option<Wide>) -> Result<Self, ReadError> {
         let fault = |error: io::Error| unpack::fault(&error, 0);
         let head = unpack::head(file.open().map_err(fault)?);
         let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));

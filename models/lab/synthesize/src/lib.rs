@@ -62,8 +62,7 @@ const RECORDED_S: f64 = 120.0;
 const DT_S: f64 = STEP_S;
 
 /// Kind of network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Template {
     /// One crossing with its arms and side streets.
     Crossing,

@@ -54,11 +54,6 @@ impl Crowding {
         })
     }
 
-    /// Pieces beside a piece, on average.
-    pub fn mean(&self) -> f64 {
-        self.pairs as f64 / self.entries.max(1) as f64
-    }
-
     /// What is too much, in words; `None` where all bounds are kept.
     pub fn excess(&self) -> Option<Message> {
         if self.entries > MAX_CELLS {

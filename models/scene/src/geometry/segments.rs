@@ -89,6 +89,8 @@ const CELLS_AN_ENTRY: usize = 16;
 const CELLS_ANYWAY: usize = 4_096;
 /// Within this the nearest piece mostly is, metres.
 const NEAREST_M: f64 = 2.0;
+/// Pieces lie so far outside the cells that they are listed in, at most; metres.
+const ROUNDING_M: f64 = 1e-6;
 /// Lists of the likely nearest pieces reach so far, metres, and are no longer than this.
 const LISTED_M: f64 = 1_000.0;
 const MOST_LISTED: usize = 64;
@@ -227,14 +229,49 @@ impl SegmentIndex {
     fn nearest_by_search(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
         let mut radius = NEAREST_M.min(most_m);
         loop {
-            let found = self.nearest_of(self.around(point, radius).map(|c| c.1), point);
-            if let Some(found) = found.filter(|found| found.2 <= radius) {
-                return Some(found);
+            let mut best: Option<(u32, Vec2, f64)> = None;
+            self.outwards(point, radius, |number, segment| {
+                let foot = segment.foot(point);
+                let distance = (foot - point).norm();
+                if best.is_none_or(|b| distance < b.2 || (distance == b.2 && number < b.0)) {
+                    best = Some((number, foot, distance));
+                }
+                best.map_or(f64::INFINITY, |b| b.2)
+            });
+            if let Some((number, foot, distance)) = best.filter(|found| found.2 <= radius) {
+                return Some((&self.all[number as usize], foot, distance));
             }
             if radius >= most_m {
                 return None;
             }
             radius = (2.0 * radius).min(most_m);
+        }
+    }
+
+    /// Calls `look` with the pieces that may come within `radius_m` of `point`, those of the nearest cells first; some
+    /// come twice, some are farther. It returns the distance beyond which no more are wanted, so that a crowd of pieces
+    /// far away costs no more than its nearest cells.
+    pub fn outwards(&self, point: Vec2, radius_m: f64, mut look: impl FnMut(u32, &Segment) -> f64) {
+        let reach = Vec2::repeat(radius_m);
+        let mut rows = self.within(point - reach, point + reach);
+        let mut cells: Vec<(f64, std::ops::Range<usize>)> = Vec::new();
+        while rows.next_row() {
+            let mut row = std::mem::take(&mut rows.entries);
+            while let Some((cell, _)) = self.cells.get(row.start).filter(|_| !row.is_empty()) {
+                let end = row.start + self.cells[row.clone()].partition_point(|other| other.0 <= *cell);
+                cells.push((least_m(*cell, point), row.start..end));
+                row.start = end;
+            }
+        }
+        cells.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.start.cmp(&b.1.start)));
+        let mut most_m = f64::INFINITY;
+        for (least_m, entries) in cells {
+            if least_m > most_m {
+                break;
+            }
+            for (_, number) in &self.cells[entries] {
+                most_m = look(*number, &self.all[*number as usize]);
+            }
         }
     }
 
@@ -348,6 +385,15 @@ fn key(column: i32, row: i32) -> u64 {
     (biased(row) << 32) | biased(column)
 }
 
+/// Distance from a point to a cell, metres, less what rounding may take of it.
+fn least_m(cell: u64, point: Vec2) -> f64 {
+    let beyond = |coordinate_m: f64, number: i32| {
+        let low_m = f64::from(number) * CELL_M;
+        (low_m - coordinate_m).max(coordinate_m - low_m - CELL_M).max(0.0)
+    };
+    beyond(point.x, column_of(cell)).hypot(beyond(point.y, row_of(cell))) - ROUNDING_M
+}
+
 fn row_of(key: u64) -> i32 {
     ((key >> 32) as u32 ^ 0x8000_0000) as i32
 }
@@ -424,6 +470,28 @@ mod tests {
         let look = |x: f64, y: f64| index.ray_m(Vec2::new(x, 0.0), Vec2::new(0.0, y), 12.0);
         assert_eq!(look(17.3, 1.0), Some(4.0));
         assert_eq!((look(17.3, -1.0), look(60.0, 1.0)), (None, None));
+    }
+
+    #[test]
+    fn a_crowd_far_away_costs_its_nearest_cells_alone() {
+        // Pieces of 80 m across a square, 100 in each row of cells.
+        let across = |i: usize| {
+            let y = 80.0 * i as f64 / 1_000.0;
+            piece(Vec2::new(0.0, y), Vec2::new(79.0, y))
+        };
+        let index = SegmentIndex::new((0..1_000).map(across).collect());
+        for point in
+            [Vec2::new(500.0, 40.0), Vec2::new(-500.0, 40.0), Vec2::new(40.0, 500.0), Vec2::new(40.0, -500.0)]
+        {
+            let (mut looked, mut least_m) = (0, f64::INFINITY);
+            index.outwards(point, 1_000.0, |_, segment| {
+                looked += 1;
+                least_m = least_m.min((segment.foot(point) - point).norm());
+                least_m
+            });
+            assert!(looked <= 1_100, "{looked} of {} looked at", index.cells.len());
+            assert_eq!(index.nearest_by_search(point, 1_000.0).unwrap().2, least_m);
+        }
     }
 
     proptest! {

@@ -65,6 +65,7 @@ pub struct Drivable {
     edges: Arc<SegmentIndex>,
     centers: Arc<SegmentIndex>,
     bands: Arc<[Band]>,
+    widest_half_m: f64,
     ways_out: Arc<WaysOut>,
     /// By road edge: its id, and whether it bounds a median.
     edge_names: Arc<[(String, bool)]>,
@@ -105,6 +106,7 @@ impl Drivable {
             area_sides: Arc::new(SegmentIndex::new(sides(&map.drivable).collect())),
             centers: Arc::new(SegmentIndex::new(centers)),
             ways_out: Arc::new(ways_out),
+            widest_half_m: bands.iter().map(|band| band.half_width_m).fold(0.0, f64::max),
             bands,
             edge_names: map.road_edges.iter().map(|e| (e.id.clone(), e.line_type == "median")).collect(),
             assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
@@ -287,10 +289,12 @@ impl Drivable {
     fn beside_lanes_m(&self, point: Vec2) -> f64 {
         let mut least = FAR_M;
         for radius in [4.0, FAR_M] {
-            for lane in self.centers.near(point, radius) {
+            self.centers.outwards(point, radius, |_, lane| {
                 let half = self.bands.get(lane.owner as usize).map_or(0.0, |b| b.half_width_m);
                 least = least.min((lane.foot(point) - point).norm() - half);
-            }
+                // Within a lane the distance is zero, however far within.
+                if least <= 0.0 { f64::NEG_INFINITY } else { least + self.widest_half_m }
+            });
             if least <= 0.0 {
                 return 0.0;
             }

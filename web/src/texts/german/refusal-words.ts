@@ -30,6 +30,8 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'bytes outside of the file': 'Byte außerhalb der Datei',
     characters: 'Zeichen',
     'column chunks': 'Spaltenabschnitte',
+    'maps that come with a table': 'Karten zu einer Tabelle',
+    'bytes of maps that come with a table': 'Byte der Karten zu einer Tabelle',
     'coordinate in metres': 'Koordinate in Metern',
     'corners of areas': 'Ecken von Flächen',
     elements: 'Elemente',
@@ -150,6 +152,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a start pose, from the log or from "start"': 'eine Startpose, aus der Aufzeichnung oder aus „start“',
     'a step': 'ein Schritt',
     'a text': 'ein Text',
+    'a value, or a column with "file": "recording"': 'ein Wert oder eine Spalte mit "file": "recording"',
     'a text, a number or a boolean as value': 'ein Text, eine Zahl oder ein Wahrheitswert',
     'a time after that of the time step before': 'eine Zeit nach der des vorigen Zeitschritts',
     'a time after that of the via point before': 'eine Zeit nach der des vorigen Zwischenpunkts',
@@ -184,8 +187,14 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'columns timestep_time, vehicle_id, vehicle_x, vehicle_y, vehicle_angle, vehicle_speed, separated by ;':
       'die Spalten timestep_time, vehicle_id, vehicle_x, vehicle_y, vehicle_angle, vehicle_speed, getrennt durch ;',
     'columns within the file': 'Spalten innerhalb der Datei',
+    'time_s with first and last time, agent_id with a list of ids, or both':
+      'time_s mit erster und letzter Zeit, agent_id mit einer Liste von Kennungen oder beides',
+    'tracks and, if there are some, agents, agents_by and recording: names with one * each':
+      'tracks und, wo vorhanden, agents, agents_by und recording: Namen mit je einem *',
     degrees: 'Grad',
-    'either column or value': 'entweder column oder value',
+    'a column of the tracks: other tables are found by it':
+      'eine Spalte der Trajektorien: nach ihr werden andere Tabellen gefunden',
+    'a column, a value for all rows, or both': 'eine Spalte, ein Wert für alle Zeilen oder beides',
     'finite coordinates within 10000 m': 'endliche Koordinaten bis 10000 m',
     'finite numbers at valid steps': 'endliche Zahlen an gültigen Schritten',
     'finite numbers within 10000 m and 150 m/s': 'endliche Zahlen bis 10000 m und 150 m/s',
@@ -201,6 +210,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'plain or dictionary encoding of a page': 'eine Seite in einfacher oder Wörterbuch-Kodierung',
     'quotes around a text': 'Anführungszeichen um einen Text',
     'rising half-open ranges within the track': 'steigende halboffene Bereiche innerhalb der Trajektorie',
+    'frames a second': 'Bilder je Sekunde',
     'rows of numbers': 'Zeilen aus Zahlen',
     'rows of x, y and z': 'Zeilen aus x, y und z',
     'the end of the document': 'das Ende des Dokuments',

@@ -83,17 +83,19 @@ impl Entity {
         let center = node.at(&["BoundingBox", "Center"]);
         let ahead = |name| center.map_or(Ok(None), |center| number(center, name));
         let properties = || node.all("Properties").flat_map(|list| list.all("Property"));
-        let says = |name: &str, value: &str| {
-            properties().any(|one| attribute(one, "name") == name && attribute(one, "value") == value)
+        let said = |name: &str| {
+            let found = properties().find(|one| attribute(one, "name") == name);
+            found.map(|one| attribute(one, "value")).filter(|value| !value.is_empty())
         };
-        let is_ego = says("role", EGO)
-            || says("type", "ego_vehicle")
+        let is_ego = said("type").is_some_and(|kind| kind == "ego_vehicle")
             || EGO_NAMES.contains(&name.to_ascii_lowercase().as_str());
+        // What this program writes comes before a name.
+        let role = said("role").or(is_ego.then_some(EGO));
         Ok(Some(Self {
             name: name.to_owned(),
             agent_type,
             subtype,
-            role: is_ego.then(|| EGO.to_owned()),
+            role: role.map(str::to_owned),
             size_m: [dimension("length")?, dimension("width")?, dimension("height")?],
             middle: Vec2::new(ahead("x")?.unwrap_or(0.0), ahead("y")?.unwrap_or(0.0)),
         }))

@@ -7,6 +7,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::pack;
 use crate::sentences;
+use crate::written::FileBounds;
 use scene::{STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
@@ -29,9 +30,9 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     let mut losses: BTreeSet<Loss> = recording::losses(scene, options, &written).into_iter().collect();
     let mut files = Vec::new();
     let steps = recording::steps(scene, &written);
-    match net::document(scene, &network, steps, options.most())? {
+    match net::document(scene, &network, steps, options.bounds())? {
         Some(map) => {
-            let (trips, without) = trips::write(scene, &network, &written)?;
+            let (trips, without) = trips::write(scene, &network, &written, options.bounds())?;
             files.push((format!("{name}{CONFIGURATION}"), configuration(&name, steps)?));
             files.push((format!("{name}{NET}"), map));
             files.push((format!("{name}{TRIPS}"), trips));
@@ -45,7 +46,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
         None => {}
     }
     if !written.is_empty() {
-        files.push((format!("{name}{RECORDING}"), recording::document(scene, &written, options.most())?));
+        files.push((format!("{name}{RECORDING}"), recording::document(scene, &written, options.bounds())?));
     }
     if files.is_empty() {
         let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE_OR_USER);
@@ -56,7 +57,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
 
 /// Configuration for `sumo -c`: length and step of the scene.
 fn configuration(name: &str, steps: usize) -> io::Result<Vec<u8>> {
-    let mut out = Markup::new(u64::MAX);
+    let mut out = Markup::new(FileBounds::default());
     out.open("configuration", &[]);
     out.open("input", &[]);
     out.empty("net-file", &[("value", &format!("{name}{NET}"))]);

@@ -8,6 +8,7 @@ use crate::markup::{Markup, decimal};
 use crate::polyline::{distance_to, length, resample};
 use crate::sentences;
 use crate::sumo::map::{MAX_PIECES, SPACING_M};
+use crate::written::FileBounds;
 use scene::map::{Lane, LaneMap, LaneType};
 use scene::routes::assumed_speed_limit_mps;
 use scene::{STEP_S, Scene, SignalState, Vec2};
@@ -25,7 +26,7 @@ const MOTORWAY: &str = "highway.motorway";
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let network = ExportedNetwork::of(scene);
     let (_, steps) = options.motion.all(scene);
-    let Some(bytes) = document(scene, &network, steps, options.most())? else {
+    let Some(bytes) = document(scene, &network, steps, options.bounds())? else {
         let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE);
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     };
@@ -46,12 +47,12 @@ pub(super) fn document(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
     steps: usize,
-    most_bytes: u64,
+    bounds: FileBounds,
 ) -> io::Result<Option<Vec<u8>>> {
     if network.edges.is_empty() {
         return Ok(None);
     }
-    let mut out = Markup::new(most_bytes);
+    let mut out = Markup::new(bounds);
     out.open("net", &[("version", "1.20"), ("junctionCornerDetail", "5"), ("limitTurnSpeed", "-1")]);
     location(scene, network, &mut out);
     for junction in &network.junctions {
@@ -62,18 +63,21 @@ pub(super) fn document(
         }
     }
     for edge in &network.edges {
+        out.check()?;
         write_edge(network, edge, &mut out);
     }
     for junction in network.junctions.iter().filter(|junction| !junction.lights.is_empty()) {
         lights(scene, junction, steps, &mut out);
     }
     for junction in &network.junctions {
+        out.check()?;
         write_junction(network, junction, &mut out);
     }
     for link in network.junctions.iter().flat_map(|junction| &junction.links) {
         waiting(network, link, &mut out);
     }
     for junction in &network.junctions {
+        out.check()?;
         for (i, link) in junction.links.iter().enumerate() {
             connection(network, junction, (link, junction.rules.get(i)), &mut out);
         }

@@ -8,6 +8,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::sumo::kinds;
 use crate::unwritten;
+use crate::written::FileBounds;
 use scene::geometry::direction;
 use scene::{Agent, STEP_S, Scene, Shown, State, Vec2};
 use std::io;
@@ -70,14 +71,19 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     if !scene.signals.is_empty() {
         losses.push(Loss::new(code::NO_SIGNALS, "traffic signals"));
     }
-    Ok(Exported { bytes: document(scene, &written, options.most())?, losses })
+    Ok(Exported { bytes: document(scene, &written, options.bounds())?, losses })
 }
 
-pub(super) fn document(scene: &Scene, written: &[ExportedAgent<'_>], most_bytes: u64) -> io::Result<Vec<u8>> {
+pub(super) fn document(
+    scene: &Scene,
+    written: &[ExportedAgent<'_>],
+    bounds: FileBounds,
+) -> io::Result<Vec<u8>> {
     let frame = Frame::of(&scene.meta.origin);
-    let mut out = Markup::new(most_bytes);
+    let mut out = Markup::new(bounds);
     out.open("fcd-export", &[]);
     for step in 0..steps(scene, written) {
+        out.check()?;
         out.open("timestep", &[("time", &decimal(step as f64 * STEP_S))]);
         // SUMO lists vehicles first.
         for person in [false, true] {

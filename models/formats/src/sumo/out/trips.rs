@@ -5,6 +5,7 @@ use super::net::limit_mps;
 use super::network::{ExportedNetwork, LaneRole};
 use super::recording::ExportedAgent;
 use crate::markup::{Markup, decimal};
+use crate::written::FileBounds;
 use scene::geometry::wrap_angle;
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{AgentType, STEP_S, Scene, State};
@@ -38,14 +39,17 @@ pub(super) fn write(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
     written: &[ExportedAgent<'_>],
+    bounds: FileBounds,
 ) -> io::Result<(Vec<u8>, usize)> {
-    let graph = LaneGraph::new(&scene.map);
+    let Some(graph) = LaneGraph::unless(&scene.map, &|| bounds.check(0).is_err()) else {
+        return Err(io::ErrorKind::ConnectionAborted.into());
+    };
     let ways = Ways::of(network);
     let mut trips: Vec<Trip<'_>> =
         written.iter().filter_map(|user| trip(network, &graph, &ways, user)).collect();
     // SUMO reads them by time.
     trips.sort_by_key(|trip| trip.depart);
-    let mut out = Markup::new(u64::MAX);
+    let mut out = Markup::new(bounds);
     out.open("routes", &[]);
     types(&trips, &mut out);
     for trip in &trips {

@@ -46,17 +46,16 @@ use unet::Unet;
 const HEADER: &str = "dragtraffic-baseline";
 
 /// Method of a baseline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum BaselineKind {
     /// TrafficGen: vehicles, no condition.
     #[serde(rename = "trafficgen")]
-    #[cfg_attr(feature = "cli", value(name = "trafficgen"))]
+    #[value(name = "trafficgen")]
     TrafficGen,
     /// One TrafficGen for all types, with the condition.
     #[serde(rename = "trafficgen-conditional")]
-    #[cfg_attr(feature = "cli", value(name = "trafficgen-conditional"))]
+    #[value(name = "trafficgen-conditional")]
     TrafficGenConditional,
     /// The paper's architecture at its own outputs.
     Paper,

@@ -5,8 +5,7 @@ use candle_core::{DType, Device, Result, Tensor};
 use super::TrainError;
 
 /// Device that computes the networks. Records, losses and the optimiser stay on the CPU.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Processor {
     /// The CPU, where a run repeats bit for bit.
     #[default]

@@ -30,9 +30,8 @@ const PENALTY: f32 = 6.888_889;
 const STAY: f32 = 0.5;
 
 /// Which part of the expert is trained, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Stage {
     /// The refiner learns to remove noise from recorded residuals.
     Denoiser,
