@@ -12,5 +12,6 @@ mod routes;
 mod runs;
 mod scenes;
 
+pub use base::folder::{beside, recordings};
 pub use base::netconvert::companions;
 pub use cli::run;

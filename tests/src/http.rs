@@ -4,8 +4,19 @@ use crate::contract::{Promise, promise};
 use anyhow::{Context, bail};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
-use std::net::{SocketAddr, TcpStream};
+use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::time::Duration;
+
+/// A connection from the address 127.0.0.N of this machine, so from a party of its own. Linux has all of these.
+///
+/// # Errors
+/// When there is none.
+pub fn connect_from(last: u8, server: SocketAddr) -> anyhow::Result<TcpStream> {
+    let socket = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None)?;
+    socket.bind(&SocketAddr::from((Ipv4Addr::new(127, 0, 0, last), 0)).into())?;
+    socket.connect(&server.into())?;
+    Ok(socket.into())
+}
 
 /// A request, sent on a connection of its own.
 #[derive(Clone, Debug)]

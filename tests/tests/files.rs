@@ -6,7 +6,7 @@ use dragtraffic_tests::program::{program, root};
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Real Waymo Open Motion scenes, when this machine has them.
@@ -354,4 +354,95 @@ fn a_part_of_a_map_is_read_on_request() {
     let made = run(&["convert", &at("a.net.xml"), "--around", "400,0,150", "-o", &at("a.json")]);
     assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
     assert!(String::from_utf8_lossy(&made.stderr).contains("within 150 m of 400, 0: lanes kept 1"));
+}
+
+/// Recordings 00 and 01 in the form of inD with the map of their place: a truck that drives in the middle of the lane.
+fn recordings(folder: &Path) {
+    for recording in ["00", "01"] {
+        let heading = "recordingId,trackId,frame,xCenter,yCenter,heading,width,length,xVelocity,yVelocity";
+        let row = |frame: u32| format!("0,0,{frame},{},-2,0,2,5,10,0", f64::from(frame) / 2.5);
+        let rows: Vec<String> = std::iter::once(heading.to_owned()).chain((0..=50).map(row)).collect();
+        let tables = [
+            ("tracks", rows.join("\n")),
+            ("tracksMeta", "trackId,class\n0,truck_bus\n".to_owned()),
+            ("recordingMeta", "recordingId,frameRate,speedLimit\n0,25,13.9\n".to_owned()),
+        ];
+        for (table, text) in tables {
+            std::fs::write(folder.join(format!("{recording}_{table}.csv")), text).unwrap();
+        }
+    }
+    let road = r#"<OpenDRIVE><road id="1" length="300"><planView><geometry s="0" x="-50" y="0" hdg="0" length="300"><line/>
+        </geometry></planView><lanes><laneSection s="0"><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/>
+        </lane></right></laneSection></lanes></road></OpenDRIVE>"#;
+    std::fs::write(folder.join("place.xodr"), road).unwrap();
+}
+
+/// The truck of a recording on the lane of its map.
+fn is_whole(scene: &Value) {
+    assert_eq!(scene["agents"][0]["subtype"], "truck");
+    assert_eq!(scene["map"]["lanes"].as_array().unwrap().len(), 1);
+    assert_eq!(scene["map"]["lanes"][0]["speed_limit_mps"], 13.9);
+}
+
+#[test]
+fn a_recording_of_a_folder_is_read_with_its_tables_and_map() {
+    let folder = tempfile::tempdir().unwrap();
+    recordings(folder.path());
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let json = |path: String| -> Value { serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap() };
+    let converted = run(&["convert", &at("00_tracks.csv"), "-o", &at("out.json")]);
+    let said = String::from_utf8_lossy(&converted.stderr).into_owned();
+    assert_eq!(converted.status.code(), Some(0), "{said}");
+    let files = "files-beside: 3 files of the same folder are read with the table: 00_recordingMeta.csv, 00_tracksMeta.csv, \
+                 place.xodr";
+    assert!(said.contains(files) && said.contains("100 % of the places"), "{said}");
+    is_whole(&json(at("out.json")));
+    std::fs::remove_file(at("out.json")).unwrap();
+    // A folder is its recordings; the map is no scene of its own.
+    let whole = folder.path().to_str().unwrap();
+    let converted = run(&["convert", whole, "-o", &at("scenes/")]);
+    assert_eq!(converted.status.code(), Some(0), "{}", String::from_utf8_lossy(&converted.stderr));
+    let mut made: Vec<_> =
+        std::fs::read_dir(at("scenes")).unwrap().map(|file| file.unwrap().path()).collect();
+    made.sort();
+    assert_eq!(made.len(), 2, "{made:?}");
+    made.iter().for_each(|path| is_whole(&json(path.to_str().unwrap().to_owned())));
+    let mined = run(&["mine", whole, "--json"]);
+    assert_eq!(mined.status.code(), Some(0), "{}", String::from_utf8_lossy(&mined.stderr));
+    let scored = run(&["score", "--json", &at("01_tracks.csv")]);
+    let line: Value = serde_json::from_slice(&scored.stdout).unwrap();
+    assert_eq!(line["scene"]["off_road"].as_array().map(Vec::len), Some(0), "{line}");
+    // With the columns of another set nothing is taken.
+    let alone = run(&["convert", &at("00_tracks.csv"), "--columns", "highd", "-o", &at("out.json")]);
+    assert_eq!(alone.status.code(), Some(3), "{}", String::from_utf8_lossy(&alone.stderr));
+}
+
+#[test]
+fn the_data_folder_has_recordings_with_their_tables_and_maps() {
+    let folder = tempfile::tempdir().unwrap();
+    recordings(folder.path());
+    let server = Server::start(&["--data", folder.path().to_str().unwrap()]).unwrap();
+    let listed = || {
+        let page = server.get("/v1/scenes?limit=200").unwrap().json();
+        let id = |scene: &Value| scene["id"].as_str().unwrap().to_owned();
+        let mut ids: Vec<String> = page["scenes"].as_array().unwrap().iter().map(id).collect();
+        ids.retain(|id| id.starts_with("file-"));
+        ids.sort();
+        ids
+    };
+    let mut ids = Vec::new();
+    for _ in 0..300 {
+        ids = listed();
+        if ids.len() == 3 {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
+    assert_eq!(ids, ["file-00_tracks-0", "file-01_tracks-0", "file-place-0"]);
+    let first = server.get("/v1/scenes/file-00_tracks-0").unwrap();
+    assert_eq!(first.status, 200, "{}", first.text());
+    is_whole(&first.json());
+    // The scene is that of all its files: when one has changed, it is gone.
+    std::fs::write(folder.path().join("01_tracksMeta.csv"), "trackId,class\n0,car\n").unwrap();
+    assert_eq!(server.get("/v1/scenes/file-01_tracks-0").unwrap().code(), "not-found");
 }

@@ -78,7 +78,8 @@ fn hollow() -> Vec<u8> {
 /// Four uploads at once; refused ones are repeated. Returns the memory above the initial level: the peak, and
 /// the rest after its release or one minute.
 fn four(file: &[u8], query: &str, encoding: Option<&str>) -> (u64, u64) {
-    let server = Server::start(&[]).unwrap();
+    // One caller has half of the places.
+    let server = Server::start(&["--limit", "uploads=8"]).unwrap();
     server.wait_ready().unwrap();
     let before = resident(&server, "VmRSS");
     let address = server.address;

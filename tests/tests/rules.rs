@@ -108,6 +108,7 @@ const HOUSES: &[House] = &[
             &["unpack", "describe", "lights", "sides", "markup", "headings", "cut"],
             &["xml", "format", "identities", "columnar", "repairs"],
             &["osm_items", "recording", "map_file", "tree", "unwritten", "settle", "kinds"],
+            &["underlay"],
             &[
                 "native",
                 "womd",
@@ -125,7 +126,7 @@ const HOUSES: &[House] = &[
                 "html",
                 "foxglove",
             ],
-            &["openscenario", "osm", "underlay"],
+            &["openscenario", "osm"],
             &["registry"],
             &["checks"],
         ],
@@ -135,7 +136,7 @@ const HOUSES: &[House] = &[
         sources: "models/experts/src",
         module: &[],
         floors: &[
-            &["cancel", "clock", "sentences", "tuning"],
+            &["clock", "sentences", "tuning"],
             &["planning"],
             &["features"],
             &["net"],

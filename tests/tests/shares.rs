@@ -2,20 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
+use dragtraffic_tests::http::connect_from;
 use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};
 use std::io::{BufReader, Write};
-use std::net::{Ipv4Addr, SocketAddr, TcpStream};
+use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
-
-/// A connection from another address of this machine, so of another party.
-fn connect_from(last: u8, server: SocketAddr) -> TcpStream {
-    let socket = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
-    socket.bind(&SocketAddr::from((Ipv4Addr::new(127, 0, 0, last), 0)).into()).unwrap();
-    socket.connect(&server.into()).unwrap();
-    socket.into()
-}
+use std::time::{Duration, Instant};
 
 fn small(agent: &str) -> Value {
     json!({"scene_id": "demo-crossing", "agents": [agent], "score": false, "futures": "compact"})
@@ -25,7 +18,7 @@ fn small(agent: &str) -> Value {
 fn pester((from, request): (u8, &Request), server: SocketAddr, over: &AtomicBool) {
     let request = request.bytes(server);
     while !over.load(Ordering::Relaxed) {
-        let stream = connect_from(from, server);
+        let stream = connect_from(from, server).unwrap();
         let mut reader = BufReader::new(stream.try_clone().unwrap());
         let mut stream = stream;
         // The server ends a connection that it refuses to make room for others.
@@ -113,4 +106,58 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
         let status = status.unwrap();
         assert!(status == 200 || (k % 3 > 0 && status == 503), "{k}: {status}");
     }
+}
+
+/// Waits as long as a refusal says.
+fn obey(refusal: &Reply) {
+    std::thread::sleep(Duration::from_millis(refusal.json()["retry_after_ms"].as_u64().unwrap()));
+}
+
+#[test]
+fn a_token_beyond_its_rate_is_told_when_to_ask_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [anna, berta] = ["a".repeat(32), "b".repeat(32)];
+    std::fs::write(at("tokens"), format!("anna read {anna}\nberta admin {berta}\n")).unwrap();
+    #[cfg(unix)]
+    std::fs::set_permissions(at("tokens"), std::os::unix::fs::PermissionsExt::from_mode(0o600)).unwrap();
+    // Options come from the file and the command line alike.
+    std::fs::write(at("server.toml"), "limit = [\"party_rate=2\", \"party_burst=6\"]\n").unwrap();
+    let (tokens, config, audit) = (at("tokens"), at("server.toml"), at("audit"));
+    let server = Server::start(&["--token-file", &tokens, "--config", &config, "--audit", &audit]).unwrap();
+    let info = |token: &str| {
+        let request = Request::new("GET", "/v1/info").header("authorization", &format!("Bearer {token}"));
+        server.send(&request).unwrap()
+    };
+    let began = Instant::now();
+    let statuses: Vec<u16> = (0..6).map(|_| info(&anna).status).collect();
+    let refused = info(&anna);
+    if began.elapsed() < Duration::from_millis(400) {
+        assert_eq!((statuses, refused.status), (vec![200; 6], 429), "six at once, and no more");
+    }
+    // Beyond what is sent at once the rate counts, whatever the speed of this machine.
+    let refused = (0..40).map(|_| info(&anna)).find(|reply| reply.status == 429).unwrap();
+    assert_eq!((refused.code().as_str(), &refused.json()["limit"]), ("too-many-requests", &json!(2)));
+    let wait_ms = refused.json()["retry_after_ms"].as_u64().unwrap();
+    assert!((1..=500).contains(&wait_ms), "{wait_ms}");
+    assert_eq!(refused.header("retry-after"), "1");
+    assert_eq!(info(&berta).status, 200, "another token has a rate of its own");
+    let waited = (0..5).any(|_| {
+        let reply = info(&anna);
+        if reply.status == 429 {
+            obey(&reply);
+        }
+        info(&anna).status == 200
+    });
+    assert!(waited, "the wait that is told is enough");
+    // Monitoring is never refused.
+    assert!((0..30).all(|_| server.get("/healthz").unwrap().status == 200));
+    let counted = Request::new("GET", "/metrics").header("authorization", &format!("Bearer {berta}"));
+    let metrics = server.send(&counted).unwrap().text();
+    assert!(metrics.contains(r#"route="/v1/info",method="GET",status="429""#), "{metrics}");
+    let lines = std::fs::read_to_string(&audit).unwrap();
+    let told: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let of_rate: Vec<&Value> = told.iter().filter(|line| line["status"] == 429).collect();
+    assert_eq!(of_rate.len(), 1, "once a minute: {lines}");
+    assert_eq!((&of_rate[0]["who"], &of_rate[0]["what"]), (&json!("anna"), &json!("GET /v1/info")));
 }

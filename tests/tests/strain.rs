@@ -426,3 +426,47 @@ fn scenes_are_held_without_what_no_answer_depends_on() {
     assert!(grown < 80 << 20, "{grown} bytes more");
     assert!(server.peak_memory().unwrap() < 300 << 20, "{:?}", server.peak_memory());
 }
+
+/// Lanes that each lead to 30 others: a file of many links.
+fn linked() -> Value {
+    const LANES: usize = 1_000;
+    let mut scene = street(2, 20);
+    let lane = |i: usize| {
+        let (x, y) = ((i % 30) as f64 * 30.0 - 100.0, (i / 30) as f64 * 4.0);
+        let next: Vec<String> = (1..=30).map(|k| format!("g{}", (i + k) % LANES)).collect();
+        json!({"id": format!("g{i}"), "type": "surface_street", "points_m": [[x, y], [x + 30.0, y]],
+            "successors": next})
+    };
+    scene["map"]["lanes"].as_array_mut().unwrap().extend((0..LANES).map(lane));
+    scene
+}
+
+#[test]
+fn an_export_whose_reader_leaves_gives_its_place_and_memory_back() {
+    let server = Server::start(&[]).unwrap();
+    server.wait_ready().unwrap();
+    let running = |lane| server.metric(&format!("dragtraffic_running{{lane=\"{lane}\"}}")).unwrap();
+    let under_way = || running("quick") + running("patient");
+    let taken = || server.metric("dragtraffic_memory_taken_bytes").unwrap();
+    let request = Request::new("POST", "/v1/export?format=opendrive").json(&linked());
+    let began = Instant::now();
+    let reply = request.send(server.address).unwrap();
+    assert_eq!(reply.status, 200, "{}", reply.text());
+    let whole = began.elapsed();
+    let wait = |is_there: &dyn Fn() -> bool| {
+        let began = Instant::now();
+        while !is_there() {
+            assert!(began.elapsed() < Duration::from_secs(30), "in vain");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        began.elapsed()
+    };
+    wait(&|| under_way() == 0.0);
+    let at_rest = taken();
+    let stream = request.open(server.address).unwrap();
+    wait(&|| under_way() > 0.0);
+    assert!(taken() > at_rest, "a file on its way out takes memory");
+    drop(stream);
+    let stopped = wait(&|| under_way() == 0.0 && taken() <= at_rest);
+    assert!(stopped < whole / 2, "it went on for {stopped:?}; as a whole it takes {whole:?}");
+}

@@ -48,6 +48,7 @@ codes! {
     Cancelled "cancelled" "Cancelled" "The job was cancelled by its id, or its reader left.";
     StepOrder "step-order" "Step out of order" "The step is not the next one of its run, and not the last one again. The message has the next number.";
     TooManyRuns "too-many-runs" "Too many runs" "The server holds as many runs as it may, the caller has half of them (`limit` says which), or their memory is full. Delete a run, or wait until an idle one is forgotten.";
+    TooManyRequests "too-many-requests" "Too many requests" "The caller sends more than `limit` requests a second, beyond what it may send at once. Retry-After says when to ask again; `retry_after_ms` is exact.";
     StaleEtag "stale-etag" "Changed in the meantime" "The stored scene is another than the one the precondition names; its current `etag` is given.";
     BodyTooLarge "body-too-large" "Body too large" "The body is larger than `limit` bytes.";
     DecodedTooLarge "decoded-too-large" "Decoded body too large" "The body decodes to more than `limit` bytes.";

@@ -59,5 +59,9 @@ scene::messages! {
     snapshot_of_another_scene() = "snapshot-of-another-scene", "the snapshot is of another scene";
     snapshot_broken(at: usize) = "snapshot-broken", "no snapshot: byte {at} is wrong";
     too_many_runs() = "too-many-runs", "no room for another run; delete one, or wait";
+    too_many_requests(most: usize) =
+        "too-many-requests",
+        [most] "more than {most} request a second from this caller",
+        "more than {most} requests a second from this caller";
     defect() = "defect", "The server failed; see its log.";
 }

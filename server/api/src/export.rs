@@ -6,8 +6,8 @@ use crate::import::{known, names};
 use crate::problem::Problem;
 use formats::refusals::file_too_long;
 use formats::{ExportOptions, ExportedMotion, is_too_long, registry};
-use scene::Scene;
 use scene::message::Message;
+use scene::{Cancel, Scene};
 use serde::Deserialize;
 
 /// A file on its way out.
@@ -34,21 +34,7 @@ pub enum MotionChoice {
     Log,
 }
 
-/// Writes a scene as a file of at most so many bytes.
-///
-/// # Errors
-/// `format-unknown`, `cannot-represent`, `reply-too-large`, or `out-of-range` for a sample that is not there.
-pub fn write(
-    scene: &Scene,
-    format: &str,
-    sample: Option<usize>,
-    motion: MotionChoice,
-    most_bytes: Option<u64>,
-) -> Result<WrittenFile, Problem> {
-    write_part(scene, format, sample, motion, FilePart { most_bytes, ..FilePart::default() })
-}
-
-/// Place of a scene in its file.
+/// Bounds of a file, and the place of a scene in it.
 #[derive(Clone, Debug, Default)]
 pub struct FilePart {
     /// Name of the scene in a file of several scenes.
@@ -57,13 +43,16 @@ pub struct FilePart {
     pub continued: bool,
     /// Most bytes of the file.
     pub most_bytes: Option<u64>,
+    /// Stops the writing when nobody waits for the file any more.
+    pub cancel: Cancel,
 }
 
-/// As [`write`], for a file of several scenes.
+/// Writes a scene as a file.
 ///
 /// # Errors
-/// Those of [`write`].
-pub fn write_part(
+/// `format-unknown`, `cannot-represent`, `reply-too-large`, `cancelled`, or `out-of-range` for a sample that is not
+/// there.
+pub fn write(
     scene: &Scene,
     format: &str,
     sample: Option<usize>,
@@ -91,9 +80,13 @@ pub fn write_part(
         MotionChoice::Chosen => ExportedMotion::Chosen,
         MotionChoice::Log => ExportedMotion::Log,
     };
-    let FilePart { label, continued, most_bytes } = part;
-    let options = ExportOptions { motion, gzip: false, sample, label, continued, most_bytes };
+    let FilePart { label, continued, most_bytes, cancel } = part;
+    let options =
+        ExportOptions { motion, gzip: false, sample, label, continued, most_bytes, cancel: cancel.clone() };
     let exported = found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| {
+        if cancel.is_cancelled() {
+            return Problem::new(Code::Cancelled, "Nobody waits for the file any more.");
+        }
         let message = error.get_ref().and_then(|fault| fault.downcast_ref::<Message>());
         let code = if is_too_long(&error) { Code::ReplyTooLarge } else { Code::CannotRepresent };
         let problem = Problem::new(code, error.to_string()).with(|m| m.message = message.cloned());

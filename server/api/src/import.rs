@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use formats::around::Around;
 use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
-use formats::{COLUMNS_POINTER, ImportOptions, NET_POINTER, Source};
+use formats::{COLUMNS_POINTER, FolderFiles, ImportOptions, NET_POINTER, Source};
 use scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
@@ -61,6 +61,8 @@ pub struct Companions {
     pub net: Option<Arc<dyn Source>>,
     /// Which columns of a table say what.
     pub columns: Option<Arc<dyn Source>>,
+    /// The file's folder: what lies there beside a table of a recording.
+    pub folder: Option<FolderFiles>,
     /// The part of a map that is read; all of it when absent.
     pub around: Option<Around>,
     /// The program that makes a network of an extract of OpenStreetMap, where the carrier has one.
@@ -94,7 +96,7 @@ impl SceneFile {
             None => registry::identified(file, name)?,
         };
         let info = found.info();
-        let Companions { net, columns, around, netconvert } = beside.clone();
+        let Companions { net, columns, folder, around, netconvert } = beside.clone();
         if net.is_some() && !info.takes_net {
             return Err(Problem::of(Code::InvalidField, english::no_network(info.id)).at(NET_POINTER));
         }
@@ -110,6 +112,7 @@ impl SceneFile {
             net,
             netconvert,
             columns,
+            folder,
             around,
             ..ImportOptions::default()
         };
@@ -140,7 +143,8 @@ impl SceneFile {
         mut take: impl FnMut(ReadScene) -> Result<(), Problem>,
     ) -> Result<Vec<(usize, Problem)>, Problem> {
         let (mut skipped, mut taken) = (Vec::new(), false);
-        let scenes = registry::scenes(file, &self.name, self.format, &self.options)?;
+        let options = registry::grounded(file, &self.name, self.format, &self.options)?;
+        let scenes = registry::scenes(file, &self.name, self.format, &options)?;
         for (index, result) in scenes.enumerate() {
             match result {
                 Ok((scene, warnings)) => take(ReadScene { scene, warnings })?,

@@ -35,7 +35,7 @@ limits! {
     import_decoded_bytes = 256 << 20, "uploaded file after Content-Encoding is undone";
     memory_bytes = 1_536 << 20, "memory of the server (--memory): less 256 MiB for the program itself, the budget of bodies, lines, imports, exports, long replies, runs, open scenes and maps; what does not fit is refused";
     body_bytes = 512 << 20, "all bodies that are in memory: uploads as they arrived, others after Content-Encoding is undone too, long replies of imports";
-    uploads = 4, "files that are uploaded or imported at the same time";
+    uploads = 4, "files that are uploaded or imported at the same time; one party has at most half of them";
     imports = 2, "files that are imported at the same time; one place is never taken by large ones";
     expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
     header_bytes = 16 << 10, "names and values of all header fields";
@@ -61,6 +61,8 @@ limits! {
     line_bytes = 1 << 20, "one question over an open line";
     line_questions = 8, "questions of an open line at the same time; the next one waits to be heard";
     connections = 256, "open connections, as far as the process may have descriptors; a refused one makes room first, then the longest idle one, of parties with over a quarter before others";
+    party_rate = 5_000, "requests of one party a second, on average; 0 is no bound";
+    party_burst = 20_000, "requests of one party at once, ahead of its rate";
     clients = 1_024, "clients whose revisions are remembered";
     client_idle_s = 600, "time after which a client is forgotten";
     stored_scenes = 10_000, "scenes in the store";

@@ -12,6 +12,7 @@ use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::time::Duration;
 
 /// RFC 9457 problem. Switch on `code`, which never changes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -80,6 +81,16 @@ impl From<Problem> for Refusal {
 }
 
 impl Refusal {
+    /// Takes a time for which a reply is held back off the one that its client is asked to wait.
+    pub fn hold(response: &mut Response, time: Duration) {
+        let Some(Self(problem)) = response.extensions_mut().get_mut::<Self>() else { return };
+        let Some(asked_ms) = problem.members.retry_after_ms else { return };
+        let left_ms = asked_ms.saturating_sub(time.as_millis() as u64).max(1);
+        *problem = problem.clone().retry_after_ms(left_ms);
+        let headers = Self(problem.clone()).headers();
+        headers.into_iter().for_each(|(name, value)| drop(response.headers_mut().insert(name, value)));
+    }
+
     /// Headers that go with it.
     fn headers(&self) -> Vec<(HeaderName, HeaderValue)> {
         let Self(problem) = self;
@@ -124,6 +135,7 @@ mod tests {
     use super::{ProblemDoc, Refusal};
     use api::{Code, Problem};
     use axum::response::IntoResponse;
+    use std::time::Duration;
 
     #[test]
     fn body_has_the_members_of_rfc_9457() {
@@ -140,6 +152,19 @@ mod tests {
         let soon: serde_json::Value = serde_json::from_str(&soon.text()).unwrap();
         assert_eq!((&soon["retry_after_s"], &soon["retry_after_ms"]), (&1.into(), &120.into()));
         assert!(body.get("errors").is_none());
+    }
+
+    #[test]
+    fn the_time_of_a_held_reply_is_part_of_the_wait() {
+        let told = |asked_ms: u64| {
+            let mut reply =
+                Refusal(Problem::new(Code::Busy, "full").retry_after_ms(asked_ms)).into_response();
+            Refusal::hold(&mut reply, Duration::from_millis(100));
+            let left = reply.extensions().get::<Refusal>().and_then(|held| held.0.members.retry_after_ms);
+            (left, reply.headers()["retry-after"].to_str().unwrap().to_owned())
+        };
+        assert_eq!(told(2_050), (Some(1_950), "2".to_owned()));
+        assert_eq!(told(30), (Some(1), "1".to_owned()));
     }
 
     #[test]

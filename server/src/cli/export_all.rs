@@ -6,7 +6,7 @@ use super::{Common, Exit, Failure};
 use crate::scenes::record;
 use crate::scenes::store::{self, DumpedScene, StoreError};
 use api::Problem;
-use api::export::{self, MotionChoice};
+use api::export::{self, FilePart, MotionChoice};
 use clap::Args;
 use formats::files::WholeFolder;
 use formats::{native, registry};
@@ -99,7 +99,8 @@ fn written(scene: &DumpedScene, format: &str) -> Result<(Vec<u8>, Vec<&'static s
     if format == NATIVE {
         return Ok((whole, Vec::new()));
     }
-    let file = export::write(&native::read(&whole)?, format, None, MotionChoice::Chosen, None)?;
+    let file =
+        export::write(&native::read(&whole)?, format, None, MotionChoice::Chosen, FilePart::default())?;
     Ok((file.bytes, file.losses.iter().map(|loss| loss.code).collect()))
 }
 

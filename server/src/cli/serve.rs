@@ -16,6 +16,7 @@ use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
 use api::Operations;
 use base::memory::Memory;
+use base::rates::PartyRates;
 use base::{base_path, descriptors, metrics};
 use clap::{Args, FromArgMatches};
 use std::net::SocketAddr;
@@ -178,6 +179,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         gate: RequestGate {
             guard: Arc::new(guard),
             limits: Arc::clone(&limits),
+            rates: Arc::new(PartyRates::new(&limits)),
             audit: audit.map(Arc::new),
             sample: Arc::default(),
         },

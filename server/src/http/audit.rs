@@ -77,7 +77,7 @@ fn write_all(lines: &Receiver<Vec<u8>>, mut sink: impl FnMut(&[u8]) -> io::Resul
     }
 }
 
-/// Whether a reply belongs in the log: changes of scenes, and refusals for want of a token or a right.
+/// Whether a reply belongs in the log in any case: changes of scenes, and refusals for want of a token or a right.
 pub fn is_audited(method: &Method, edits: bool, status: StatusCode) -> bool {
     let refused = matches!(status, StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN);
     refused || edits && *method != Method::GET

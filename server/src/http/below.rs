@@ -1,7 +1,7 @@
 //! Requests of a server that is published below a path.
 
-use super::extract::Connection;
-use super::observe;
+use super::guard::PROBES;
+use super::{extract, observe};
 use api::{Code, Problem};
 use axum::Router;
 use axum::extract::Request;
@@ -11,10 +11,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use base::base_path;
 use std::time::Instant;
 
-/// Addresses that probes ask for without the path.
-const PROBED: [&str; 3] = ["/healthz", "/readyz", "/metrics"];
-
-/// The routes below the server's path.
+/// The routes below the server's path; probes ask for theirs without it too.
 pub fn below(router: Router) -> Router {
     if base_path::base().is_empty() {
         return router;
@@ -29,9 +26,9 @@ async fn serve(router: Router, mut request: Request) -> Response {
         let query = uri.query().map(|query| format!("?{query}")).unwrap_or_default();
         return Redirect::permanent(&format!("{path}/{query}")).into_response();
     }
-    let Some(inner) = base_path::within(path).or(Some(path).filter(|path| PROBED.contains(path))) else {
+    let Some(inner) = base_path::within(path).or(Some(path).filter(|path| PROBES.contains(path))) else {
         let detail = format!("This server is below {}/.", base_path::base());
-        let peer = request.extensions().get::<Connection>().map(|connection| connection.party);
+        let peer = extract::party_of(request.extensions());
         return observe::unread(Problem::new(Code::NotFound, detail), Instant::now(), peer);
     };
     let target = uri.query().map_or_else(|| inner.to_owned(), |query| format!("{inner}?{query}"));

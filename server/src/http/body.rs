@@ -3,6 +3,7 @@
 //! The encoded bytes are bounded while they arrive, the decoded ones while they are unpacked, so a
 //! small body can never become a large one in memory.
 
+use super::extract;
 use super::upload::Upload;
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
@@ -11,6 +12,8 @@ use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use base::limits::Limits;
 use base::memory::{Memory, MemoryShare};
+use base::party::Party;
+use base::places::{SharedPlaces, TakenPlace};
 use base::problem::{ENCODINGS, Refusal};
 use http_body_util::BodyExt;
 use serde::Serialize;
@@ -46,7 +49,7 @@ pub struct Room {
     pub memory: Arc<Memory>,
     /// Part of it for bodies.
     bytes: Arc<Memory>,
-    uploads: Arc<Semaphore>,
+    uploads: Arc<SharedPlaces>,
     imports: Arc<Semaphore>,
     /// Those of the imports that take long: small ones never wait for all of these.
     long_imports: Arc<Semaphore>,
@@ -60,7 +63,7 @@ impl Room {
         Self {
             memory: Arc::clone(memory),
             bytes: memory.part(limits.body_bytes),
-            uploads: places(limits.uploads),
+            uploads: SharedPlaces::new(of(limits.uploads)),
             imports: places(limits.imports),
             long_imports: places(limits.imports.saturating_sub(1).max(1)),
         }
@@ -69,10 +72,16 @@ impl Room {
     /// A place among the uploads.
     ///
     /// # Errors
-    /// `busy` when all are taken.
-    fn upload(&self) -> Result<OwnedSemaphorePermit, Problem> {
-        let busy = |_| Problem::new(Code::Busy, "Other files are being uploaded.").retry_after(5);
-        Arc::clone(&self.uploads).try_acquire_owned().map_err(busy)
+    /// `busy` when all are taken, or all of the party's.
+    fn upload(&self, party: Party) -> Result<TakenPlace, Problem> {
+        self.uploads.take(party).map_err(|full| {
+            let detail = if full.is_own {
+                "Other files of this caller are being uploaded."
+            } else {
+                "Other files are being uploaded."
+            };
+            Problem::new(Code::Busy, detail).retry_after_ms(full.wait.as_millis() as u64)
+        })
     }
 
     /// A place among the imports, when it is free: what becomes of a file takes memory too.
@@ -108,7 +117,7 @@ impl Room {
         if (held.bytes() + bytes) as u64 > most {
             return Err(too_large(most));
         }
-        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(5);
+        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
         held.grow(bytes).then_some(()).ok_or_else(full)
     }
 
@@ -127,7 +136,7 @@ impl Room {
 pub struct Kept {
     room: Option<MemoryShare>,
     /// Among the uploads.
-    place: Option<OwnedSemaphorePermit>,
+    place: Option<TakenPlace>,
 }
 
 /// Bytes in the order of their arrival. They are never moved: a list that grows is copied, and longer than it
@@ -302,7 +311,7 @@ impl Reading {
     /// # Errors
     /// Every limit of such a body as it arrives.
     pub async fn upload(&self, request: Request) -> Result<Upload, Problem> {
-        let place = self.room.upload()?;
+        let place = self.room.upload(extract::party_of(request.extensions()).unwrap_or_default())?;
         let bounds = Bounds {
             encoded: self.limits.import_encoded_bytes,
             decoded: self.limits.import_decoded_bytes,
@@ -486,6 +495,7 @@ mod tests {
     use api::Problem;
     use base::limits::Limits;
     use base::memory::Memory;
+    use base::party::Party;
     use std::io::Write;
     use std::time::Duration;
 
@@ -558,16 +568,28 @@ mod tests {
         let unpacked = || unpack(&encoded, Encoding::Gzip, BOUNDS, &room);
         let first = unpacked().unwrap();
         let refused = unpacked().unwrap_err();
-        assert_eq!((refused.code.name(), refused.members.retry_after_s), ("busy", Some(5)));
+        assert_eq!((refused.code.name(), refused.members.retry_after_s), ("busy", Some(1)));
         drop(first);
         assert_eq!(unpacked().unwrap().bytes().len(), file.len());
         let others = room.work(room.memory.most() - (50 << 10)).unwrap();
         assert_eq!(unpacked().unwrap_err().code.name(), "busy");
         drop(others);
         assert_eq!(room.keep(200 << 10).unwrap_err().code.name(), "body-too-large");
-        let place = room.upload().unwrap();
-        assert_eq!(room.upload().unwrap_err().code.name(), "busy");
-        drop(place);
-        assert!(room.upload().is_ok());
+    }
+
+    #[test]
+    fn a_party_has_half_of_the_places_for_uploads() {
+        let room = room(&Limits { uploads: 3, ..Limits::default() });
+        let [one, other] = ["one", "other"].map(Party::named);
+        let refused = |party| room.upload(party).unwrap_err().code.name();
+        let both = [room.upload(one).unwrap(), room.upload(one).unwrap()];
+        assert_eq!(refused(one), "busy", "its share is taken");
+        let last = room.upload(other).unwrap();
+        assert_eq!((refused(one), refused(other)), ("busy", "busy"), "all are taken");
+        drop(both);
+        assert!(room.upload(one).is_ok() && room.upload(other).is_ok());
+        drop(last);
+        let again = [one, one, other].map(|party| room.upload(party));
+        assert!(again.iter().all(Result::is_ok), "every place was given back");
     }
 }

@@ -3,9 +3,9 @@
 use crate::http::coding;
 use api::{Code, Problem};
 use axum::extract::{FromRequestParts, Path, Query};
-use axum::http::HeaderMap;
 use axum::http::header::{HeaderName, IF_MATCH, IF_NONE_MATCH};
 use axum::http::request::Parts;
+use axum::http::{Extensions, HeaderMap};
 use base::id::is_id;
 use base::party::Party;
 use base::problem::Refusal;
@@ -39,6 +39,11 @@ pub struct Connection {
     pub strangers: bool,
     /// It comes from a proxy whose word about its clients is taken.
     pub trusted: bool,
+}
+
+/// Whose a request is; `None` for one that came by no connection.
+pub fn party_of(extensions: &Extensions) -> Option<Party> {
+    extensions.get::<Connection>().map(|connection| connection.party)
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Connection {

@@ -12,6 +12,9 @@ use base::limits::Limits;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 
+/// Addresses that monitoring asks for.
+pub const PROBES: [&str; 3] = ["/healthz", "/readyz", "/metrics"];
+
 /// Access that the command line allows.
 #[derive(Clone, Debug, Default)]
 pub struct Guard {

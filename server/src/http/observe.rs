@@ -3,13 +3,13 @@
 
 use super::access::{AccessLine, AccessSample, ByteCount, CountingBody, TraceParent};
 use super::audit::{self, AuditLine, AuditLog};
-use super::extract::Connection;
-use super::guard::{self, Guard};
+use super::extract::{self, Connection};
+use super::guard::{self, Guard, PROBES};
 use super::idempotency::Sender;
 use super::pause::RefusalPause;
 use super::proxies::ForwardedUser;
 use super::tokens::Right;
-use api::Problem;
+use api::{Code, Problem, english};
 use axum::body::Body;
 use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
@@ -18,6 +18,7 @@ use axum::response::{IntoResponse, Response};
 use base::limits::Limits;
 use base::party::Party;
 use base::problem::{ProblemDoc, Refusal, code_of, status_of};
+use base::rates::{PartyRates, RateExceeded};
 use base::{id, metrics};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -41,10 +42,40 @@ pub struct RequestGate {
     pub guard: Arc<Guard>,
     /// Bounds of a request's head.
     pub limits: Arc<Limits>,
+    /// Requests that each party may send.
+    pub rates: Arc<PartyRates>,
     /// Where changes and refusals are noted.
     pub audit: Option<Arc<AuditLog>>,
     /// Which questions of a drag are in the access log.
     pub sample: Arc<AccessSample>,
+}
+
+impl RequestGate {
+    /// Counts a request of a party; says where it is one too many. Monitoring is never.
+    fn exceeded(&self, path: &str, party: Party) -> Option<RateExceeded> {
+        if PROBES.contains(&path) {
+            return None;
+        }
+        self.rates.take(party, Instant::now()).err()
+    }
+}
+
+fn too_many(exceeded: RateExceeded, limits: &Limits) -> Problem {
+    let message = english::too_many_requests(limits.party_rate as usize);
+    // To the next full millisecond, so that the time is enough.
+    let wait_ms = exceeded.wait.as_millis() as u64 + 1;
+    Problem::of(Code::TooManyRequests, message).limit(limits.party_rate).retry_after_ms(wait_ms)
+}
+
+/// How long a refusal for overload is held back: a client that retries at once would take cores from requests in
+/// progress. It is part of the time that the client is asked to wait.
+fn hold_of(response: &mut Response) -> Option<Duration> {
+    let code = response.extensions().get::<Refusal>().map(|Refusal(problem)| problem.code);
+    let is_overload = response.status() == StatusCode::SERVICE_UNAVAILABLE;
+    (is_overload || code == Some(Code::TooManyRequests)).then(|| {
+        Refusal::hold(response, REFUSAL_PAUSE);
+        REFUSAL_PAUSE
+    })
 }
 
 /// Wraps every request.
@@ -64,18 +95,25 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     let mut request = request.map(|body| CountingBody::received(body, &received));
     let caller = share(&mut request, &mut sender);
     request.extensions_mut().insert(sender.clone());
-    let response = match guard::check(&gate.guard, &gate.limits, &request) {
+    let exceeded = gate.exceeded(&path, sender.party);
+    let checked = match exceeded {
+        Some(exceeded) => Err(too_many(exceeded, &gate.limits)),
+        None => guard::check(&gate.guard, &gate.limits, &request),
+    };
+    let mut response = match checked {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => work::on_behalf_of(caller, next.run(request)).await,
         Err(problem) => Refusal::from(problem).into_response(),
     };
+    let hold = hold_of(&mut response);
     let mut response = written(response, &method, Some(&path), &id);
     dress(response.headers_mut(), &path, &id);
     if let Some(origin) = foreign {
         guard::allow_cross_origin(response.headers_mut(), origin);
     }
     let status = response.status();
-    if let Some(audit) = gate.audit.filter(|_| audit::is_audited(&method, edits, status)) {
+    let is_logged = exceeded.is_some_and(|exceeded| exceeded.is_logged);
+    if let Some(audit) = gate.audit.filter(|_| is_logged || audit::is_audited(&method, edits, status)) {
         audit.add(&AuditLine {
             time: jiff::Timestamp::now().to_string(),
             who: sender.name.as_deref(),
@@ -86,15 +124,12 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
             request_id: &id,
         });
     }
-    if status == StatusCode::SERVICE_UNAVAILABLE {
-        // A client that retries at once would take cores from requests in progress.
-        match pause {
-            Some(pause) if pause.wait(REFUSAL_PAUSE).await => {
-                response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
-            }
-            Some(_) => {}
-            None => tokio::time::sleep(REFUSAL_PAUSE).await,
+    match (hold, pause) {
+        (Some(hold), Some(pause)) if pause.wait(hold).await => {
+            response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
         }
+        (Some(hold), None) => tokio::time::sleep(hold).await,
+        _ => {}
     }
     metrics::request(&route, Some(&method), status, began.elapsed().as_secs_f64());
     let (peer, user) = (Some(from), sender.name);
@@ -126,7 +161,7 @@ fn share(request: &mut Request, sender: &mut Sender) -> Caller {
 fn sender(request: &Request, guard: &Guard) -> Sender {
     let extensions = request.extensions();
     let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());
-    let party = extensions.get::<Connection>().map(|connection| connection.party).unwrap_or_default();
+    let party = extract::party_of(extensions).unwrap_or_default();
     let (name, is_admin) = match user {
         // The token is then the proxy's.
         Some(user) => (Some(user), None),

@@ -5,14 +5,14 @@ use crate::app::App;
 use crate::http::body::Json;
 use crate::http::extract::{Connection, Id, QueryParams};
 use crate::scenes::bytes_of;
-use api::export::{self, MotionChoice};
+use api::export::{self, FilePart, MotionChoice};
 use api::{Home, import};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use base::metrics;
 use base::problem::Refusal;
-use experts::preparation;
+use experts::{Cancel, preparation};
 use formats::native::SceneDoc;
 use scene::Scene;
 use serde::Deserialize;
@@ -93,11 +93,12 @@ async fn export(
     let map = scene.map.clone();
     let most = FILE_FACTOR * bytes as u64 + FILE_BYTES;
     let room = Arc::clone(&app.room);
-    let write = move |_: &_| {
+    let write = move |cancel: &Cancel| {
         // What the budget can never give is refused as too long.
         let most = most.min(room.memory.most() / 2);
         let _memory = room.work(most)?;
-        export::write(&scene, &params.format, params.sample, params.mode, Some(most))
+        let part = FilePart { most_bytes: Some(most), cancel: cancel.clone(), ..FilePart::default() };
+        export::write(&scene, &params.format, params.sample, params.mode, part)
     };
     // Writers take about this long a byte.
     let cost = Duration::from_nanos(20 * bytes as u64);

@@ -39,8 +39,9 @@ pub async fn healthz() -> axum::Json<Health> {
     axum::Json(Health { status: HealthStatus::Ok })
 }
 
-/// Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer.
-/// `failing` lists `experts`, `store`, `queue`, `workers`, `readers` and `data` where they do not.
+/// Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer, and
+/// a worker is free of calls that have ended, for long calls and for those in the background. `failing` lists those of
+/// `experts`, `store`, `queue`, `workers`, `readers`, `long-workers`, `background-workers` and `data` that fail.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "server",
     responses((status = 200, description = "ready for work", body = ref("#/components/schemas/Health")),
         NotYet))]
@@ -51,6 +52,8 @@ pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Refusa
         ("queue", app.pool.has_room()),
         ("workers", app.pool.answers(PoolLane::Quick).await),
         ("readers", app.pool.answers(PoolLane::Document).await),
+        ("long-workers", app.pool.answers(PoolLane::Patient).await),
+        ("background-workers", app.pool.answers(PoolLane::Background).await),
         ("data", app.catalog.library.answers().await),
     ];
     let failing: Vec<_> = checks.iter().filter(|(_, fine)| !fine).map(|(name, _)| *name).collect();

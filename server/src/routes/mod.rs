@@ -103,7 +103,8 @@ pub fn router(app: &App) -> Router {
 /// Routes for probes, without token.
 pub fn probes(app: &App) -> Router {
     let (guard, limits) = (Guard::for_probes().into(), Arc::clone(&app.limits));
-    let gate = RequestGate { guard, limits, audit: None, sample: Arc::default() };
+    let rates = Arc::clone(&app.gate.rates);
+    let gate = RequestGate { guard, limits, rates, audit: None, sample: Arc::default() };
     let (router, _) = OpenApiRouter::new()
         .routes(routes!(health::healthz))
         .routes(routes!(health::readyz))

@@ -19,6 +19,7 @@ pub const ANYWHERE: &[Code] = &[
     Code::CrossSite,
     Code::UriTooLong,
     Code::HeadersTooLarge,
+    Code::TooManyRequests,
     Code::Busy,
     Code::Internal,
 ];
@@ -57,8 +58,14 @@ pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
 pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
 
 /// Codes of refusals that say when to try again.
-const WAITS: &[Code] =
-    &[Code::Busy, Code::NotReady, Code::ShuttingDown, Code::StoreUnavailable, Code::TooManyRuns];
+const WAITS: &[Code] = &[
+    Code::Busy,
+    Code::NotReady,
+    Code::ShuttingDown,
+    Code::StoreUnavailable,
+    Code::TooManyRuns,
+    Code::TooManyRequests,
+];
 
 /// Replies of these codes, one a status.
 pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {

@@ -11,6 +11,7 @@ use axum::body::Bytes;
 use base::limits::Limits;
 use base::memory::{Memory, MemoryShare};
 use base::party::Party;
+use base::places::{SharedPlaces, TakenPlace};
 use experts::Run;
 use scene::State;
 use std::collections::BTreeMap;
@@ -38,15 +39,21 @@ pub type SharedRun = Arc<tokio::sync::Mutex<HeldRun>>;
 
 struct RunEntry {
     run: SharedRun,
-    party: Party,
-    /// Dropped with the run.
-    _memory: MemoryShare,
+    /// Given back with the run.
+    _room: RunRoom,
     used: Instant,
+}
+
+/// What a run takes.
+struct RunRoom {
+    _place: TakenPlace,
+    _memory: MemoryShare,
 }
 
 /// All runs of the server by id.
 pub struct RunStore {
     entries: Mutex<BTreeMap<String, RunEntry>>,
+    places: Arc<SharedPlaces>,
     limits: Arc<Limits>,
     memory: Arc<Memory>,
 }
@@ -55,7 +62,8 @@ impl RunStore {
     /// An empty one.
     pub fn new(limits: &Arc<Limits>, memory: &Arc<Memory>) -> Self {
         let memory = memory.part(limits.run_bytes);
-        Self { entries: Mutex::default(), limits: Arc::clone(limits), memory }
+        let places = SharedPlaces::new(limits.runs as usize);
+        Self { entries: Mutex::default(), places, limits: Arc::clone(limits), memory }
     }
 
     /// Refuses a run before any work where there would be no room for it afterwards.
@@ -65,7 +73,7 @@ impl RunStore {
     pub fn expects(&self, party: Party) -> Result<(), Problem> {
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
-        self.check(&entries, party, 0).map(drop)
+        self.room_for(&entries, party, 0).map(drop)
     }
 
     /// Keeps a run that a party has begun.
@@ -77,9 +85,9 @@ impl RunStore {
         let bytes = bytes_of(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
-        let memory = self.check(&entries, party, bytes)?;
+        let room = self.room_for(&entries, party, bytes)?;
         let run = Arc::new(tokio::sync::Mutex::new(HeldRun { run, last: watch::Sender::new(None) }));
-        entries.insert(id.to_owned(), RunEntry { run, party, _memory: memory, used: Instant::now() });
+        entries.insert(id.to_owned(), RunEntry { run, _room: room, used: Instant::now() });
         Ok(())
     }
 
@@ -135,26 +143,23 @@ impl RunStore {
         entries.retain(|_, entry| entry.used.elapsed() < idle || Arc::strong_count(&entry.run) > 1);
     }
 
-    /// The memory of a run of so many bytes, where there is room for it.
-    fn check(
+    /// What a run of so many bytes takes, where there is room for it.
+    fn room_for(
         &self,
         entries: &BTreeMap<String, RunEntry>,
         party: Party,
         bytes: usize,
-    ) -> Result<MemoryShare, Problem> {
-        let most = self.limits.runs as usize;
-        let share = most.div_ceil(2);
-        let own = entries.values().filter(|entry| entry.party == party).count();
-        if own < share
-            && entries.len() < most
-            && let Some(memory) = self.memory.take(bytes)
-        {
-            return Ok(memory);
-        }
+    ) -> Result<RunRoom, Problem> {
+        let limit = match self.places.take(party) {
+            Ok(place) => match self.memory.take(bytes) {
+                Some(memory) => return Ok(RunRoom { _place: place, _memory: memory }),
+                None => self.limits.runs,
+            },
+            Err(full) => full.limit as u64,
+        };
         let oldest = entries.values().map(|entry| entry.used.elapsed().as_secs()).max().unwrap_or(0);
         let wait_s = self.limits.run_idle_s.saturating_sub(oldest).clamp(1, 60);
-        let limit = if own >= share { share } else { most };
-        Err(Problem::of(Code::TooManyRuns, english::too_many_runs()).limit(limit as u64).retry_after(wait_s))
+        Err(Problem::of(Code::TooManyRuns, english::too_many_runs()).limit(limit).retry_after(wait_s))
     }
 
     /// A table of whole values is usable after a panic elsewhere.

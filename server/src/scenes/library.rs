@@ -4,19 +4,21 @@
 //! and a few stay in memory.
 
 use super::demos;
-use super::folder::{DataFolder, FolderReader};
+use super::folder::FolderReader;
 use super::item::{Facts, SceneItem};
 use super::weight;
-use api::import::SceneFile;
+use api::import::{Companions, SceneFile};
 use api::{Code, Opened, Problem};
 use base::cache::Cache;
 use base::clock;
+use base::folder::{DataFolder, HeldFile};
 use base::id;
 use base::memory::Memory;
 use base::netconvert::companions;
 use base::party::Party;
+use formats::table;
 use scene::{ContentHash, LaneMap, Scene, Shared};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
@@ -132,18 +134,18 @@ impl Library {
         }
     }
 
-    fn add(&self, id: String, scene: &Scene, place: ScenePlace, bytes: &[u8], modified: SystemTime) {
+    fn add(&self, id: String, scene: &Scene, place: ScenePlace, file: &HeldFile, modified: SystemTime) {
         let time = clock::text(modified);
         let item = SceneItem {
             name: if scene.name.is_empty() { id.clone() } else { scene.name.clone() },
-            etag: etag_of(bytes),
+            etag: etag_of(file),
             created_at: time.clone(),
             updated_at: time,
             facts: Facts::of(scene),
             map_sha256: scene.map.hash().hex(),
             tags: scene.meta.tags.clone(),
             parent_id: None,
-            bytes: bytes.len() as u64,
+            bytes: file.length(),
             readonly: true,
             owner: None,
             shared: None,
@@ -159,7 +161,8 @@ impl Library {
             match demo.scene {
                 Ok(scene) => {
                     let place = ScenePlace::Demo(id.clone());
-                    self.add(id, &scene, place, &demo.bytes, SystemTime::UNIX_EPOCH);
+                    let file = HeldFile::alone(demo.bytes.to_vec());
+                    self.add(id, &scene, place, &file, SystemTime::UNIX_EPOCH);
                 }
                 Err(problem) => tracing::error!(%id, detail = %problem.detail, "demo scene is broken"),
             }
@@ -175,19 +178,25 @@ impl Library {
             }
         };
         files.truncate(MOST_FILES);
-        for path in files {
-            let bytes = folder.read(&path).map_err(|error| error.to_string());
-            match bytes.and_then(|bytes| Ok((scenes_of(&path, &bytes)?, bytes))) {
-                Ok((scenes, bytes)) => {
-                    let modified = folder.modified(&path).unwrap_or(SystemTime::UNIX_EPOCH);
+        let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
+        // Tables beside the tracks are read with them.
+        let beside: BTreeSet<usize> = table::groups(&names, None)
+            .iter()
+            .flat_map(|group| group.all().skip(1).collect::<Vec<_>>())
+            .collect();
+        for (_, path) in files.iter().enumerate().filter(|(at, _)| !beside.contains(at)) {
+            let held = folder.read(path).map_err(|error| error.to_string());
+            match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
+                Ok((scenes, held)) => {
+                    let modified = folder.modified(path).unwrap_or(SystemTime::UNIX_EPOCH);
                     for (index, scene) in scenes.iter().enumerate() {
                         // Existing scenes stay: a file replaces neither a demo nor another file's scene.
-                        let ids = [file_id(&path, scene, index), name_id(&path, index)];
+                        let ids = [file_id(path, scene, index), name_id(path, index)];
                         let Some(id) = ids.into_iter().find(|id| !self.has(id)) else {
                             tracing::warn!(file = %path.display(), "its scene's id is taken");
                             continue;
                         };
-                        self.add(id, scene, ScenePlace::File(path.clone(), index), &bytes, modified);
+                        self.add(id, scene, ScenePlace::File(path.clone(), index), &held, modified);
                     }
                 }
                 Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
@@ -196,13 +205,21 @@ impl Library {
     }
 }
 
-fn etag_of(bytes: &[u8]) -> String {
-    let hash = ContentHash::of_bytes(bytes).hex();
+fn etag_of(file: &HeldFile) -> String {
+    let hash = |bytes: &[u8]| ContentHash::of_bytes(bytes).hex();
+    let own = hash(&file.bytes);
+    let others = file.others.iter().map(|(name, bytes)| format!(" {name} {}", hash(bytes)));
+    // That of a file with nothing beside it is the one of its bytes.
+    let hash = if file.others.is_empty() {
+        own
+    } else {
+        hash(others.fold(own, |all, other| all + &other).as_bytes())
+    };
     format!("\"ro-{}\"", hash.get(..16).unwrap_or_default())
 }
 
 /// The scene of an entry; of a file of the data folder from what its name leads to now.
-fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Problem> {
+fn read(entry: &Entry, file: Option<io::Result<HeldFile>>) -> Result<Scene, Problem> {
     match &entry.place {
         ScenePlace::Demo(id) => demos::file(id).ok_or_else(|| Problem::internal("demo scene is gone"))?.scene,
         ScenePlace::File(path, index) => {
@@ -214,11 +231,11 @@ fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Probl
                 )
             };
             let file = file.ok_or_else(|| Problem::internal("no data folder"))?;
-            let bytes = file.map_err(|error| changed(error.to_string()))?;
-            if etag_of(&bytes) != entry.item.etag {
+            let held = file.map_err(|error| changed(error.to_string()))?;
+            if etag_of(&held) != entry.item.etag {
                 return Err(changed("another content".into()));
             }
-            let mut scenes = scenes_of(path, &bytes).map_err(changed)?;
+            let mut scenes = scenes_of(path, &held).map_err(changed)?;
             if *index >= scenes.len() {
                 return Err(changed("fewer scenes than before".into()));
             }
@@ -227,10 +244,11 @@ fn read(entry: &Entry, file: Option<io::Result<Vec<u8>>>) -> Result<Scene, Probl
     }
 }
 
-fn scenes_of(path: &Path, bytes: &[u8]) -> Result<Vec<Scene>, String> {
+fn scenes_of(path: &Path, held: &HeldFile) -> Result<Vec<Scene>, String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let file = SceneFile::of(&bytes, None, &name, &companions(), (0, MOST_FILES));
-    let read = file.and_then(|file| file.read(&bytes));
+    let beside = Companions { folder: held.folder(&name), ..companions() };
+    let file = SceneFile::of(&held.bytes, None, &name, &beside, (0, MOST_FILES));
+    let read = file.and_then(|file| file.read(&held.bytes));
     let read = read.map_err(|problem| problem.detail)?;
     Ok(read.scenes.into_iter().map(|s| s.scene).collect())
 }

@@ -11,7 +11,6 @@ pub mod store;
 pub mod weight;
 
 pub use catalog::{Catalog, bytes_of, map_bytes};
-pub use folder::DataFolder;
 pub use item::{Counts, Facts, SceneItem, tags_of};
 pub use library::Library;
 pub use preview::preview;

@@ -85,9 +85,16 @@ impl Pool {
         receiver.await.unwrap_or_else(|_| Err(Problem::internal("a call ended without its answer")))
     }
 
-    /// True if the threads of a lane take a small call soon.
+    /// True if the threads of a lane take a small call soon; in a lane whose calls may wait long, unless all of its
+    /// threads are still at calls that ended some time ago.
     pub async fn answers(self: &Arc<Self>, lane: PoolLane) -> bool {
-        let kind = if lane == PoolLane::Document { JobKind::Document } else { JobKind::Score };
+        let kind = match lane {
+            PoolLane::Document => JobKind::Document,
+            PoolLane::Quick => JobKind::Score,
+            PoolLane::Patient | PoolLane::Background => {
+                return lock(&self.state).hanging(lane, ANSWER) < self.limits.workers();
+            }
+        };
         let asked = JobRequest { kind, cost: Duration::ZERO, caller: Caller::default() };
         let call = tokio::time::timeout(ANSWER, self.run(asked, |_| Ok(())));
         matches!(call.await, Ok(Ok(())))

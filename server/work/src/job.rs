@@ -143,8 +143,12 @@ pub struct Job {
     began: Mutex<Option<Instant>>,
     /// Time for which it has yielded to others since then.
     paused: Mutex<Duration>,
+    /// When it was stopped from outside.
+    stopped: Mutex<Option<Instant>>,
     /// It is worked on while another one yields.
     is_inside: AtomicBool,
+    /// Its thread works on another one meanwhile.
+    is_yielding: AtomicBool,
 }
 
 impl Job {
@@ -168,7 +172,9 @@ impl Job {
             work,
             began,
             paused,
+            stopped: Mutex::default(),
             is_inside: AtomicBool::new(false),
+            is_yielding: AtomicBool::new(false),
         }
     }
 
@@ -205,13 +211,23 @@ impl Job {
         (is_smaller && given <= worked + self.cost) || (in_turn && given + other.cost <= worked)
     }
 
-    /// It let another go first for so long.
-    pub(super) fn paused(&self, time: Duration) {
-        *lock(&self.paused) += time;
+    /// Lets another one go first, which `work` does.
+    pub(super) fn pause(&self, work: impl FnOnce()) {
+        let began = Instant::now();
+        self.is_yielding.store(true, Ordering::Relaxed);
+        work();
+        self.is_yielding.store(false, Ordering::Relaxed);
+        *lock(&self.paused) += began.elapsed();
     }
 
     pub(super) fn is_over(&self) -> bool {
         self.ending.is_over()
+    }
+
+    /// A worker is at it, and at nothing else, although it was stopped longer ago than this.
+    pub(super) fn hangs(&self, patience: Duration) -> bool {
+        let is_at_it = lock(&self.began).is_some() && !self.is_yielding.load(Ordering::Relaxed);
+        is_at_it && lock(&self.stopped).is_some_and(|at| at.elapsed() > patience)
     }
 
     pub(super) fn stalled(&self) -> Duration {
@@ -222,6 +238,7 @@ impl Job {
     pub(super) fn stop(&self, stop: Stop) {
         let outcome = stop.outcome();
         let first = self.ending.stop(stop);
+        lock(&self.stopped).get_or_insert_with(Instant::now);
         self.ticket.cancel.cancel();
         if first {
             metrics::ended(self.kind.name(), outcome);

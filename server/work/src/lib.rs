@@ -38,7 +38,7 @@ use sync::atomic::{AtomicBool, Ordering};
 use sync::{Condvar, Mutex, MutexGuard, thread};
 
 /// Soonest time after which a refused call is to be repeated, seconds.
-const SOONEST_S: f64 = 0.05;
+const SOONEST_S: f64 = 0.01;
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -175,7 +175,7 @@ impl Pool {
     fn busy(&self, state: &mut PoolState, lane: PoolLane) -> Problem {
         let waiting = state.lane(lane).queue.len();
         let threads = if lane == PoolLane::Document { self.limits.readers() } else { self.limits.workers() };
-        let wait_s = state.lane(lane).wait_s(threads).clamp(SOONEST_S, 60.0);
+        let wait_s = state.lane(lane).next_place_s(threads).clamp(SOONEST_S, 60.0);
         let detail = format!("{waiting} calls are waiting already.");
         Problem::new(Code::Busy, detail).retry_after_ms((1e3 * wait_s).ceil() as u64)
     }
@@ -268,10 +268,8 @@ impl Pool {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
         while own.lane == PoolLane::Patient && !self.stopped.load(Ordering::Relaxed) {
             let Some(job) = lock(&self.state).next(PoolLane::Patient, |job| own.lets_go(job)) else { break };
-            let began = Instant::now();
             job.go_inside();
-            self.perform(&job);
-            own.paused(began.elapsed());
+            own.pause(|| self.perform(&job));
         }
     }
 

@@ -19,13 +19,24 @@ pub struct LaneQueue {
     pub running: usize,
     /// Running mean of the time that jobs take, for each second expected.
     pace: Option<f64>,
+    /// Refused jobs so far.
+    refused: usize,
 }
 
 impl LaneQueue {
     /// Expected wait of a new job for one of so many threads, seconds.
-    pub fn wait_s(&self, threads: usize) -> f64 {
+    fn wait_s(&self, threads: usize) -> f64 {
         let waiting: f64 = self.queue.iter().map(|job| job.cost.as_secs_f64()).sum();
         waiting * self.pace.unwrap_or(1.0) / threads.max(1) as f64
+    }
+
+    /// When a refused caller gets a place, seconds: as the first job leaves the queue, the next caller as the second one
+    /// does, and so on around. So callers who obey come when places get free, and not all at the same time.
+    pub fn next_place_s(&mut self, threads: usize) -> f64 {
+        let places = self.queue.len().max(1);
+        let turn = self.refused % places + 1;
+        self.refused += 1;
+        self.wait_s(threads) * turn as f64 / places as f64
     }
 
     /// A job ended.
@@ -79,6 +90,11 @@ impl PoolState {
     /// Jobs that are worked on.
     pub fn running(&self) -> usize {
         self.lanes.iter().map(|lane| lane.running).sum()
+    }
+
+    /// Number of threads of a lane that are still at jobs which were stopped longer ago than this.
+    pub fn hanging(&self, lane: PoolLane, patience: Duration) -> usize {
+        self.jobs.values().filter(|job| job.lane == lane && job.hangs(patience)).count()
     }
 
     /// Number of waiting jobs in a lane, without those of this client, which a newer revision of it would

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::oneshot;
-use work::{Caller, Ending, Handle, JobKind, JobRequest, Pool, Stop, Ticket, Work};
+use work::{Caller, Ending, Handle, JobKind, JobRequest, Pool, PoolLane, Stop, Ticket, Work};
 
 /// An end that says when it has come.
 struct Told(Mutex<Option<oneshot::Sender<()>>>);
@@ -95,6 +95,37 @@ async fn leaving_the_wait_cancels_and_a_limit_ends_it() {
     tokio::time::sleep(Duration::from_millis(100)).await;
     assert!(seen.load(Ordering::Relaxed), "the work was told to stop");
     pool.stop();
+}
+
+#[tokio::test]
+async fn a_lane_whose_threads_hang_at_ended_calls_does_not_answer() {
+    for (lane, asked) in [
+        (PoolLane::Patient, JobRequest { cost: Duration::from_secs(1), ..small(JobKind::Export) }),
+        (
+            PoolLane::Background,
+            JobRequest { caller: Caller { background: true, ..Caller::default() }, ..small(JobKind::Export) },
+        ),
+    ] {
+        let pool = pool(Limits { running: 1, ..Limits::default() });
+        let release = Arc::new(AtomicBool::new(false));
+        let held = Arc::clone(&release);
+        let hang = move |_: &experts::Cancel| {
+            while !held.load(Ordering::Relaxed) {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            Ok(())
+        };
+        assert_eq!(asked.lane(), lane);
+        let left = tokio::time::timeout(Duration::from_millis(200), pool.run(asked, hang)).await;
+        assert!(left.is_err(), "the caller leaves while it is worked on");
+        assert!(pool.answers(lane).await, "the work may look at its end a moment later");
+        tokio::time::sleep(Duration::from_millis(2_500)).await;
+        assert!(!pool.answers(lane).await && pool.answers(PoolLane::Quick).await, "{lane:?}");
+        release.store(true, Ordering::Relaxed);
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        assert!(pool.answers(lane).await, "{lane:?}");
+        pool.stop();
+    }
 }
 
 /// Submits work of so many milliseconds for a connection, and records its name when it is done.

@@ -43,6 +43,12 @@ const KINDS: &[Kind] = &[
         ranges: &[(1, 60), (2, 4_096), (30, 3_000)],
         body: tangle,
     },
+    Kind {
+        name: "crowd beside combs",
+        path: "/v1/generate",
+        ranges: &[(2, 400), (2, 4_096), (20, 300), (1, 128)],
+        body: combs,
+    },
     Kind { name: "lanes on one place", path: "/v1/generate", ranges: &[(1, 19_990), (2, 20)], body: pile },
     Kind {
         name: "lanes on one place, filled",
@@ -124,6 +130,19 @@ fn tangle(n: &[u64]) -> Value {
     let mut at = || side_m as f64 * (random.below(10_000) as f64 / 10_000.0 - 0.5);
     let lanes = (0..lanes).map(|i| lane(format!("t{i}"), (0..points).map(|_| [at(), at()]).collect()));
     one(with_lanes(2, lanes.collect()))
+}
+
+/// Lanes to and fro across a square of this side, every other one at a right angle, so that each piece of one crosses
+/// all pieces of its neighbours; under and beside so many cars.
+fn combs(n: &[u64]) -> Value {
+    let (lanes, points, side_m, agents) = (n[0], n[1], n[2] as f64, n[3] as usize);
+    let at = |i: u64, k: u64| {
+        let along = side_m * (k as f64 / (points - 1) as f64 - 0.5) + i as f64 * 1e-3;
+        let across = side_m * if k.is_multiple_of(2) { -0.5 } else { 0.5 };
+        if i.is_multiple_of(2) { [across, along] } else { [along, across] }
+    };
+    let comb = |i: u64| lane(format!("c{i}"), (0..points).map(|k| at(i, k)).collect());
+    json!({"scene": with_lanes(agents, (0..lanes).map(comb).collect()), "agents": "all"})
 }
 
 fn piled(n: &[u64]) -> Value {

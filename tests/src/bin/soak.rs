@@ -31,13 +31,17 @@ enum Name {
     /// Failing calls to the disk; the server loses no answered write, reports the fault, stays up and
     /// recovers.
     Faults,
+    /// Clients who wait after a refusal as long as it says reach the goodput of those who ask again at once.
+    Goodput,
+    /// Fifty users with tokens, who drag, edit and save, read, and run scripts; no save is lost, memory stays flat.
+    Live,
     /// All of it in an order drawn by the seed, which can be done again.
     Schedule,
 }
 
 #[cfg(target_os = "linux")]
 fn main() -> anyhow::Result<()> {
-    use dragtraffic_tests::soak::{clients, faults, kills, schedule};
+    use dragtraffic_tests::soak::{clients, faults, goodput, kills, live, schedule};
     use std::time::Duration;
 
     let Cli { name, minutes, count, seed } = Cli::parse();
@@ -50,6 +54,16 @@ fn main() -> anyhow::Result<()> {
         }
         Name::Kills => println!("{:?}", kills::kills(count.unwrap_or(1_000), seed, &tell)?),
         Name::Faults => println!("{:?}", faults::faults(count.unwrap_or(2_000), seed, &tell)?),
+        Name::Live => {
+            let report = live::live(Duration::from_secs_f64(60.0 * minutes), seed, &tell)?;
+            println!("{report}");
+            report.flat()?;
+        }
+        Name::Goodput => {
+            let report = goodput::goodput(Duration::from_secs_f64(60.0 * minutes), &tell)?;
+            println!("{report}");
+            report.fair()?;
+        }
         Name::Schedule => {
             let count = count.unwrap_or(200);
             if count == 1 {

@@ -40,7 +40,7 @@ pub struct Report {
 }
 
 /// State that the clients share.
-struct Common {
+pub(super) struct Common {
     address: SocketAddr,
     over: AtomicBool,
     revisions: AtomicU64,
@@ -72,48 +72,76 @@ const CLIENTS: &[Client] = &[
 pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     let server = Server::with_demos()?;
     server.wait_ready()?;
-    let common = Common {
-        address: server.address,
-        over: AtomicBool::new(false),
-        revisions: AtomicU64::new(0),
-        report: Mutex::default(),
-    };
     let mut crowd = Writer::crowd(2, seed);
-    let began = Instant::now();
-    let mut memory = Vec::new();
-    std::thread::scope(|scope| -> anyhow::Result<()> {
-        let mut threads = Vec::new();
-        for (number, (name, client)) in CLIENTS.iter().enumerate() {
-            let common = &common;
-            threads
-                .push(scope.spawn(move || common.lead(name, *client, Random::of_part(seed, number as u64))));
-        }
-        let (crowd, shared) = (&mut crowd, &common);
-        threads.push(scope.spawn(move || shared.write(crowd)));
-        while began.elapsed() < time && !common.over.load(Ordering::Relaxed) {
-            std::thread::sleep(EVERY.min(time.saturating_sub(began.elapsed())));
-            memory.push(server.memory()? as f64);
-            if memory.len() % 12 == 0 {
-                tell(&common.line(memory.len() / 12, memory.last().copied().unwrap_or_default()));
-            }
-        }
-        common.over.store(true, Ordering::Relaxed);
-        for thread in threads {
-            thread.join().map_err(|_| anyhow::anyhow!("a reply breaks the contract"))??;
-        }
-        Ok(())
-    })?;
+    let mut tasks: Vec<ClientTask<'_>> = Vec::new();
+    for (number, (name, client)) in CLIENTS.iter().enumerate() {
+        let random = Random::of_part(seed, number as u64);
+        tasks.push(Box::new(move |common: &Common| common.lead(name, *client, random)));
+    }
+    let writing = &mut crowd;
+    tasks.push(Box::new(move |common: &Common| common.write(writing)));
+    let mut report = Common::of(server.address).work(&server, time, tell, tasks)?;
     writers::compare(&mut crowd, &server)?;
-    let mut report = common.report.into_inner().unwrap_or_else(PoisonError::into_inner);
     let written = writers::tally(&crowd);
     report.replies.insert(("write", 200, String::new()), written.kept);
-    report.seconds = began.elapsed().as_secs_f64();
-    report.memory = memory;
     Ok(report)
 }
 
+/// Work of one client until the trial is over.
+pub(super) type ClientTask<'a> = Box<dyn FnOnce(&Common) -> anyhow::Result<()> + Send + 'a>;
+
 impl Common {
-    /// Runs one client until all stop; the first failure stops all.
+    /// Of clients of one server.
+    pub(super) fn of(address: SocketAddr) -> Self {
+        Self { address, over: AtomicBool::new(false), revisions: AtomicU64::new(0), report: Mutex::default() }
+    }
+
+    /// The trial is over.
+    pub(super) fn is_over(&self) -> bool {
+        self.over.load(Ordering::Relaxed)
+    }
+
+    /// Runs clients for a given time, each in a thread of its own, and reads the memory of the server. The first
+    /// failure stops all.
+    pub(super) fn work(
+        self,
+        server: &Server,
+        time: Duration,
+        tell: Tell<'_>,
+        tasks: Vec<ClientTask<'_>>,
+    ) -> anyhow::Result<Report> {
+        let began = Instant::now();
+        let mut memory = Vec::new();
+        std::thread::scope(|scope| -> anyhow::Result<()> {
+            let common = &self;
+            let task = |task: ClientTask<'_>| {
+                let done = task(common);
+                if done.is_err() {
+                    common.over.store(true, Ordering::Relaxed);
+                }
+                done
+            };
+            let threads: Vec<_> = tasks.into_iter().map(|own| scope.spawn(move || task(own))).collect();
+            while began.elapsed() < time && !common.is_over() {
+                std::thread::sleep(EVERY.min(time.saturating_sub(began.elapsed())));
+                memory.push(server.memory()? as f64);
+                if memory.len() % 12 == 0 {
+                    tell(&common.line(memory.len() / 12, memory.last().copied().unwrap_or_default()));
+                }
+            }
+            common.over.store(true, Ordering::Relaxed);
+            for thread in threads {
+                thread.join().map_err(|_| anyhow::anyhow!("a reply breaks the contract"))??;
+            }
+            Ok(())
+        })?;
+        let mut report = self.report.into_inner().unwrap_or_else(PoisonError::into_inner);
+        report.seconds = began.elapsed().as_secs_f64();
+        report.memory = memory;
+        Ok(report)
+    }
+
+    /// Runs one client until all stop.
     fn lead(
         &self,
         name: &'static str,
@@ -121,11 +149,7 @@ impl Common {
         mut random: Random,
     ) -> anyhow::Result<()> {
         while !self.over.load(Ordering::Relaxed) {
-            let done = client(self, &mut random).with_context(|| format!("client {name}"));
-            if done.is_err() {
-                self.over.store(true, Ordering::Relaxed);
-                return done;
-            }
+            client(self, &mut random).with_context(|| format!("client {name}"))?;
             std::thread::sleep(Duration::from_millis(random.below(60)));
         }
         Ok(())
@@ -139,7 +163,12 @@ impl Common {
     }
 
     /// Sends a request and notes what came of it; the reply when it is one of success.
-    fn ask(&self, name: &'static str, request: &Request, allowed: &[&str]) -> anyhow::Result<Option<Reply>> {
+    pub(super) fn ask(
+        &self,
+        name: &'static str,
+        request: &Request,
+        allowed: &[&str],
+    ) -> anyhow::Result<Option<Reply>> {
         let began = Instant::now();
         let reply = request.send(self.address)?;
         let (status, code) = (reply.status, reply.code());
@@ -156,7 +185,8 @@ impl Common {
         drop(report);
         if is_busy(status, &code) {
             ensure!(!reply.header("retry-after").is_empty(), "busy, but until when is not said");
-            std::thread::sleep(Duration::from_millis(100));
+            let wait_ms = reply.json()["retry_after_ms"].as_u64().unwrap_or_default();
+            std::thread::sleep(Duration::from_millis(wait_ms));
             return Ok(None);
         }
         ensure!(allowed.contains(&code.as_str()), "{status} {}", reply.text());
@@ -363,7 +393,7 @@ impl fmt::Display for Report {
             write!(f, "  {name:<8} {status} {code:<24} {count:>8}")?;
             if *status < 300 && self.times.contains_key(name) {
                 let ms = |share| 1e3 * self.within(name, share);
-                write!(f, "   p50 {:.1} ms, p99 {:.1} ms", ms(0.5), ms(0.99))?;
+                write!(f, "   p50 {:.1} ms, p95 {:.1} ms, p99 {:.1} ms", ms(0.5), ms(0.95), ms(0.99))?;
             }
             writeln!(f)?;
         }

@@ -4,7 +4,9 @@
 pub mod clients;
 pub mod faults;
 mod fit;
+pub mod goodput;
 pub mod kills;
+pub mod live;
 pub mod schedule;
 
 /// Callback for progress messages.

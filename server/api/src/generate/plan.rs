@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Work for a via point of a road user, window and sample, where it lies far off every way; milliseconds of a core.
-const VIA_MS: f64 = 16.0;
+const VIA_MS: f64 = 22.0;
 
 /// A generation that can be started.
 #[derive(Clone)]

@@ -33,7 +33,7 @@ pub struct ConvertArgs {
     to: &'static str,
     #[arg(long, value_name = "FORMAT", value_parser = readable, help = format!("Format of the input; recognised from its content when absent: {}", ids(|info| info.import)))]
     from: Option<&'static str>,
-    /// Road network of a SUMO recording, or map of an Argoverse scenario.
+    /// Road network of a SUMO recording, map of an Argoverse scenario, or map under a table.
     #[arg(long, value_name = "FILE")]
     net: Option<PathBuf>,
     /// JSON file that maps the columns of a table to the names of this program, with units and factors; or a data set
@@ -104,7 +104,6 @@ struct Converted {
 /// # Errors
 /// Exit 2, 3, 4, 5, 8.
 pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
-    let sources = args.inputs.sources()?;
     let file = |path: &Option<PathBuf>| {
         let bytes = path.as_deref().map(output::read).transpose()?;
         Ok::<_, Failure>(bytes.map(|bytes| Arc::new(bytes) as Arc<dyn formats::Source>))
@@ -115,6 +114,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         Some(text) => Some(Arc::new(text.as_bytes()) as Arc<dyn formats::Source>),
         None => file(&args.columns)?,
     };
+    let sources = args.inputs.sources_by(columns.as_deref())?;
     let beside = Companions { net: file(&args.net)?, columns, around: args.around, ..companions() };
     let reading = Reading { from: args.from.map(str::to_owned), beside, index: args.index.clone() };
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
@@ -197,8 +197,8 @@ fn written(
     continued: bool,
     converted: &mut Converted,
 ) -> Result<WrittenFile, Failure> {
-    let part = FilePart { label: Some(item.name.clone()), continued, most_bytes: None };
-    let written = export::write_part(&item.scene, args.to, args.sample, args.mode, part)
+    let part = FilePart { label: Some(item.name.clone()), continued, ..FilePart::default() };
+    let written = export::write(&item.scene, args.to, args.sample, args.mode, part)
         .map_err(|problem| sample_missing(args, problem))?;
     for loss in &written.losses {
         converted.losses.entry(loss.code).or_insert_with(|| loss.detail.clone());

@@ -3,7 +3,8 @@
 use super::Source;
 use crate::cli::Failure;
 use formats::registry::{self, FORMATS};
-use std::collections::HashMap;
+use formats::table;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 /// Most files of one call.
@@ -21,15 +22,16 @@ impl Known {
     }
 }
 
-/// The files, in the order given, those of a folder or pattern by name.
+/// The files, in the order given, those of a folder or pattern by name. Of the recordings of a folder these are the
+/// tables of their tracks, by the names that a file of columns or the public data sets tell.
 ///
 /// # Errors
 /// Exit 3 when a folder or pattern has none.
-pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
+pub fn sources(inputs: &[PathBuf], columns: Option<&dyn formats::Source>) -> Result<Vec<Source>, Failure> {
     let mut paths = Vec::new();
     for input in inputs {
         match as_pattern(input) {
-            _ if input.is_dir() => paths.extend(of_folder(input)?),
+            _ if input.is_dir() => paths.extend(of_folder(input, columns)?),
             Some(pattern) => paths.extend(of_pattern(pattern)?),
             None => paths.push(input.clone()),
         }
@@ -63,14 +65,25 @@ fn as_pattern(input: &Path) -> Option<&str> {
     input.to_str().filter(|text| text.contains(['*', '?', '[']) && !input.exists())
 }
 
-fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn of_folder(folder: &Path, columns: Option<&dyn formats::Source>) -> Result<Vec<PathBuf>, Failure> {
     let unreadable = |error| Failure::input(format!("{}: {error}", folder.display()));
     let entries = std::fs::read_dir(folder).map_err(unreadable)?;
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.is_file() && is_scene(path))
-        .collect();
+    let mut files: Vec<PathBuf> =
+        entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_file()).collect();
     files.sort();
+    let name =
+        |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+    let names: Vec<String> = files.iter().map(name).collect();
+    let list: Vec<&str> = names.iter().map(String::as_str).collect();
+    let tracks: BTreeSet<usize> = table::firsts(&list, columns).into_iter().collect();
+    // The maps beside recordings lie under them.
+    let is_input = |at: usize, path: &Path, name: &str| {
+        tracks.contains(&at) || is_scene(path) && (tracks.is_empty() || !table::is_map(name))
+    };
+    let mut at = 0..;
+    files.retain(|path| {
+        at.next().is_some_and(|at| names.get(at).is_some_and(|name| is_input(at, path, name)))
+    });
     if files.is_empty() {
         return Err(Failure::input(format!(
             "{}: no file in this folder has the name of a scene",
@@ -153,7 +166,7 @@ mod tests {
         std::fs::create_dir(folder.path().join("deep")).unwrap();
         std::fs::write(folder.path().join("deep/a.json"), "{}").unwrap();
         let labels = |inputs: &[PathBuf]| -> Vec<String> {
-            sources(inputs).unwrap().into_iter().map(|source| source.label).collect()
+            sources(inputs, None).unwrap().into_iter().map(|source| source.label).collect()
         };
         assert_eq!(labels(&[folder.path().into()]), ["a", "b", "x.tfrecord-00001-of-01000"]);
         assert_eq!(labels(&[folder.path().join("**/*.json")]), [".hidden", "a", "b", "a-2"]);
@@ -168,8 +181,36 @@ mod tests {
         ] {
             assert_eq!(labels(&[folder.path().join(file)]), [name], "{file}");
         }
-        assert!(sources(&[folder.path().join("*.nothing")]).is_err());
+        assert!(sources(&[folder.path().join("*.nothing")], None).is_err());
         std::fs::create_dir(folder.path().join("empty")).unwrap();
-        assert!(sources(&[folder.path().join("empty")]).is_err());
+        assert!(sources(&[folder.path().join("empty")], None).is_err());
+    }
+
+    #[test]
+    fn the_recordings_of_a_folder_are_their_tracks() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = [
+            "a.json",
+            "00_tracks.csv",
+            "00_tracksMeta.csv",
+            "00_recordingMeta.csv",
+            "01_tracks.csv.gz",
+            "here.osm",
+            "there.xodr",
+            "pedestrian_tracks_003.csv",
+            "vehicle_tracks_003.csv",
+            "manifest.csv",
+        ];
+        for name in names {
+            std::fs::write(folder.path().join(name), "{}").unwrap();
+        }
+        let labels = |columns: Option<&dyn formats::Source>| -> Vec<String> {
+            let sources = sources(&[folder.path().into()], columns).unwrap();
+            sources.into_iter().map(|source| source.label).collect()
+        };
+        assert_eq!(labels(None), ["00_tracks", "01_tracks", "a", "vehicle_tracks_003"]);
+        assert_eq!(labels(Some(&"ind".as_bytes())), ["00_tracks", "01_tracks", "a"]);
+        // Of other tables nothing is known, so maps are scenes of their own.
+        assert_eq!(labels(Some(&"sind".as_bytes())), ["a", "here", "there"]);
     }
 }

@@ -9,6 +9,7 @@ pub use find::patterns;
 use super::{Failure, output};
 use api::import::{Companions, ReadScene, SceneFile, known as known_format};
 use api::{Code, Problem};
+use base::folder;
 use base::netconvert::companions;
 use clap::Args;
 use find::Known;
@@ -23,7 +24,8 @@ const AT_A_TIME: usize = 16;
 /// Which files, for commands that take many.
 #[derive(Args, Clone, Debug)]
 pub struct Inputs {
-    /// Files, folders or patterns such as 'runs/**/*.json', in any format; - is standard input.
+    /// Files, folders or patterns such as 'runs/**/*.json', in any format; - is standard input. The tracks of a
+    /// recording (00_tracks.csv) are read with the tables and maps of their folder.
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
     /// Files processed in parallel. Default: one per core.
@@ -73,7 +75,15 @@ impl Inputs {
     /// # Errors
     /// Exit 3 when a folder or pattern has none.
     pub fn sources(&self) -> Result<Vec<Source>, Failure> {
-        find::sources(&self.scenes)
+        self.sources_by(None)
+    }
+
+    /// The same where a file of columns says how the tables of a recording are called.
+    ///
+    /// # Errors
+    /// Exit 3 when a folder or pattern has none.
+    pub fn sources_by(&self, columns: Option<&dyn formats::Source>) -> Result<Vec<Source>, Failure> {
+        find::sources(&self.scenes, columns)
     }
 
     /// Workers.
@@ -86,6 +96,13 @@ impl Source {
     /// The file as messages name it.
     pub fn shown(&self) -> String {
         self.path.display().to_string()
+    }
+
+    /// What comes with the file, with what is read with it of its folder.
+    fn with_folder(&self, beside: &Companions) -> Companions {
+        let folder =
+            (self.path != Path::new("-")).then(|| folder::beside(&self.path, beside.columns.as_deref()));
+        Companions { folder: folder.flatten(), ..beside.clone() }
     }
 
     /// The file's format is one that has many scenes in a file.
@@ -109,13 +126,14 @@ impl Source {
     ) -> Result<usize, Failure> {
         let bytes = output::read(&self.path)?;
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let beside = self.with_folder(&reading.beside);
         let many = Self::holds_many(&bytes, reading, &name);
         let wanted = reading.index.clone().unwrap_or(0..usize::MAX);
         let (mut at, mut count) = (wanted.start, 0);
         let mut known = Known::default();
         while at < wanted.end {
             let most = AT_A_TIME.min(wanted.end - at);
-            let read = SceneFile::of(&bytes, reading.from.as_deref(), &name, &reading.beside, (at, most))
+            let read = SceneFile::of(&bytes, reading.from.as_deref(), &name, &beside, (at, most))
                 .and_then(|file| file.read(&bytes));
             let read = match read {
                 Err(problem) if at == wanted.start => return Err(refused(&self.path, &problem)),
@@ -168,7 +186,8 @@ impl Source {
         let file_name = self.path.file_name().unwrap_or_default().to_string_lossy();
         let many = Self::holds_many(&bytes, &reading, &file_name);
         let (mut known, mut index, mut failure) = (Known::default(), 0, None);
-        let found = SceneFile::of(&bytes, None, &file_name, &reading.beside, (0, usize::MAX));
+        let found =
+            SceneFile::of(&bytes, None, &file_name, &self.with_folder(&reading.beside), (0, usize::MAX));
         let read = found.and_then(|file| {
             file.each(&bytes, |read| {
                 let item = self.item(many, &mut known, index, read);

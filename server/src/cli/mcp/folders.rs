@@ -1,7 +1,7 @@
 //! The folders that a client may read and write: no path leads out of them.
 
-use crate::scenes::DataFolder;
 use api::{Code, Problem};
+use base::folder::{DataFolder, HeldFile};
 use formats::files;
 use std::ffi::OsStr;
 use std::io;
@@ -41,11 +41,11 @@ impl AllowedFolders {
         paths.iter().map(open).collect::<Result<_, String>>().map(Self)
     }
 
-    /// Bytes of a file, by its path or by its name in one of the folders.
+    /// A file, by its path or by its name in one of the folders, with what is read with it.
     ///
     /// # Errors
     /// `not-found` for what lies in none of them, and for what cannot be read there.
-    pub fn read(&self, path: &str) -> Result<Vec<u8>, Problem> {
+    pub fn read(&self, path: &str) -> Result<HeldFile, Problem> {
         let mut found = self.0.iter().filter_map(|allowed| Some((allowed, allowed.below(path)?)));
         found.find_map(|(allowed, name)| allowed.reader.read(&name).ok()).ok_or_else(|| self.not_here(path))
     }
@@ -160,9 +160,9 @@ mod tests {
         symlink(at("below"), at("way-in")).unwrap();
         let folders = AllowedFolders::open(&[inside.path().to_path_buf()]).unwrap();
         let absolute = |name: &str| at(name).display().to_string();
-        assert_eq!(folders.read("below/a").unwrap(), b"inside");
-        assert_eq!(folders.read("./below/a").unwrap(), b"inside");
-        assert_eq!(folders.read(&absolute("below/a")).unwrap(), b"inside");
+        assert_eq!(folders.read("below/a").unwrap().bytes, b"inside");
+        assert_eq!(folders.read("./below/a").unwrap().bytes, b"inside");
+        assert_eq!(folders.read(&absolute("below/a")).unwrap().bytes, b"inside");
         let secret = outside.path().join("secret").display().to_string();
         let relative = format!("../{}/secret", outside.path().file_name().unwrap().display());
         let names = ["link", "way-out/secret", "below/../link", "..", "", ".", "below", "/etc/hostname"];

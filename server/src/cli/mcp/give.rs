@@ -4,7 +4,7 @@ use super::describe::{self, Look};
 use super::schema::{self, Members, NoRequest};
 use super::tools::{ToolAnswer, Toolbox, yes};
 use crate::picture::{self as pictures, SceneView};
-use api::export::{self, MotionChoice};
+use api::export::{self, FilePart, MotionChoice};
 use api::{Code, Problem};
 use experts::Cancel;
 use scene::{STEP_S, Scene, Vec2};
@@ -206,10 +206,11 @@ pub fn export_arguments() -> Members {
 }
 
 /// Writes a scene.
-pub fn export(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswer, Problem> {
+pub fn export(tools: &Toolbox, arguments: Members, cancel: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, NoRequest {}) = schema::read::<ExportCall, _>(arguments, &[])?;
     let scene = tools.desk.get(&call.scene)?;
-    let written = export::write(&scene, &call.format, call.sample, call.motion, Some(MOST_FILE_BYTES))?;
+    let part = FilePart { most_bytes: Some(MOST_FILE_BYTES), cancel: cancel.clone(), ..FilePart::default() };
+    let written = export::write(&scene, &call.format, call.sample, call.motion, part)?;
     let bytes = written.bytes.len();
     let mut losses = String::new();
     for loss in &written.losses {

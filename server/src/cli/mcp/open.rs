@@ -4,7 +4,7 @@ use super::describe::{self, Look};
 use super::schema::{self, Members, NoRequest};
 use super::tools::{ToolAnswer, Toolbox, yes};
 use crate::scenes::demos;
-use api::import::SceneFile;
+use api::import::{Companions, SceneFile};
 use api::map::{MapBody, TemplateList};
 use api::{Code, Problem};
 use base::netconvert::companions;
@@ -116,11 +116,12 @@ fn of_file(
     path: &str,
     call: &OpenCall,
 ) -> Result<(Scene, String, Vec<ImportWarning>), Problem> {
-    let bytes = tools.folders.read(path)?;
+    let held = tools.folders.read(path)?;
     let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let window = (call.index as usize, 1);
-    let file = SceneFile::of(&bytes, call.format.as_deref(), &name, &companions(), window)?;
-    let read = file.read(&bytes)?.scenes.into_iter().next();
+    let beside = Companions { folder: held.folder(&name), ..companions() };
+    let file = SceneFile::of(&held.bytes, call.format.as_deref(), &name, &beside, window)?;
+    let read = file.read(&held.bytes)?.scenes.into_iter().next();
     let read = read.ok_or_else(|| {
         Problem::field("/index", Code::NotFound, format!("the file has no scene at position {}", call.index))
     })?;
