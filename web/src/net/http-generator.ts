@@ -3,6 +3,7 @@ import type { SceneJson } from '../model/document/scene-json';
 import type { Client } from './client';
 import type { Counting, Generator, Question, SceneRef, Trajectories } from './generator';
 import type { EventReply, Transport } from './http-transport';
+import { waitOf } from './problem';
 import type { ScoreReply } from './types';
 
 interface RunningQuestion {
@@ -186,7 +187,8 @@ export class HttpGenerator implements Generator {
       if (answer.problem) {
         const { problem: p, status: code } = answer;
         if (!mine()) return;
-        if (p.code === 'busy') return await this.later(ask, me, answer.retryAfter_s ?? 1);
+        const wait = waitOf(p);
+        if (wait !== null) return await this.later(ask, me, wait / 1000);
         if (code === 409) ask.on.dropped?.();
         else if (code >= 502 && code <= 504) ask.on.away();
         else ask.on.refused(p);

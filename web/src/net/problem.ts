@@ -17,3 +17,9 @@ export function problemIn(text: string, status: number, title = ''): Problem {
 
 /** The first fault, in the server's own words. */
 export const faultOf = (p: Problem): string => p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title ?? p.code;
+
+/** Codes after which the same request is sent again. */
+const ASK_AGAIN = new Set(['busy', 'too-many-requests']);
+
+/** Milliseconds after which the server asks for the same request again; null where it would refuse that too. */
+export const waitOf = (p: Problem): number | null => (ASK_AGAIN.has(p.code) ? (p.retry_after_ms ?? 1000) : null);

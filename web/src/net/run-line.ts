@@ -6,6 +6,7 @@ import type { Client } from './client';
 import { Refused } from './client';
 import type { Head } from './http-transport';
 import { Multiplexer } from './multiplexer';
+import { waitOf } from './problem';
 import { connection, readMessage } from './socket-transport';
 
 export type StepReply = Schemas['StepReply'];
@@ -53,12 +54,28 @@ export class RunLine {
     return new RunLine(client, `/v1/runs/${run}`, present);
   }
 
-  /** The next step, numbered from 1 on. A number may be sent again: it gives the same reply. */
+  /**
+   * The next step, numbered from 1 on. A number may be sent again: it gives the same reply, so that a busy server is
+   * asked until it has room.
+   */
   async step(number: number, ego: Omit<EgoJson, 'plan'>): Promise<StepReply> {
     const body = JSON.stringify({ number, egos: [ego] });
+    for (;;) {
+      try {
+        return await this.#stepOnce(body);
+      } catch (e) {
+        const wait = e instanceof Refused ? waitOf(e.problem) : null;
+        if (wait === null) throw e;
+        await new Promise((later) => setTimeout(later, wait));
+        this.#over.signal.throwIfAborted();
+      }
+    }
+  }
+
+  async #stepOnce(body: string): Promise<StepReply> {
     const socket = this.#socket;
-    if (socket?.readyState === socket?.OPEN) {
-      const reply = await this.#overLine(socket!, body).catch(() => null);
+    if (socket && socket.readyState === socket.OPEN) {
+      const reply = await this.#overLine(socket, body).catch(() => null);
       if (reply?.problem) throw new Refused(reply.status, reply.problem);
       if (reply) return JSON.parse(reply.text) as StepReply;
     }
