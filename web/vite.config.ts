@@ -124,5 +124,6 @@ export default defineConfig({
     },
   },
   server: { fs: { allow: ['..'] }, proxy: { '/v1': SERVER, '/healthz': SERVER } },
-  test: { include: ['test/**/*.test.{ts,tsx}'], environment: 'node' },
+  // Some tests parse all sources: on a busy machine that takes longer than the usual five seconds.
+  test: { include: ['test/**/*.test.{ts,tsx}'], environment: 'node', testTimeout: 60_000 },
 });

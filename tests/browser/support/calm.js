@@ -19,18 +19,23 @@ export const controlsInSight = (page) =>
       .map((e) => e.dataset.action ?? e.getAttribute('aria-label') ?? e.textContent);
   });
 
-/** Wider than a path with its halo, narrower than a label. */
-const LABEL_PX = 13;
+/**
+ * Width and height: higher than a path with its halo, lower than a label, in pixels of the page. For fingers it is
+ * wider than a handle, and leaves out the letters, too.
+ */
+const LABEL_PX = [13, 13];
+export const LABEL_BESIDE_HANDLES_PX = [30, 13];
 
 /**
  * Share of the road's pixels under labels: pixels with the colours of a road in the picture before, and changed after,
- * in a changed square of `LABEL_PX`. The square leaves out paths, which are narrower. Both pictures show the same part
+ * in a changed rectangle of `least`. It leaves out paths, which are narrower. Both pictures show the same part
  * of the map.
  */
-export const underLabels = async (page, before, after) =>
+export const underLabels = async (page, before, after, least = LABEL_PX) =>
   page.evaluate(
-    ([p, q, side]) => {
+    ([p, q, least]) => {
       const { width: w, height: h } = p;
+      const [wide, high] = least.map((px) => Math.round(px * devicePixelRatio));
       const style = getComputedStyle(document.documentElement);
       const road = ['--map-asphalt', '--map-crosswalk', '--map-bike'].map((name) => {
         const hex = style.getPropertyValue(name).trim();
@@ -44,16 +49,16 @@ export const underLabels = async (page, before, after) =>
         for (let x = 0; x < w; x++)
           sum[(y + 1) * (w + 1) + x + 1] =
             Number(changed(y * w + x)) + sum[y * (w + 1) + x + 1] + sum[(y + 1) * (w + 1) + x] - sum[y * (w + 1) + x];
-      const inSquare = (x, y) =>
-        sum[(y + side) * (w + 1) + x + side] -
-        sum[y * (w + 1) + x + side] -
-        sum[(y + side) * (w + 1) + x] +
+      const changedFrom = (x, y) =>
+        sum[(y + high) * (w + 1) + x + wide] -
+        sum[y * (w + 1) + x + wide] -
+        sum[(y + high) * (w + 1) + x] +
         sum[y * (w + 1) + x];
       const label = new Uint8Array(w * h);
-      for (let y = 0; y + side <= h; y++)
-        for (let x = 0; x + side <= w; x++)
-          if (inSquare(x, y) === side * side)
-            for (let k = y; k < y + side; k++) label.fill(1, k * w + x, k * w + x + side);
+      for (let y = 0; y + high <= h; y++)
+        for (let x = 0; x + wide <= w; x++)
+          if (changedFrom(x, y) === wide * high)
+            for (let k = y; k < y + high; k++) label.fill(1, k * w + x, k * w + x + wide);
       let [all, under] = [0, 0];
       for (let i = 0; i < w * h; i++) {
         if (!road.some((colour) => off(p.data, 4 * i, colour) < 8)) continue;
@@ -62,5 +67,5 @@ export const underLabels = async (page, before, after) =>
       }
       return { all, share: under / all };
     },
-    [await pixelsOf(page, before), await pixelsOf(page, after), LABEL_PX],
+    [await pixelsOf(page, before), await pixelsOf(page, after), least],
   );

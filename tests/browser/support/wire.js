@@ -126,7 +126,9 @@ export class Wire {
     cdp.on('Target.attachedToTarget', ({ sessionId }) => {
       const worker = new Worker(cdp, sessionId);
       workers.set(sessionId, worker);
-      void w.#follow(worker).finally(() => worker.send('Runtime.runIfWaitingForDebugger'));
+      const followed = w.#follow(worker).finally(() => worker.send('Runtime.runIfWaitingForDebugger'));
+      // A worker that starts while its page closes cannot be followed; where one should be, its questions are missed.
+      followed.catch(() => undefined);
     });
     cdp.on('Target.detachedFromTarget', ({ sessionId }) => workers.delete(sessionId));
     cdp.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => workers.get(sessionId)?.hear(message));

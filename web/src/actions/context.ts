@@ -12,6 +12,7 @@ import type { Generation } from '../edit/asking/generation';
 import type { Gestures } from '../edit/gestures/pointer';
 import type { Picture } from '../edit/overlay/picture';
 import type { Playback } from '../edit/session/playback';
+import type { Following } from '../edit/tools/following/following';
 import type { Tools } from '../edit/tools/tools';
 import type { Sharing } from '../edit/document/sharing';
 import type { Stage } from '../draw/stage';
@@ -40,6 +41,7 @@ export interface Context extends Opening, Tools {
   readonly generation: Generation;
   readonly care: SceneCare;
   readonly ownership: Ownership;
+  readonly following: Following;
   readonly sharing: Sharing;
   readonly importing: Importing;
   readonly playback: Playback;
@@ -55,6 +57,8 @@ export interface Context extends Opening, Tools {
   focusText(which: 'name' | 'note'): void;
   /** Opens the context menu of the selection, beside it. */
   openMenu(): void;
+  /** Opens what the fragment of an address names: a scene, or a run. False where it is none of these. */
+  openFrom(hash: string): Promise<boolean>;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;

@@ -15,6 +15,8 @@ const LOW_PX = 520;
 /** Height of the nearly closed sheet, pixels; its head has the same. */
 export const PEEK_PX = 96;
 const HALF_PX = 300;
+/** On a lower page the half-open sheet has no room for the curves. */
+const ROOMY_PX = 800;
 /** On a high page the open sheet shows more. */
 const HALF_ROOMY_PX = 412;
 /** Largest share of the page's height. */
@@ -60,7 +62,7 @@ export class Form {
     const most = h - 52;
     if (height === 'peek') return PEEK_PX;
     if (height === 'full') return Math.round(Math.min(most, FULL_SHARE * h));
-    const half = this.small.value ? HALF_PX : HALF_ROOMY_PX;
+    const half = this.small.value || h < ROOMY_PX ? HALF_PX : HALF_ROOMY_PX;
     return Math.round(this.low.value ? Math.min(most, 0.68 * h) : Math.min(most, half, HALF_SHARE * h));
   }
 

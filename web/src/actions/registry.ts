@@ -43,6 +43,10 @@ export function actionForKey(key: string, { dragging = false, offers }: Now = {}
   if (offered) return offered;
   return (dragging ? byKeyWhileDragging.get(key) : undefined) ?? byKey.get(key);
 }
+
+/** The action that a key has while it is offered; for a key that now has none. */
+export const offeredElsewhere = (key: string): Action | undefined => onOffer.find((a) => a.keys?.includes(key));
+
 export const possible = (c: Context, a: Action): true | string => a.when?.(c) ?? true;
 
 export function perform(c: Context, id: string): void {

@@ -4,6 +4,7 @@ import type { Context, Opening } from '../actions/context';
 import { perform } from '../actions/registry';
 import { Generation } from '../edit/asking/generation';
 import { Gestures } from '../edit/gestures/pointer';
+import { Following } from '../edit/tools/following/following';
 import { Importing } from '../edit/tools/importing/importing';
 import { Overlay } from '../edit/overlay/overlay';
 import { Playback } from '../edit/session/playback';
@@ -61,6 +62,7 @@ function makeParts(o: Opening): Context {
     ...named,
     care,
     ownership: new Ownership(editor, file, scenes, care, client, library.opened),
+    following: new Following(editor, library, care, client),
     importing,
     generation,
     sharing: new Sharing(editor, file, library, care, client, (at) => {
@@ -74,6 +76,7 @@ function makeParts(o: Opening): Context {
     reveal: (ids) => reveal(c, ids),
     focusText,
     openMenu: () => openMenu(c),
+    openFrom: async (hash) => (await c.sharing.openFrom(hash)) || c.following.openFrom(hash),
     chooseFiles: fileChooser((files) => void importing.files(files)),
     choosePart: fileChooser(([file]) => void (file && importing.part(file))),
     focusField,
@@ -88,7 +91,7 @@ function makeParts(o: Opening): Context {
 
 /** Links between parts. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
+  const { editor, gestures, generation, library, playback, stage, ui } = c;
   followView(stage);
   lookAtMade(c);
   keepInView(c);
@@ -108,7 +111,7 @@ function connect(c: Context): void {
   });
   gestures.tapped.listen((fingers) => perform(c, fingers === 2 ? 'undo' : 'redo'));
   gestures.menu.listen((at, on, future) => ui.openContextMenu({ ...at, on, future }));
-  addEventListener('hashchange', () => void sharing.openFrom(location.hash));
+  addEventListener('hashchange', () => void c.openFrom(location.hash));
   library.askBy((missing) => {
     // Events of the recording; with changes from an earlier session their answer has the events.
     if (!editor.answers.motion.peek().stale) void generation.score();

@@ -44,6 +44,10 @@ const PARTS = {
     () => import('./inspector/agent-panel'),
     (m) => m.Sliders,
   ),
+  compass: of(
+    () => import('./hud/compass'),
+    (m) => m.Compass,
+  ),
   palette: of(
     () => import('./dialogs/palette'),
     (m) => m.Palette,
@@ -68,6 +72,10 @@ const PARTS = {
     () => import('./hud/drive-bar'),
     (m) => m.DriveBar,
   ),
+  follow: of(
+    () => import('./hud/follow-bar'),
+    (m) => m.FollowBar,
+  ),
   phases: of(
     () => import('./timeline/phase-strip'),
     (m) => m.PhaseStrip,
@@ -91,6 +99,10 @@ const PARTS = {
   history: of(
     () => import('./history/panel'),
     (m) => m.HistoryPanel,
+  ),
+  'way back': of(
+    () => import('./hud/way-back'),
+    (m) => m.WayBack,
   ),
   'empty scene': of(
     () => import('./hud/empty-scene'),
@@ -205,6 +217,8 @@ export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<
       state.value = to;
       if (to === 'missing') again = setTimeout(() => tries.value++, AGAIN_MS);
     };
+    // This place may have shown another part before: its arrival would render nothing again.
+    if (state.peek() === 'there' && !here.has(part)) state.value = 'waiting';
     // Also for a part that arrived after rendering, which nothing else would render again.
     void fetchPart(part).then(say('there'), say('missing'));
     return () => {

@@ -105,8 +105,8 @@ async function openFirst(o: Opening, desk: Promise<Context>): Promise<void> {
   const wanted = new URLSearchParams(location.search).get('scene') ?? recall<string>('last-scene');
   try {
     await o.scenes.refresh();
-    // The address may contain a scene, which the workspace reads.
-    if (location.hash && (await (await desk).sharing.openFrom(location.hash))) return;
+    // The address may contain a scene, or name a run, which the workspace reads.
+    if (location.hash && (await (await desk).openFrom(location.hash))) return;
     const ids = o.scenes.list.peek().map((s) => s.id);
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));
     if (!id) return o.editor.answers.report({ kind: 'ready' });

@@ -2,17 +2,31 @@
 import type { Context } from '../actions/context';
 import { keyOf } from '../actions/keys';
 import { walkEnds } from '../actions/look';
-import { actionForKey, perform } from '../actions/registry';
+import { actionForKey, offeredElsewhere, perform } from '../actions/registry';
 import type { Action } from '../actions/action';
+import { TEXTS as ACTION_TEXTS } from '../texts/desk/actions';
 import { TEXTS } from '../texts/desk/page';
+
+/** Keys without an action that are answered: signs that do nothing in a browser, and the keys of grouping elsewhere. */
+const SAID = /^(Ctrl\+(Shift\+)?G|(Shift\+)?[A-Z\d])$/;
+
+/** Keys that edit no text: in a text field the browser would open its own history or bookmarks. */
+const CHORD = /^Ctrl\+(Shift\+[A-Y]|[BD-UW])$/;
 
 export function listenToPage(c: Context): void {
   let space: { panned: number } | null = null;
   addEventListener('keydown', (e) => {
     const now = { dragging: c.editor.drag.active.peek(), offers: (a: Action) => a.onOffer!(c) };
-    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), now);
-    if (!a || a.native || belongsToPage(c, e, a)) return;
+    if (e.defaultPrevented) return;
+    const key = keyOf(e);
+    const a = actionForKey(key, now);
+    const unused = SAID.test(key) && { id: '', label: key.replaceAll('+', ' ') };
+    const meant = a ?? offeredElsewhere(key) ?? unused;
+    if (!meant || a?.native || belongsToPage(c, e, meant)) return;
     e.preventDefault();
+    if (!a) return c.editor.notices.refuse(ACTION_TEXTS.notHere(meant.label));
+    // Typed text is applied first.
+    if (CHORD.test(key) && a.context !== 'always') (e.target as HTMLElement).blur();
     // With Space held the picture is panned; only without a pan it means playback.
     if (a.id === 'play' && e.key === ' ') space = e.repeat ? space : { panned: c.gestures.pannedWithSpace };
     else perform(c, a.id);
@@ -27,8 +41,9 @@ export function listenToPage(c: Context): void {
 }
 
 /** Is the key for the focused element, and not for its action? */
-function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
+function belongsToPage(c: Context, e: KeyboardEvent, a: Pick<Action, 'id'> & Partial<Action>): boolean {
   const { editor, ui } = c;
+  if (CHORD.test(keyOf(e)) && !ui.dialog.peek()) return editor.drag.active.peek();
   const target = e.target as HTMLElement;
   const input = target instanceof HTMLInputElement ? target : null;
   // A typed character is text.
@@ -41,7 +56,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
   if (ui.dialog.peek() && a.context !== 'always') return true;
   // Tab walks through road users from the picture, once; elsewhere, and at the end, it is the browser's.
   const inList = target.closest('[data-group="users"]') !== null;
-  if (['Tab', 'Shift+Tab'].includes(a.keys![0]) && target !== document.body)
+  if (['Tab', 'Shift+Tab'].includes(a.keys?.[0] ?? '') && target !== document.body)
     if (!inList || ui.drawer.peek() === 'users' || walkEnds(c, e.shiftKey ? -1 : 1)) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
@@ -49,7 +64,7 @@ function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
 }
 
 /** A number field keeps undo and Space only while it holds typed text that is not yet applied. */
-const leavesField = (input: HTMLInputElement, e: KeyboardEvent, a: Action): boolean =>
+const leavesField = (input: HTMLInputElement, e: KeyboardEvent, a: Pick<Action, 'id'>): boolean =>
   (a.id === 'undo' || a.id === 'redo' || (a.id === 'play' && e.key === ' ')) &&
   !!input.dataset.field &&
   !('typed' in input.dataset);

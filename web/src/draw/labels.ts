@@ -20,6 +20,8 @@ export interface Sheet {
   readonly dpr: number;
 }
 
+/** What is wider covers the height of the picture, pixels: a rail of tools does not. */
+const RAIL_PX = 150;
 /** Cell size of `Taken`, pixels. */
 const CELL = 64;
 
@@ -105,9 +107,11 @@ export class Labels {
     this.kept.push(r);
   }
 
-  /** Is a point outside the picture? Then it gets no label. */
+  /** Is a point outside the picture, or under a panel beside it? Then it gets no label. */
   outside(x: number, y: number): boolean {
-    return x < -8 || y < -8 || x > this.sheet.w + 8 || y > this.sheet.h + 8;
+    const { sheet, inset } = this;
+    const [left, right] = [inset.left, inset.right].map((px) => (px > RAIL_PX ? px : 0));
+    return x < left - 8 || y < -8 || x > sheet.w - right + 8 || y > sheet.h + 8;
   }
 
   block(x: number, y: number, w: number, h: number): void {

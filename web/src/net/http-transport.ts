@@ -6,8 +6,6 @@ import type { GenerateEvent, Problem } from './types';
 
 export interface Head {
   readonly status: number;
-  /** Time until a busy server accepts a retry, seconds; null where unknown. */
-  readonly retryAfter_s: number | null;
   /** The server's name for the scene that came with the question. */
   readonly held?: string | undefined;
   /** Why there are no events; null where there are. */
@@ -51,7 +49,6 @@ export function askHere(sender: Sender) {
     });
     const head = {
       status: reply.status,
-      retryAfter_s: Number(reply.headers.get('retry-after')) || null,
       held: reply.headers.get('dragtraffic-scene') ?? undefined,
     };
     if (!reply.ok) return { ...head, problem: await problemOf(reply), pieces: none() };

@@ -20,7 +20,6 @@ const AGAIN_MOST_MS = 60_000;
 interface Told {
   readonly ask: number;
   readonly status?: number;
-  readonly retry_after_s?: number;
   readonly scene?: string;
   readonly last?: true;
 }
@@ -103,10 +102,10 @@ export function readMessage(message: string): { ask: number; head: Head | null; 
 }
 
 /** A refusal arrives complete. */
-function headOf({ status, retry_after_s, scene }: Told, rest: string): Head | null {
+function headOf({ status, scene }: Told, rest: string): Head | null {
   if (status === undefined) return null;
   const problem = status >= 400 ? problemIn(rest, status) : null;
-  return { status, retryAfter_s: retry_after_s ?? null, held: scene, problem };
+  return { status, held: scene, problem };
 }
 
 /** A connection for a path of the server that a script came from. */

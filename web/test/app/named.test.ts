@@ -56,7 +56,7 @@ describe('names on the picture', () => {
     editor.commits.run(goal());
     vi.advanceTimersByTime(100);
     s.generator.last.on.final(finalWith({ '1': { chosen: 0, modes: two } }), 5);
-    expect(editor.reading.futures.peek()!.modes[0].name).toMatch(/, before Ped/);
+    expect(editor.reading.futures.peek()!.modes[0].name).toMatch(/ before Ped/);
     expect(namedNow(editor)).toEqual(['1', '17']);
     s.generator.last.on.final(finalWith({ '1': { chosen: 2, modes: two } }), 5);
     editor.commits.run(choose(editor.agent.peek()!, 2, 'C'));

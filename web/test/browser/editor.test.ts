@@ -521,7 +521,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);
     await d.page.waitForSelector('.badge[aria-label^="Over the median 3.2 s"]');
     await d.release();
-    expect(await d.text('.fu[data-future="E"] .nm')).toBe('By road');
+    expect(await d.text('.fu[data-future="E"] .nm')).toBe('Stays on the road');
     await d.page.locator('.hint .to').click();
     expect(await d.text('.tm')).toContain('3.2 s');
     const goal = await d.goal();
@@ -562,7 +562,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     // Events of the recording are listed, but do not count.
     expect(await d.page.locator('.badge.log').count()).toBe(1);
     await d.key('e');
-    expect(await d.text('.insp')).toMatch(/6 in these 9 s · 1 in the log/);
+    expect(await d.text('.insp')).toMatch(/6 in these 9 s · 1 in the recording/);
   });
 
   it('plans 20 s: the timeline stretches, the set length is sent, playback runs to the end', async () => {

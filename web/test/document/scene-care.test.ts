@@ -32,7 +32,10 @@ describe('a copy', () => {
     const a = shown().agents.get('1')!;
     tab.editor.drag.begin({ part: 'goal', handle: 'body' });
     tab.editor.drag.preview(setGoal(a, { ...a.goal, pos: [77, 7] }));
+    tab.editor.select('1');
+    tab.editor.playhead.moveTo(2);
     await whole(tab.care.saveCopy());
+    expect([tab.editor.selection.peek(), tab.editor.playhead.time.peek()]).toEqual(['1', 2]);
     const copy = [...server.scenes.values()].at(-1)!.json;
     expect([copy.name, copy.x_editor?.seed, copy.meta?.parent_id]).toEqual(['mine, copy', 7, 'mine']);
     expect(copy.agents.find(({ id }) => id === '1')!.conditions ?? {}).toEqual({});
@@ -46,6 +49,30 @@ describe('a copy', () => {
     tab.editor.commits.run(setSeed(8));
     await pass(1000);
     expect([tab.saving.state.peek(), [...server.scenes.values()].at(-1)!.json.x_editor?.seed]).toEqual(['saved', 8]);
+  });
+
+  it('goes on with the steps of its original, under its own name', async () => {
+    await whole(tab.library.open('demo-crossing'));
+    const { seed: first } = shown();
+    tab.editor.commits.run(setSeed(7));
+    tab.editor.commits.run(rename('tried'));
+    tab.editor.commits.run(setSeed(8));
+    tab.editor.commits.undo();
+    await whole(tab.care.saveCopy());
+    const [id, copy] = [...server.scenes].at(-1)!;
+    expect([shown().id, shown().name, shown().seed]).toEqual([id, copy.json.name, 7]);
+    tab.editor.commits.redo();
+    expect(shown().seed).toBe(8);
+    for (const seed of [7, 7, first]) {
+      tab.editor.commits.undo();
+      expect([shown().name, shown().seed]).toEqual([copy.json.name, seed]);
+    }
+    expect(tab.editor.document.undoName.peek()).toBe(null);
+    await pass(1000);
+    expect([tab.saving.state.peek(), tab.saving.conflict.peek()]).toEqual(['saved', null]);
+    // The steps of the example stay with it.
+    await whole(tab.library.open('demo-crossing'));
+    expect([shown().name, shown().seed, tab.editor.document.redoName.peek() !== null]).toEqual(['tried', 7, true]);
   });
 
   it('has a free name', async () => {

@@ -19,4 +19,12 @@ describe('a label', () => {
     expect(place(labels)).toMatchObject({ x: 110, y: 100 });
     expect(place(labels, false)).toBeNull();
   });
+
+  it('is no label of what is under a panel, but of what is beside a rail', () => {
+    const beside = (left: number) => new Labels({ w: 900, h: 400, dpr: 1 }, { left, right: 0, top: 0, bottom: 0 });
+    expect(beside(400).outside(300, 200)).toBe(true);
+    expect(beside(400).outside(500, 200)).toBe(false);
+    expect(beside(90).outside(40, 200)).toBe(false);
+    expect(beside(90).outside(-20, 200)).toBe(true);
+  });
 });

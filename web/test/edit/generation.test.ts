@@ -567,7 +567,7 @@ describe('the shown future of a drag', () => {
     expect(chances).toEqual([...chances].sort((a, b) => b - a));
     // The bold one is the same, under its new letter, which is not that of the likeliest.
     expect(editor.reading.futures.peek()!.modes[editor.reading.chosen.peek()].anchor).toBe(0);
-    expect(editor.answers.remark.peek()?.words).toBe('F is shown: lower total cost than A, the likeliest.');
+    expect(editor.answers.remark.peek()?.words).toBe('F is shown: lower total cost than A, the most likely.');
   });
 
   it('has the names of rest while the drag pauses', () => {

@@ -1,13 +1,13 @@
-// More time as a remedy for a goal that is too far for its time.
+// More time as a remedy for a goal that is too far for its time, and less for one that is too near.
 import { beforeEach, describe, expect, it } from 'vitest';
 import { localReach } from '../../src/model/words/reach-words';
-import { setGoal } from '../../src/model/document/commands';
+import { setGoal, setStart } from '../../src/model/document/commands';
 import type { Fault, FaultKind } from '../../src/model/document/future-facts';
 import type { Futures } from '../../src/model/document/futures';
 import { readFutures } from '../../src/model/words/named-futures';
 import { startPose, type Agent } from '../../src/model/document/scene';
 import { Editor } from '../../src/edit/session/editor';
-import { moreTime, remedies } from '../../src/edit/moves/remedies';
+import { lessTime, moreTime, remedies } from '../../src/edit/moves/remedies';
 import { crossing, crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';
 
@@ -79,5 +79,38 @@ describe('more time', () => {
     goalAt([1.75, 40], 9);
     answer('off_road');
     expect(moreTime(e, agent())).toBeNull();
+  });
+});
+
+describe('less time', () => {
+  /** The first future drives at these speeds, m/s, evenly changed over the goal's time, and has no fault. */
+  const drives = (...speeds: number[]): void => {
+    answer(null);
+    const f = e.answers.draft.peek()!.futures;
+    const [first, ...others] = f.modes;
+    const speed = first.motion.speed.map((_, i) => {
+      const at = Math.min(speeds.length - 1, (i / 90) * (speeds.length - 1));
+      const [low, share] = [Math.floor(at), at % 1];
+      return speeds[low] + share * ((speeds[low + 1] ?? 0) - speeds[low]);
+    });
+    e.answers.showDraft('1', { ...f, modes: [{ ...first, motion: { ...first.motion, speed } }, ...others] });
+  };
+
+  it.each([
+    ['slows for the time alone', [12, 4, 14], true],
+    ['keeps its speed', [12, 11, 12], false],
+    ['slows for its goal', [12, 8, 4], false],
+    ['stops on the way', [12, 0, 14], false],
+  ])('is offered for a goal where the road user %s: %s', (_, speeds, offered) => {
+    e.commits.run(setStart(agent(), { ...agent().start, speed: 12 }));
+    goalAt([20, -1.75], 9);
+    drives(...(speeds as number[]));
+    const less = lessTime(e, agent());
+    expect(less !== null).toBe(offered);
+    if (!less) return;
+    e.commits.run(less.command);
+    expect(agent().goal.time).toBeLessThan(8.5);
+    expect(less.label).toBe(`Reach it in ${agent().goal.time.toFixed(1)} s`);
+    expect(less.note).toBe('without slowing to 14 km/h');
   });
 });

@@ -290,7 +290,7 @@ describe('placing', () => {
     p.click(p.at(x, y));
     expect(all()).toHaveLength(n);
     const toast = p.editor.notices.toast.peek()!;
-    expect(toast.text).toMatch(/^Car 1 is here/);
+    expect(toast.text).toMatch(/^Car 1 is already here/);
     expect([toast.action?.label, toast.second?.label]).toEqual(['Place ahead', 'Place here']);
     toast.action!.run();
     expect(all()).toHaveLength(n + 1);

@@ -5,7 +5,7 @@ import { describe, expect, it } from 'vitest';
 import { deg, pointAt, project, wrapAngle } from '../../src/model/base/geometry';
 import { readScene } from '../../src/model/document/scene-reader';
 import { startPose } from '../../src/model/document/scene';
-import { lanesAhead, snapToLane } from '../../src/edit/moves/snap';
+import { lanesAhead, laneWords, snapToLane } from '../../src/edit/moves/snap';
 
 const FOLDER = join(__dirname, '../../../assets/scenes');
 const DROPS = 120;
@@ -46,6 +46,13 @@ describe('a flag dropped between the lines of a lane', () => {
       if (ahead?.has(s.lane.id)) mine++;
     }
     expect(mine).toBeGreaterThan(5);
+  });
+
+  it('is called turning only along the turn', () => {
+    const { map } = scenes.find((s) => s.id === 'demo-crossing')!;
+    const car = { type: 'vehicle' } as const;
+    for (const across of [Math.PI, null]) expect(laneWords(map, car, -12, 9, across)).toBe('inside the junction');
+    expect(laneWords(map, car, -10, 9, -2.5)).toBe('in the junction, turning right');
   });
 
   it('takes the heading of the lane from a metre and a half beside its middle', () => {

@@ -88,7 +88,7 @@ describe('the way by the road', () => {
     answer();
     reach(null);
     const way = roadWay(e, agent())!;
-    expect([way.words, way.note, way.to]).toEqual(['By road: E', 'By road', null]);
+    expect([way.words, way.note, way.to]).toEqual(['By road: E', 'Stays on the road', null]);
     e.commits.run(way.command);
     expect(agent().chosen).toBe(4);
   });

@@ -7,7 +7,7 @@ import { dayAndTime } from '../../src/app/scenes/dates';
 import { foreignKind } from '../../src/edit/tools/importing/file-kinds';
 import { partAt, withoutBroken } from '../../src/edit/tools/importing/mending';
 import { eventsTable } from '../../src/edit/tools/outward/events-table';
-import { reduced } from '../../src/edit/document/sharing';
+import { reduced } from '../../src/edit/document/shared-parts';
 import { LinkError, MOST_LINK_BYTES, readLink, writeLink } from '../../src/edit/document/share-link';
 import { isShareLink } from '../../src/edit/document/share-mark';
 import { emptyScene, withoutRoadUsers } from '../../src/model/document/blank-scene';

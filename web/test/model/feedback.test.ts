@@ -214,8 +214,8 @@ describe('words of rounds', () => {
     expect(words(first(true), 'reject')).toContain('should go after Car 12');
     expect(words(first(false), 'reject')).toContain('should go before Car 12');
     expect(words(first(false), 'keep')).toContain('yields to Car 12');
-    expect(words(like(1), 'reject')).not.toContain('too unlike the log');
-    expect(words(like(1, { from_log_m: 3 }), 'reject')).toContain('too unlike the log');
+    expect(words(like(1), 'reject')).not.toContain('too unlike the recording');
+    expect(words(like(1, { from_log_m: 3 }), 'reject')).toContain('too unlike the recording');
     const [wish] = reasons('7', first(true), 'reject', nameOf).slice(-1);
     expect(wish.wish).toEqual({ trait: 'first', who: '7', with: '12', wants: 'less' });
     const liked = reasons('7', first(true), 'keep', nameOf).at(-1)!;

@@ -43,6 +43,8 @@ describe('a typed relation', () => {
 
   it('says what is missing or not possible', () => {
     expect(why('12 m ahead')).toMatch(/Name another road user/);
+    // The example is no relation to itself.
+    expect(readRelation('near', scene, one).why).toContain(`ahead of ${two.name}`);
     expect(why(`12 m ahead of ${two.name}`)).toMatch(/Name another road user/);
     expect(why(`close to ${one.name}`)).toMatch(/one distance or time/);
     expect(why(`12 m and 2 s behind ${one.name}`)).toMatch(/one distance or time/);

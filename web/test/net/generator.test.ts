@@ -296,7 +296,7 @@ describe('a drag that is answered in time, with late delivery', () => {
       };
       const tell = (e: GenerateEvent) => (come.push(e), wake?.());
       asked.push({ body: JSON.parse(body) as { revision: number }, signal, tell });
-      return Promise.resolve({ status: 200, retryAfter_s: null, problem: null, events: events() });
+      return Promise.resolve({ status: 200, problem: null, events: events() });
     };
     const g = new HttpGenerator(new Client(''), line, { tick: 1e6 }, () => now);
     const quiet = () => new Promise((done) => setTimeout(done));

@@ -63,7 +63,7 @@ it('sends over the connection once it is open, and before that by requests', asy
   expect(sockets[0].sent).toEqual([{ ask: 1, body: { scene_id: 'demo' } }]);
   sockets[0].tell({ ask: 1, status: 200, scene: 'held:1' }, ACCEPTED, DRAFT);
   const { pieces, ...head } = await asking;
-  expect(head).toEqual({ status: 200, retryAfter_s: null, held: 'held:1', problem: null });
+  expect(head).toEqual({ status: 200, held: 'held:1', problem: null });
   sockets[0].tell({ ask: 1 }, DRAFT);
   sockets[0].tell({ ask: 1, last: true }, FINAL);
   expect(await read(pieces)).toEqual([['accepted', 'initial'], ['initial'], ['final']]);
@@ -96,9 +96,15 @@ it('a refusal has its words and the time of a retry', async () => {
   const { line, sockets } = stage();
   sockets[0].open();
   const asking = line.ask(BODY, never);
-  sockets[0].tell({ ask: 1, status: 503, retry_after_s: 2, last: true }, { code: 'busy', title: 'Busy' });
+  sockets[0].tell(
+    { ask: 1, status: 503, retry_after_s: 2, last: true },
+    { code: 'busy', retry_after_ms: 1500, title: 'Busy' },
+  );
   const { pieces, ...head } = await asking;
-  expect(head).toMatchObject({ status: 503, retryAfter_s: 2, problem: { code: 'busy', title: 'Busy', status: 503 } });
+  expect(head).toMatchObject({
+    status: 503,
+    problem: { code: 'busy', retry_after_ms: 1500, title: 'Busy', status: 503 },
+  });
   expect(await read(pieces)).toEqual([]);
 });
 

@@ -95,8 +95,7 @@ export function startStandIn(options = {}) {
     const b = JSON.parse((await body(req)).toString());
     if (o.busy > 0) {
       o.busy--;
-      res.setHeader('Retry-After', '0.05');
-      return problem(res, 503, 'busy', 'The queue is full.');
+      return problem(res, 503, 'busy', 'The queue is full.', { retry_after_ms: 50 });
     }
     log.push({ path: 'generate', ...b, scene: b.scene ? 'inline' : undefined });
     const stored = b.scene_id ? (held.get(b.scene_id) ?? scenes.get(b.scene_id)?.scene) : null;

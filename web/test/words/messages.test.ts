@@ -50,6 +50,7 @@ function asked(sentence: Sentence): string[] {
 const PATTERNS: Readonly<Record<string, readonly (readonly [pattern: RegExp, reason: string])[]>> = {
   'actions/keys.ts': [[/Digit|Key/, 'codes of keys, from the browser']],
   'app/dialogs/shortcuts.tsx': [[/^\/\^[a-z]+-|\(next\|previous\)|\(slower\|faster\)/, 'ids of actions']],
+  'app/page-input.ts': [[/^\/\^\(?Ctrl/, 'keys']],
   'app/later.tsx': [[/https/, 'the address of a script']],
   'edit/tools/importing/file-import.ts': [
     [/scenario_|log_map_|xml|json|gpkg/, 'names of files that data sets and tools use'],
@@ -106,7 +107,7 @@ describe('sentences of the server', () => {
     ['german', ['loss-users-over-room', 'too-many-regenerated']],
   ])('stand in the singular for one thing, in %s', (language, same) => {
     const sentence = (code: string, one: string): string => {
-      const counted = code.startsWith('signals-made') ? 'junctions' : 'count';
+      const counted = code.startsWith('signals-made') ? 'junctions' : code === 'too-many-requests' ? 'most' : 'count';
       return written(
         LANGUAGES[language][code],
         new Proxy({}, { get: (_, name) => (name === counted ? one : `<${String(name)}>`) }),

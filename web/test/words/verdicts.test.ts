@@ -86,12 +86,12 @@ describe('verdicts', () => {
     expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
     expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('near miss with Cyclist 14');
     expect(word(fault('near_miss', { with: '14', extent: 0.02 }))).toBe('under 0.1 m to Cyclist 14');
-    expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6.2 m/s²');
+    expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes at 6.2 m/s²');
     expect(word(fault('speeding', { extent: 5 }))).toBe('18 km/h over the limit');
     expect(word(fault('running', { extent: 3 }))).toBe('runs at 3.0 m/s');
     expect(word(fault('askew', { extent: 0.52 }))).toBe('ends at 30° to the lane');
     expect(word(fault('fails_to_yield', { extent: 3, with: '7' }))).toMatch(/^does not give way to /);
-    expect(word(fault('forces_braking', { extent: 3.4, with: '7' }))).toMatch(/^forces .* to brake 3\.4 m\/s²$/);
+    expect(word(fault('forces_braking', { extent: 3.4, with: '7' }))).toMatch(/^forces .* to brake at 3\.4 m\/s²$/);
     expect(['off_map', 'on_carriageway', 'speeding'].map((k) => word(fault(k as never)))).toEqual([
       'off the map',
       'on the carriageway',
@@ -172,6 +172,8 @@ describe('verdicts', () => {
       'Goal of Car 1 moved. Collision with Car 2 at 5.4 s.',
     );
     expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. No other road user is affected.');
+    const placed = { name: '2 cars placed', agent: null, several: ['1', '9'], undo: false };
+    expect(outcome(placed, scene, [], readEvents(scene, set))).toBe('2 cars placed. Collision with Car 2 at 5.4 s.');
   });
 
   it('are stored with the scene', () => {
@@ -227,8 +229,8 @@ describe('names', () => {
       'Turns left',
       'Turns left, 0.5 s later',
       'Turns left, 0.5 s earlier',
-      'Turns left, 1.2 m tighter',
-      'By road',
+      'Turns left, further left',
+      'Stays on the road',
       'Straight on',
     ]);
     expect(
@@ -237,7 +239,7 @@ describe('names', () => {
         mode({ manoeuvre: 'lane_left' }),
         mode({ manoeuvre: 'straight', stopAt: 3 }),
       ),
-    ).toEqual(['Turns left', 'To the left lane', 'Stops']);
+    ).toEqual(['Turns left', 'Changes lane left', 'Stops']);
   });
 
   it('omit what all have in common', () => {
@@ -261,7 +263,7 @@ describe('names', () => {
   it('omit a relation that one of them has not', () => {
     const same = () => ({ manoeuvre: 'straight' as const, relations: [relation('gives_way_to', '17')] });
     const list = names(mode(same()), mode({ ...same(), speed: 6 }), mode({ relations: [relation('before', '2')] }));
-    expect(list).toEqual(['Straight on', 'Straight on, slower', 'Straight on']);
+    expect(list).toEqual(['Straight on', 'Straight on, slower', 'Straight on, almost identical']);
   });
 
   it('have metres in place of a lane on whose line it ends', () => {
@@ -354,7 +356,7 @@ describe('letters and ranks', () => {
     expect(whyNotLikeliest(f, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
     expect(whyNotLikeliest(f, 2, nameOf)).toBe('C is shown: A hits Car 2; B has a higher total cost');
     const alike = { ...f, modes: f.modes.map((m) => ({ ...m, about: f.modes[2].about })) };
-    expect(whyNotLikeliest(alike, 1, nameOf)).toBe('B is shown: lower total cost than A, the likeliest');
+    expect(whyNotLikeliest(alike, 1, nameOf)).toBe('B is shown: lower total cost than A, the most likely');
     expect(whyAnother(f, 0, 1, nameOf)).toBe('B is shown: A hits Car 2');
     expect(whyAnother(f, 3, 4, nameOf)).toBe('E is shown: A hits Car 2; B to D cross the median');
     expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: A hits Car 2; C is less likely');
@@ -464,7 +466,7 @@ describe('events', () => {
       readEvents(scene, set({ futures: new Map(), driving, score: { ...score, nearMisses: [{ ...near, inLog }] } }));
     expect(events()[0]).toMatchObject({ inLog: false });
     expect(summary(events())).toBe('1 near miss');
-    expect(events(true)[0]).toMatchObject({ inLog: true, words: 'Near miss, 0.6 m · in the log' });
+    expect(events(true)[0]).toMatchObject({ inLog: true, words: 'Near miss, 0.6 m · in the recording' });
     expect([counted(events(true)), summary(events(true))]).toEqual([[], 'No collisions, no near misses']);
   });
 });

@@ -25,9 +25,7 @@ journeys('kerbs', (stage) => {
     const behind = async () => distance(await e.goal(), across) * zoom;
 
     await e.drag(await flag(car.end), await flag(across));
-    await e.until(() =>
-      document.querySelector('.helpbar')?.textContent.includes('while a kerb or median is in the way'),
-    );
+    await e.until(() => document.querySelector('.helpbar')?.textContent.includes('stops at the kerb or median'));
     // The panel shows the flag's place a moment later than the picture.
     await e.settled();
     assert.ok(Math.abs((await behind()) - LAG_PX) < ROUNDING_PX, `${await behind()} px behind the hand`);

@@ -2,6 +2,7 @@
 // when the other one moves.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
+import { carOnTheMove } from '../../support/casting.js';
 import { distance } from '../../support/editor.js';
 import { journeys } from '../../support/journey.js';
 import { along, lanesBeside, openEmpty } from '../../support/maps.js';
@@ -127,7 +128,7 @@ journeys('goals relative to another road user', (stage) => {
     await e.settled();
     await e.choose(second.id);
     assert.equal(await e.page.inputValue(FIELD), said);
-    await e.page.getByRole('button', { name: 'Keep the place, end the relation' }).click();
+    await e.page.getByRole('button', { name: 'Keep the position, end the relation' }).click();
     await e.settled();
     assert.equal(await e.shows(FIELD), false, 'a goal with a place of its own has the field under More fields');
     assert.ok(distance(before, await e.goal()) < 0.3, 'the goal stays where it was');
@@ -154,6 +155,24 @@ journeys('goals relative to another road user', (stage) => {
     await e.key('Control+z');
     await e.settled();
     assert.equal(await offer.count(), 0, 'an undo offers nothing');
+  });
+
+  it('a distance along the lane is typed in place of a coordinate', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    const start = await e.pose('Start');
+    const ahead = ({ x, y }) => (x - start.x) * Math.cos(start.heading) + (y - start.y) * Math.sin(start.heading);
+    await e.type('goal-pos', '20 m ahead');
+    assert.ok(Math.abs(distance(await e.goal(), start) - 20) < 0.5 && ahead(await e.goal()) > 19);
+    await e.type('goal-pos', '5 m back');
+    assert.ok(Math.abs(ahead(await e.goal()) + 5) < 0.5);
+    await e.type('goal-pos', '900 m ahead');
+    assert.match(await e.text('.field .why'), /^The lane ends after \d+ m$/);
+    // The page's own chord, and not the history of the browser; typed text is not lost.
+    await e.key('Control+h');
+    await e.page.waitForSelector('.history');
   });
 
   it('a car reaches a place after another one', { timeout: 90_000 }, async () => {

@@ -68,13 +68,11 @@ journeys('keeping', (stage) => {
       assert.equal(await again.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled'), 'true');
       // Generate is a step like any other.
       await again.page.locator('[data-action="generate"]').click();
-      await again.until(() => /All road users generated again/.test(document.querySelector('.toast')?.textContent));
+      await again.until(() => /All road users replanned/.test(document.querySelector('.toast')?.textContent));
       await again.settled();
       assert.equal(again.wire.last().body.agents, 'all');
       await again.page.locator('.toast [data-action="undo"]').click();
-      await again.until(() =>
-        /Undone: All road users generated again/.test(document.querySelector('.toast')?.textContent),
-      );
+      await again.until(() => /Undone: All road users replanned/.test(document.querySelector('.toast')?.textContent));
       const mark = again.wire.asked.length;
       await again.page.locator('[data-action="redo"]').first().click();
       await again.settled();
@@ -144,6 +142,28 @@ journeys('keeping', (stage) => {
     );
     assert.equal(kept.length, 1);
     assert.match(kept[0], new RegExp(`^Goal time of ${car.name} changed to [\\d.]+ s$`));
+  });
+
+  it('undoes in a saved copy what was done in the example', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    for (const time of ['8.0', '7.0']) await e.type('goal-time', time);
+    await e.page.evaluate(() => document.activeElement?.blur?.());
+    await e.key('Control+s');
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    const name = await e.page.inputValue('.title input');
+    assert.match(name, /, edited/);
+    assert.equal(await e.page.inputValue('[data-field="goal-time"]'), '7.0');
+    await undo(e);
+    await shows(e, '8.0');
+    await undo(e);
+    await shows(e, '9.0');
+    assert.equal(await e.page.locator('[data-action="undo"]').first().isDisabled(), true);
+    await e.key('Control+y');
+    await shows(e, '8.0');
+    assert.equal(await e.page.inputValue('.title input'), name);
   });
 
   it(

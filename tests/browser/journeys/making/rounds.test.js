@@ -28,6 +28,9 @@ async function open(e) {
 
 async function next(e) {
   await e.key('Enter');
+  await e.frames(2);
+  // The round of a whole scene plans everybody six times.
+  await e.page.waitForSelector('main.stage[aria-busy="false"]', { timeout: 60_000 });
   await e.settled();
 }
 

@@ -4,11 +4,14 @@ import { it } from 'node:test';
 import { controlsInSight, underLabels } from '../../support/calm.js';
 import { carOnTheMove } from '../../support/casting.js';
 import { devices } from '../../support/devices.js';
+import { Fingers } from '../../support/fingers.js';
 import { journeys } from '../../support/journey.js';
 
 const MOST = { first: 30, listsClosed: 20, selected: 45, released: 45, phone: 9, phoneSelected: 21 };
 /** Of the road's pixels. */
 const MOST_COVERED = 0.04;
+/** Height of the picture above the half-open sheet of a phone. */
+const PHONE_ROAD_PX = 300;
 
 const atMost = async (e, state) => {
   const all = await controlsInSight(e.page);
@@ -16,9 +19,15 @@ const atMost = async (e, state) => {
 };
 
 /** The part of the picture without cards over it. */
-async function picture(e) {
+async function picture(e, height = 500) {
   const { x, y, width } = await e.page.locator('main.stage').boundingBox();
-  return e.page.screenshot({ clip: { x: x + 70, y: y + 60, width: width - 140, height: 500 } });
+  return e.page.screenshot({ clip: { x: x + 70, y: y + 60, width: width - 140, height } });
+}
+
+async function fewLabels(page, empty, labelled, leastRoad) {
+  const { all, share } = await underLabels(page, empty, labelled);
+  assert.ok(all > leastRoad, `${all} pixels of road`);
+  assert.ok(share <= MOST_COVERED, `${(100 * share).toFixed(1)} % of the road is under labels`);
 }
 
 journeys('a calm page', (stage) => {
@@ -38,9 +47,7 @@ journeys('a calm page', (stage) => {
     await e.page.mouse.move(700, 120);
     await e.frames(2);
     await atMost(e, 'selected');
-    const { all, share } = await underLabels(e.page, empty, await picture(e));
-    assert.ok(all > 50_000, `${all} pixels of road`);
-    assert.ok(share <= MOST_COVERED, `${(100 * share).toFixed(1)} % of the road is under labels`);
+    await fewLabels(e.page, empty, await picture(e), 50_000);
     const flag = [car.to[0] + 9, car.to[1] - 26];
     await e.drag(flag, [flag[0] + (car.from[0] - car.to[0]) / 3, flag[1] + (car.from[1] - car.to[1]) / 3], {
       moves: 6,
@@ -52,11 +59,23 @@ journeys('a calm page', (stage) => {
 
   it('shows no more on a phone than before', { timeout: 60_000 }, async () => {
     const e = await stage.open(devices.phone);
-    await e.settled();
+    // In the first seconds, which play automatically, the car leaves the place that is tapped.
+    await e.begin();
     await atMost(e, 'phone');
     const car = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.speed > 3);
     await e.choose(car.id);
     await atMost(e, 'phoneSelected');
+    const { x, y } = await e.pose('Start');
+    await e.letGo();
+    // Now the car is in sight: a tap does not move the picture.
+    const at = await e.at(x, y);
+    const empty = await picture(e, PHONE_ROAD_PX);
+    await new Fingers(e).tap(at);
+    await e.page.waitForSelector('.fu');
+    await e.settled();
+    await e.frames(2);
+    assert.deepEqual(await e.at(x, y), at);
+    await fewLabels(e.page, empty, await picture(e, PHONE_ROAD_PX), 50_000);
   });
 
   it('answers the keys that find things in other programs', { timeout: 60_000 }, async () => {
@@ -86,6 +105,42 @@ journeys('a calm page', (stage) => {
     const before = await zoom();
     await e.key('Control++');
     await e.until((was) => document.querySelector('.zoomnum').textContent !== was, before);
+  });
+
+  it('says where keys without a meaning here have one', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    for (const [key, name] of [
+      ['s', 'Star variant'],
+      ['j', 'Reject card'],
+      ['c', 'Place a car'],
+      ['q', 'Q'],
+      ['Control+g', 'Ctrl G'],
+    ]) {
+      await e.key(key);
+      await e.until(
+        (said) => document.querySelector('.toast')?.textContent.startsWith(`${said}: not available here`),
+        name,
+      );
+    }
+  });
+
+  it('leaves half of a low page to the road, and shows the curves on request', { timeout: 60_000 }, async () => {
+    const e = await stage.open({ viewport: { width: 1000, height: 700 } });
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    const { y } = await e.page.locator('.sheet').boundingBox();
+    const { top } = await e.page.locator('main.stage').evaluate((el) => el.getBoundingClientRect());
+    assert.ok(y - top >= 350, `${y - top} px of road`);
+    for (const letter of 'ABCDEF') {
+      const row = await e.page.locator(`.fu[data-future="${letter}"]`).boundingBox();
+      assert.ok(row.y + row.height < 700 - 52, `${letter} is in sight`);
+    }
+    assert.equal(await e.shows('.plot'), false);
+    await e.page.evaluate(() => document.activeElement?.blur?.());
+    await e.key('t');
+    assert.equal(await e.shows('.plot'), true);
   });
 
   it(

@@ -1,4 +1,5 @@
 // All overlays of the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
+import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { typeOfKind } from '../../model/base/kinds';
 import { placedBy } from '../../actions/place';
@@ -11,14 +12,12 @@ import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Later } from '../later';
 import { Banner } from './banner';
-import { Compass } from './compass';
 import { HoverCard } from './hover-card';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
-import { LoupeWords } from './loupe-words';
+import { viewTick } from './view-tick';
 import { Thumb } from './thumb';
 import { Toast } from './toast';
-import { WayBack } from './way-back';
 import { lengthUnit } from '../../model/base/units';
 import { TEXTS } from '../../texts/desk/hud';
 
@@ -30,16 +29,20 @@ export function Hud() {
   const { editor, form, ui, placement } = c;
   const shift = ui.drawer.value ? 'shift' : '';
   const driving = useComputed(() => c.driving.isOn.value).value;
+  const following = useComputed(() => !!c.following.run.value?.isOn.value).value;
   const filling = useComputed(() => c.filling.wish.value !== null).value;
   const coached = useComputed(() => ui.coach.value > 0).value;
   const placing = useComputed(() => {
     const kind = placedBy(c);
     return kind && placement.choice(kind).spread;
   }).value;
+  const isTurned = useComputed(() => (void viewTick.value, c.stage.view.turn !== 0)).value;
+  /** A drag of the compass passes north, too: once shown, it decides itself. */
+  const turned = useRef(false);
+  turned.current ||= isTurned;
   return (
     <div class="hud">
       {form.small.value ? <Thumb /> : <Rail />}
-      <LoupeWords />
       <div class="tr">
         <div class="card chipbar">
           <MenuButton name="layers" icon="down" label={TEXTS.allLayers}>
@@ -56,6 +59,8 @@ export function Hud() {
       </div>
       {driving ? (
         <Later part="drive" />
+      ) : following ? (
+        <Later part="follow" />
       ) : editor.drag.active.value ? (
         <DragHelp />
       ) : placing ? (
@@ -63,11 +68,11 @@ export function Hud() {
       ) : (
         <ZoomBar />
       )}
-      <Compass />
+      {turned.current ? <Later part="compass" /> : null}
       {placing ? <Later part="place" /> : null}
       {filling ? <Later part="fill" /> : null}
       <Later part="empty scene" />
-      <WayBack />
+      <Later part="way back" />
       {coached ? <Later part="hint" /> : null}
       <Toast />
       <Banner />
@@ -108,11 +113,11 @@ const TIPS = {
   ],
   heading: [
     ['Shift', TEXTS.at15Steps],
-    ['Alt', 'fine'],
+    ['Alt', TEXTS.fineSteps],
   ],
   speed: [
     ['Shift', TEXTS.at10KmHSteps],
-    ['Alt', 'fine'],
+    ['Alt', TEXTS.fineSteps],
   ],
   time: [['Shift', TEXTS.wholeSeconds]],
   via: [['Alt', TEXTS.noSnapping]],
@@ -122,7 +127,7 @@ const TIPS = {
 } as const;
 
 const AT_KERB = [
-  ['Alt', 'passes'],
+  ['Alt', TEXTS.acrossTheKerb],
   ['Shift', TEXTS.alongTheLane],
 ] as const;
 

@@ -2,7 +2,7 @@
 import { useComputed } from '@preact/signals';
 import { actionOf, perform } from '../../actions/registry';
 import { snapToNearest } from '../../edit/moves/moves';
-import { moreTime, remedies } from '../../edit/moves/remedies';
+import { lessTime, moreTime, remedies } from '../../edit/moves/remedies';
 import { leaveToCross, roadWay } from '../../edit/moves/ways-out';
 import { seconds } from '../../model/base/units';
 import type { Command } from '../../model/document/commands';
@@ -28,7 +28,7 @@ export function Hint({ agent }: { agent: LiveAgent }) {
           {v.words ? <div class="tx">{v.words}</div> : null}
         </div>
       </div>
-      <MoreTime agent={agent} />
+      <OtherTime agent={agent} />
       <WaysOut agent={agent} />
       {v.remedies ? <Remedies agent={agent} /> : null}
       {v.snap ? <SnapButton agent={agent} /> : null}
@@ -52,9 +52,9 @@ function Title({ verdict: { title, at } }: { verdict: AgentVerdict }) {
 }
 
 /** Before all else: without time the others only move the goal or break rules. */
-function MoreTime({ agent }: { agent: LiveAgent }) {
+function OtherTime({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const remedy = useComputed(() => moreTime(editor, agent.value)).value;
+  const remedy = useComputed(() => moreTime(editor, agent.value) ?? lessTime(editor, agent.value)).value;
   if (!remedy) return null;
   return (
     <div class="stack">

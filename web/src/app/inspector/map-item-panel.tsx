@@ -7,6 +7,7 @@ import { placeOfItem } from '../../edit/gestures/on-the-map';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { capitalised } from '../../texts/language';
 import { TEXTS } from '../../texts/panels/map-item';
 
 const ICONS = { signal: 'clock', 'stop-sign': 'mark-rule', crosswalk: 'pedestrian', lane: 'road' } as const;
@@ -25,7 +26,7 @@ export default function MapItemPanel() {
         </div>
         <div class="grow">
           <h2>{TEXTS.kinds[item.kind]}</h2>
-          <p>{placeOfItem(scene, item)}</p>
+          <p>{capitalised(placeOfItem(scene, item))}</p>
         </div>
         <button
           type="button"

@@ -13,7 +13,9 @@ import type { HandleName } from '../../edit/session/drag';
 import { goalTime, isGoalOfLog, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves/moves';
 import { noteOn, setKind } from '../../edit/moves/several';
 import { laneWords } from '../../edit/moves/snap';
+import { typedPlace } from '../../edit/moves/typed-place';
 import { leaveGiven } from '../../edit/moves/ways-out';
+import { relationCommand } from '../../edit/tools/relations/typed-relation';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
@@ -256,6 +258,19 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
     const p = shown();
     if (p) run({ pos: Object.freeze(axis ? [p.x, v] : [v, p.y]) as Vec }, live);
   };
+  const words = (text: string): true | string | null => {
+    const a = props.agent.peek();
+    const place = typedPlace(editor, a, text);
+    if (typeof place === 'string') return place;
+    if (place) {
+      run(place);
+      return true;
+    }
+    const related = props.part === 'goal' && relationCommand(editor, a, text.trim());
+    if (!related || typeof related === 'string') return null;
+    editor.commits.run(related);
+    return true;
+  };
   return (
     <NumberField
       label={TEXTS.inMetres(word, name)}
@@ -270,6 +285,7 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
       free={free}
       live={() => dragged('body')}
       set={set}
+      words={words}
       onFocus={focused('pos')}
     />
   );

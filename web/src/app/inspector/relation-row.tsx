@@ -3,8 +3,8 @@ import { useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import { nameIn, type Agent } from '../../model/document/scene';
 import { relationWords } from '../../model/words/relation-words';
-import { endRelation, relate } from '../../edit/moves/relating';
-import { readRelation } from '../../edit/tools/relations/typed-relation';
+import { endRelation } from '../../edit/moves/relating';
+import { otherName, relationCommand } from '../../edit/tools/relations/typed-relation';
 import { useApp } from '../parts/app-context';
 import { titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -29,6 +29,7 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
   };
   const shown = useComputed(() => inWords(agent.value));
   const text = useComputed(() => typed.value ?? shown.value);
+  const example = useComputed(() => TEXTS.example(otherName(editor.scene.value!, agent.value)));
   const bad = useComputed(() => why.value !== null);
   const isSet = useComputed(() => agent.value.goal.relation !== undefined).value;
   const reset = () => {
@@ -41,12 +42,12 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
       editor.commits.run(endRelation(editor, a));
       return reset();
     }
-    const read = readRelation(words, editor.scene.peek()!, a);
-    const { relation, time } = read.why === undefined ? read : { relation: null, time: null };
-    const command = relation && relate(editor, a, relation, time, words);
-    why.value = read.why ?? (command ? null : TEXTS.setPlace);
-    if (!command) return;
-    editor.commits.run(command);
+    const made = relationCommand(editor, a, words);
+    if (typeof made === 'string') {
+      why.value = made;
+      return;
+    }
+    editor.commits.run(made);
     reset();
   };
   return (
@@ -61,7 +62,7 @@ export function RelationRow({ agent }: { agent: LiveAgent }) {
             data-text="relation"
             aria-label={TEXTS.goalRelativeTo}
             aria-invalid={bad}
-            placeholder={TEXTS.example}
+            placeholder={example}
             maxlength={MOST_CHARACTERS}
             spellcheck={false}
             value={text}

@@ -13,7 +13,7 @@ import { THRESHOLDS } from '../../model/base/domain';
 import { accelerationUnit, lengthText, lengthUnit, num, seconds, type Quantity } from '../../model/base/units';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';
-import { TEXTS } from '../../texts/panels/thresholds';
+import { TEXTS } from '../../texts/panels/thresholds-section';
 
 const QUANTITY: Readonly<Record<ThresholdName, Quantity>> = {
   gap_m: 'length',

@@ -2,7 +2,8 @@
 import { num } from '../../model/base/units';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
-import type { Link, SharedParts } from '../../edit/document/sharing';
+import type { SharedParts } from '../../edit/document/shared-parts';
+import type { Link } from '../../edit/document/sharing';
 import { MOST_LINK_BYTES } from '../../edit/document/share-link';
 import type { SceneListItem, SceneShare } from '../../net/types';
 import { download } from '../../edit/tools/outward/download';

@@ -32,6 +32,8 @@ export interface NumberFieldProps {
   set: (value: number, live?: boolean) => void;
   /** The accepted range, in the shown unit; values outside are refused. */
   range?: () => readonly [min: number, max: number];
+  /** Takes a text that is no number: true if it was applied, a sentence if it is refused, null if unknown. */
+  words?: (text: string) => true | string | null;
   /** Is the value free? */
   free?: () => boolean;
   /** Is its handle being dragged? */
@@ -103,7 +105,8 @@ function useTyped(p: NumberFieldProps) {
       if (!typed.current) return true;
       const read = text === p.text() ? undefined : readTyped(text, p.quantity());
       const v = read?.(p.value() ?? 0);
-      bad.value = read === null ? noNumber(text) : v === undefined ? null : outside(v, p);
+      const why = read === null ? (p.words?.(text) ?? noNumber(text)) : v === undefined ? null : outside(v, p);
+      bad.value = why === true ? null : why;
       if (bad.value !== null) return false;
       if (v !== undefined) {
         setTyped(false);

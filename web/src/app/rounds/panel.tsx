@@ -11,6 +11,7 @@ import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/rounds.css';
 import { capitalised } from '../../texts/language';
+import { isSure } from './sure';
 import { TEXTS } from '../../texts/panels/rounds-panel';
 
 export default function RoundsPanel() {
@@ -94,15 +95,21 @@ function countWords(of: readonly CardVerdict[]): string {
 function Wishes({ subject }: RoundProps) {
   const { rounds } = useApp();
   const all = rounds.wished.value;
+  const unsure = all.filter((w) => !isSure(w));
+  const rows = (of: readonly Wished[]) => of.map((w) => <WishRow key={wishKey(w.wish)} wished={w} subject={subject} />);
   return (
     <section class="sect wishes">
       <h3>
         {TEXTS.learnedPreferences}
         {all.some((w) => w.learned) ? <small>{TEXTS.strength}</small> : null}
       </h3>
-      {all.map((w) => (
-        <WishRow key={wishKey(w.wish)} wished={w} subject={subject} />
-      ))}
+      {rows(all.filter(isSure))}
+      {unsure.length ? (
+        <details>
+          <summary>{TEXTS.weakOnes(unsure.length)}</summary>
+          {rows(unsure)}
+        </details>
+      ) : null}
       {all.length ? null : <p class="mut">{TEXTS.noneYetTheyCome}</p>}
       <AddWish />
     </section>
@@ -173,7 +180,7 @@ function Apart({ subject }: RoundProps) {
   const hand = deck.hand.value;
   if (!hand) return null;
   const answers = earlierAnswers(subject.feedback, hand.asked);
-  const torn = rounds.wished.value.flatMap((w) => {
+  const torn = rounds.wished.value.filter(isSure).flatMap((w) => {
     const against = (w.learned?.against ?? []).flatMap((i) => answers[i] ?? []);
     return against.length ? [{ w, against }] : [];
   });

@@ -13,6 +13,7 @@ import { Icon } from '../parts/icons';
 import { CardView } from './card';
 import '../../styles/variants.css';
 import '../../styles/rounds.css';
+import { isSure } from './sure';
 import { TEXTS } from '../../texts/panels/rounds-panel';
 
 /** Subject of the cards. */
@@ -146,7 +147,9 @@ function picturesOf(scene: Scene, motion: MotionSet, hand: Hand): Pictured[] {
 
 function Learnt() {
   const { rounds } = useApp();
-  const all = rounds.wished.value;
+  const wished = rounds.wished.value;
+  const sure = wished.filter(isSure);
+  const all = sure.length ? sure : wished;
   return (
     <footer>
       <span class="lab">{TEXTS.learnt}</span>

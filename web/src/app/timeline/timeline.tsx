@@ -49,9 +49,11 @@ export function Timeline() {
 }
 
 function Clock() {
-  const { editor } = useApp();
-  const now = useComputed(() => `${num(editor.playhead.time.value, 1)} s `);
-  const end = useComputed(() => `/ ${num(editor.resting.value?.duration ?? 9, 1)} s`);
+  const { editor, following } = useApp();
+  // A run that is followed may outlast its scene.
+  const run = useComputed(() => following.run.value?.time.value ?? 0);
+  const now = useComputed(() => `${num(run.value || editor.playhead.time.value, 1)} s `);
+  const end = useComputed(() => (run.value ? '' : `/ ${num(editor.resting.value?.duration ?? 9, 1)} s`));
   return (
     <span class="tm">
       {now}

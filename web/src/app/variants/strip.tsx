@@ -46,20 +46,22 @@ export default function Strip() {
         <h2>{TEXTS.variants}</h2>
         <About />
         <span class="grow" />
-        <div class="seg" role="radiogroup" aria-label={TEXTS.whichVariants}>
-          {FILTERS.map(([id, text]) => (
-            <button
-              key={id}
-              type="button"
-              role="radio"
-              aria-checked={variants.filter.value === id}
-              class={`btn ${variants.filter.value === id ? 'on' : ''}`}
-              onClick={() => variants.setFilter(id)}
-            >
-              {text} {countOf(all, id)}
-            </button>
-          ))}
-        </div>
+        {making ? null : (
+          <div class="seg" role="radiogroup" aria-label={TEXTS.whichVariants}>
+            {FILTERS.map(([id, text]) => (
+              <button
+                key={id}
+                type="button"
+                role="radio"
+                aria-checked={variants.filter.value === id}
+                class={`btn ${variants.filter.value === id ? 'on' : ''}`}
+                onClick={() => variants.setFilter(id)}
+              >
+                {text} {countOf(all, id)}
+              </button>
+            ))}
+          </div>
+        )}
         <ActionButton id="compare-variants" size={16}>
           {TEXTS.compareTwo}
         </ActionButton>

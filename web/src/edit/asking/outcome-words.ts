@@ -7,6 +7,7 @@ import { num, seconds } from '../../model/base/units';
 import { headline } from '../../model/words/verdict-words';
 import type { Step } from '../document/step';
 import type { Editor } from '../session/editor';
+import { changedBy } from './request-for-change';
 import { TEXTS } from '../../texts/editing/generation';
 
 /** `Goal of Car 4 moved. 2 others changed.` "No other agent is affected" is omitted beside a collision. */
@@ -18,14 +19,14 @@ export function outcome(
 ): string {
   const n = changes.length;
   const hits = counted(events).filter((e) => e.kind === 'collision');
-  const own = hits.find((e) => e.a.id === step.agent || e.b?.id === step.agent);
-  const other = own?.a.id === step.agent ? own?.b : own?.a;
+  const isChanged = (id?: string): boolean => id !== undefined && [...changedBy(step)].includes(id);
+  const own = hits.find((e) => isChanged(e.a.id) || isChanged(e.b?.id));
+  const other = isChanged(own?.a.id) ? own?.b : own?.a;
   const hit = own && other ? TEXTS.collisionWith(other.name, seconds(own.time)) : '';
-  if (step.several && n > 0) return TEXTS.othersChanged(n, step.name);
-  if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
-  const alone = scene.agents.size < 2;
-  if (n === 0) return `${step.name}.${hit || (hits.length || alone ? '' : TEXTS.noOtherAffected)}`;
-  return TEXTS.othersChangedAndHit(n, step.name, hit);
+  const answers = step.agent && scene.others === 'react';
+  if (n > 0 && (step.several || answers)) return TEXTS.othersChangedAndHit(n, step.name, hit);
+  const isSilent = !answers || hits.length > 0 || scene.agents.size < 2;
+  return `${step.name}.${isSilent ? hit : TEXTS.noOtherAffected}`;
 }
 
 /** The same, with the first affected road user and its reaction. */

@@ -111,7 +111,7 @@ export class Journal {
   /** A step is stored. */
   readonly stored = new Emitter();
 
-  constructor(private readonly store: StepStore) {}
+  constructor(readonly store: StepStore) {}
 
   async read(scene: string): Promise<KeptScene | null> {
     try {

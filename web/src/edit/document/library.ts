@@ -45,7 +45,7 @@ export class Library {
 
   /** Why the last scene could not be opened. */
   readonly openError: ReadonlySignal<string | null> = this.#openError;
-  /** Another scene is shown; `again` when it is a newer version of the same one. */
+  /** Another scene is shown; `again` when it is a newer version or a copy of the one before. */
   readonly opened = new Emitter<[scene: Scene, again: boolean]>();
   /** Requests the missing answers of the shown scene. */
   #ask: ((missing: Missing) => void) | null = null;
@@ -75,11 +75,11 @@ export class Library {
     return this.session.document.scene.peek()?.id === id;
   }
 
-  async open(id: string): Promise<void> {
+  async open(id: string, again = false): Promise<void> {
     await this.written(id);
     this.#openError.value = null;
     try {
-      await this.#bring(id, () => this.#fetch(id), false);
+      await this.#bring(id, () => this.#fetch(id), again);
     } catch (e) {
       this.#failed(e);
     }

@@ -4,6 +4,7 @@ import { rename } from '../../model/document/commands';
 import { isMapRef, type SceneJson } from '../../model/document/scene-json';
 import { Refused, type Client } from '../../net/client';
 import type { SceneShare } from '../../net/types';
+import { carriedSteps, carrySteps } from './carried-steps';
 import type { Journal } from './journal';
 import type { Library } from './library';
 import type { Saving } from './saving';
@@ -61,15 +62,19 @@ export class SceneCare {
     if (!body) return Promise.resolve();
     const parent = this.file.stored ? (this.file.raw?.id ?? null) : null;
     const said = TEXTS.savedAs(name);
-    return this.#create({ ...body, meta: { ...body.meta, parent_id: parent } }, name, said);
+    return this.#create({ ...body, meta: { ...body.meta, parent_id: parent } }, name, said, true);
   }
 
-  async #create(body: SceneJson, name: string, said: string): Promise<void> {
+  /** `isCopy`: view, selection, time and steps stay. */
+  async #create(body: SceneJson, name: string, said: string, isCopy = false): Promise<void> {
     const { session } = this;
+    const { history } = session.document;
+    const steps = isCopy && history ? carriedSteps(history, name) : null;
     try {
-      const { id } = await this.client.create({ ...body, id: undefined, name });
+      const { id, etag } = await this.client.create({ ...body, id: undefined, name });
+      if (steps && etag) await carrySteps(this.journal.store, id, steps, etag);
       await this.list.refresh().catch(() => undefined);
-      await this.library.open(id);
+      await this.library.open(id, isCopy);
       session.notices.show({ text: said });
     } catch (e) {
       this.#failed(TEXTS.notSaved, e);

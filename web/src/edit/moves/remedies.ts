@@ -2,6 +2,7 @@
 import { goalStep, inOneStep, setLength, type Command } from '../../model/document/commands';
 import { leavesRoad, type FaultKind } from '../../model/document/future-facts';
 import { limitsOf } from '../../model/base/domain';
+import { poseAtStep, STEP_S } from '../../model/base/motion';
 import { drivingTime } from '../../model/physics/driving-time';
 import { pathTo, shortfall } from '../../model/physics/reach';
 import { localReach } from '../../model/words/reach-words';
@@ -53,6 +54,43 @@ export function moreTime(e: Editor, a: Agent): Remedy | null {
     icon: 'clock',
     primary: true,
     command: longer ? inOneStep(setLength(scene, length), later, later.name) : later,
+  };
+}
+
+/** A drop below both the first and the last speed that a driver would not choose, m/s. */
+const DROP_MPS = 5;
+/** Below this it stops, and not for the time, m/s. */
+const STANDS_MPS = 1;
+
+/**
+ * An earlier goal, where the shown future has no other fault and yields to nobody, but slows on the way only because
+ * the goal allows too much time.
+ */
+export function lessTime(e: Editor, a: Agent): Remedy | null {
+  const start = startPose(a);
+  const shown = verdictsHold(e) && !e.drag.active.value ? e.reading.futures.value?.modes[e.reading.chosen.value] : null;
+  if (!start || !a.goal.pos || !shown?.about || shown.about.relations.length) return null;
+  if (shown.about.faults.some((f) => f.kind !== 'harsh_braking')) return null;
+  const { motion } = shown;
+  const end = Math.round(a.goal.time / STEP_S) - motion.first;
+  const goal = poseAtStep(motion, motion.first + end);
+  if (!goal) return null;
+  const least = Math.min(...motion.speed.subarray(0, end + 1));
+  if (least < STANDS_MPS || Math.min(start.speed, goal.speed) - least < DROP_MPS) return null;
+  const way = pathTo(e.scene.value!.map, a, start, { ...goal, x: a.goal.pos[0], y: a.goal.pos[1] });
+  // Bends are taken no faster than usual.
+  const needs = Math.max(
+    drivingTime(a, way, start.speed, goal.speed),
+    (2 * way.line.length) / (start.speed + goal.speed),
+  );
+  const time = Math.ceil(needs * STEPS_PER_S) / STEPS_PER_S;
+  if (time + LEAST_MORE_S > a.goal.time) return null;
+  return {
+    label: TEXTS.reachItIn(seconds(time)),
+    note: TEXTS.insteadOfSlowing(speedLabel(least, e.view.unitOf(a))),
+    icon: 'clock',
+    primary: false,
+    command: withField(a, 'goal', { time }),
   };
 }
 

@@ -31,6 +31,8 @@ const AGAINST = 2.1;
 const MARGIN_M = 0.2;
 /** A lane that it cannot or may not drive to is as good as one this much further away, metres. */
 const NOT_MINE_M = 1.5;
+/** A lane inside a junction turns off if its heading changes by more, and is left at a larger angle, radians. */
+const TURNS_RAD = 0.35;
 /** Lanes of the start lead this far, metres. */
 const AHEAD_M = 400;
 /** The current lane is preferred by this much, so that the box does not flicker between two. */
@@ -191,11 +193,14 @@ function nameAt(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, head
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
   if (!hit) return namedPlace(TEXTS.offTheLanes);
   if (hit.lane.kind === 'walk') return namedPlace(TEXTS.besideTheRoad);
+  const turns = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > TURNS_RAD;
+  // Who crosses a turn does not turn.
+  if (turns && Math.abs(wrapAngle((heading ?? hit.heading + Math.PI) - hit.heading)) > TURNS_RAD)
+    return namedPlace(TEXTS.insideTheJunction);
   const arm = armLane(map, hit.lane);
   if (arm) return arm;
   const way = compass(hit.heading);
-  const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
-  if (junction) {
+  if (turns) {
     // A bike lane through the junction keeps its name.
     if (hit.lane.kind === 'bike') return namedLane(TEXTS.bound(TEXTS.bikeLane, way));
     return namedPlace(TEXTS.bound(TEXTS.insideTheJunction, way));

@@ -1,4 +1,4 @@
-// Names at the road users that the panel names: the selected one, those that react, and those that a future meets.
+// Names at the road users that the panel names besides the selected one, which has an outline and is the panel's title.
 import type { Pen } from '../../draw/pen';
 import { counted } from '../../model/physics/events';
 import type { Pose } from '../../model/base/geometry';
@@ -55,9 +55,8 @@ export class NamesOverlay {
     for (const id of namedNow(e)) {
       const a = e.scene.value!.agents.get(id)!;
       const p = this.poseNow(a);
-      const isSelected = e.selected.value.includes(id);
-      const isNamed = !isSelected && id !== spoken && namesAll(e, v) && !a.parked && !reacting.includes(id);
-      if (!p || but.includes(id) || isNamed) continue;
+      const isNamed = id !== spoken && namesAll(e, v) && !a.parked && !reacting.includes(id);
+      if (!p || id === e.agent.value?.id || but.includes(id) || isNamed) continue;
       const half = boxOnScreen(v, a, p).h / 2;
       const [l] = sizeOnScreen(a, v.z);
       pill(g, this.labels, ...v.to(p.x, p.y), a.name, {

@@ -232,7 +232,8 @@ export class Overlay {
       const drag = e.drag.info.value?.grip;
       if (drag?.part === 'start' && drag.handle === 'heading')
         tag(g, this.labels, h.knob, `${Math.round((start.heading * 180) / Math.PI)}°`, {});
-      if (!quiet || drag?.handle === 'speed')
+      // Under fingers the picture is small, and the sheet has the speed.
+      if ((!quiet && v.grip === 1) || drag?.handle === 'speed')
         tag(g, this.labels, h.tip, (a.start.speed === null ? '≈ ' : '') + speedLabel(start.speed, unit), {
           tries: [
             [-22, -32],

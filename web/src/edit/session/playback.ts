@@ -42,6 +42,8 @@ export class Playback {
     const { editor } = this;
     const scene = editor.scene.peek();
     if (!editor.playhead.playing.peek() || !scene) return;
+    // What is live has its own time.
+    if (editor.reading.live.isOn.peek()) return editor.playhead.pause();
     const dt = this.last ? Math.min(0.1, (now - this.last) / 1000) : 0;
     this.last = now;
     let t = editor.playhead.time.peek() + dt * editor.playhead.rate.peek();

@@ -43,8 +43,9 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer.
-         *     `failing` lists `experts`, `store`, `queue`, `workers`, `readers` and `data` where they do not.
+         * Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer, and
+         *     a worker is free of calls that have ended, for long calls and for those in the background. `failing` lists those of
+         *     `experts`, `store`, `queue`, `workers`, `readers`, `long-workers`, `background-workers` and `data` that fail.
          */
         get: operations["readyz"];
         put?: never;
@@ -3917,7 +3918,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "step-order" | "too-many-runs" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "too-much-work" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "step-order" | "too-many-runs" | "too-many-requests" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "too-much-work" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -6438,6 +6439,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -6568,6 +6583,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -6695,6 +6724,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -6896,6 +6939,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -7045,6 +7102,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "upgrade-required";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -7286,6 +7357,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -7514,6 +7599,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -7668,6 +7767,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -7807,6 +7920,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -8001,6 +8128,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -8143,6 +8284,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -8270,6 +8425,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -8437,6 +8606,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -8680,6 +8863,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -8907,7 +9104,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description too-many-runs */
+            /** @description too-many-requests, too-many-runs */
             429: {
                 headers: {
                     /** @description seconds until another attempt */
@@ -8917,7 +9114,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "too-many-runs";
+                        code?: "too-many-requests" | "too-many-runs";
                     };
                 };
             };
@@ -9091,6 +9288,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -9230,6 +9441,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -9434,6 +9659,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -9599,6 +9838,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -9770,6 +10023,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -9933,6 +10200,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "upgrade-required";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -10147,6 +10428,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -10311,6 +10606,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -10500,6 +10809,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version" | "idempotency-key-reused";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -10706,6 +11029,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -10962,6 +11299,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -11151,6 +11502,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "precondition-required";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -11397,6 +11762,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -11628,6 +12007,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -11835,6 +12228,20 @@ export interface operations {
                     };
                 };
             };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
+                    };
+                };
+            };
             /** @description headers-too-large */
             431: {
                 headers: {
@@ -12011,6 +12418,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -12234,6 +12655,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };
@@ -12485,6 +12920,20 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "map-too-complex" | "unsupported-version";
+                    };
+                };
+            };
+            /** @description too-many-requests */
+            429: {
+                headers: {
+                    /** @description seconds until another attempt */
+                    "Retry-After"?: number;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "too-many-requests";
                     };
                 };
             };

@@ -1,12 +1,20 @@
 // Names of futures: the manoeuvre, then what visibly tells it from the others with that manoeuvre. Whatever a name says
-// is true of one future and false of the rest; futures that look the same have the same name.
+// is true of one future and false of the rest. Of those that look the same it gives the figure that differs most, or
+// says that they are almost identical.
 import { JUDGING } from '../base/domain';
 import { faultMark, leavesRoad, type Manoeuvre, type Relation } from '../document/future-facts';
 import { endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
-import { TEXTS as KINDS } from '../../texts/scene/kinds';
 import { TEXTS } from '../../texts/scene/names';
 import { manoeuvreOf, type LaneUser, type MovingFuture } from './manoeuvres';
-import { standOf, standTime, traitsOf, type VisibleTrait } from './visible-traits';
+import {
+  SHORTEST_S,
+  standOf,
+  STANDS_MPS,
+  standTime,
+  traitsOf,
+  type TraitsOf,
+  type VisibleTrait,
+} from './visible-traits';
 
 /** Inputs of a name. */
 export interface Nameable extends MovingFuture {
@@ -30,8 +38,8 @@ export interface FutureName {
 /** The road user that a name speaks of; null for a name of the own motion. */
 export const otherNamed = (basis: string | undefined): string | null => /\|\w+?:(.+)$/.exec(basis ?? '')?.[1] ?? null;
 
-/** Letters that fit in a row of the list. */
-const LONGEST = 26;
+/** Letters of a name with another road user that fit in a row of the list. */
+const LONGEST = 38;
 
 const nameless: Naming['nameOf'] = () => null;
 
@@ -53,10 +61,11 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
   const names = [...kept];
   for (const group of groups.values()) {
     // The others differ from the one whose name has no difference.
-    const isPlain = (i: number): boolean => kept[i]?.name === heads[i].forms[0];
-    const rank = (i: number): number => (isPlain(i) ? 0 : standTime(modes[i].motion) < WAITS_S ? 1 : 2);
+    const isPlain = (i: number): boolean => kept[i]?.name === heads[i].words;
+    const rank = (i: number): number => (isPlain(i) ? 0 : standTime(modes[i].motion) < SHORTEST_S ? 1 : 2);
     const all = group.sort((i, k) => rank(i) - rank(k));
-    const list = nameGroup(modes, who, { head: heads[all[0]], all, alone: groups.size === 1 });
+    const taken = kept.flatMap((k) => k?.name ?? []);
+    const list = nameGroup(modes, who, { head: heads[all[0]], all, alone: groups.size === 1, taken });
     for (const i of all) names[i] ??= list.get(i)!;
   }
   return names.map((n) => n!);
@@ -64,11 +73,13 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
 
 // -------------------------------------------------------------- the manoeuvre
 
-/** What a name begins with, the best first, then shorter ones. */
+/** What a name begins with. */
 interface NameHead {
   readonly basis: string;
-  readonly forms: readonly string[];
+  readonly words: string;
   readonly manoeuvre: Manoeuvre | null;
+  /** What can tell it from others; null for one that never moves. */
+  readonly kind: TraitsOf['kind'] | null;
 }
 
 function headsOf(modes: readonly Nameable[], who: Naming): NameHead[] {
@@ -77,12 +88,12 @@ function headsOf(modes: readonly Nameable[], who: Naming): NameHead[] {
   const like = modes.map((m) => !!who.log && isLike(m.motion, who.log));
   const isOnly = (i: number, list: readonly boolean[]): boolean => list[i] && list.filter(Boolean).length === 1;
   return modes.map((m, i) => {
-    const only = isOnly(i, like) ? TEXTS.likeTheLog : leaves && isOnly(i, onRoad) ? TEXTS.byRoad : null;
-    if (only !== null) return { basis: only, forms: [only], manoeuvre: null };
-    const manoeuvre = manoeuvreOf(m, who);
-    if (endsStanding(m, manoeuvre)) return { basis: TEXTS.stops, forms: [TEXTS.stops], manoeuvre: null };
-    const forms = manner(m.motion, manoeuvre, who.onFoot);
-    return { basis: forms[0], forms, manoeuvre };
+    const only = isOnly(i, like) ? TEXTS.asRecorded : leaves && isOnly(i, onRoad) ? TEXTS.staysOnTheRoad : null;
+    if (only !== null) return { basis: only, words: only, manoeuvre: null, kind: 'goes' };
+    const manoeuvre = movesUp(m, who) ? 'stays' : manoeuvreOf(m, who);
+    if (endsStanding(m, manoeuvre)) return { basis: TEXTS.stops, words: TEXTS.stops, manoeuvre: null, kind: 'stops' };
+    const words = manner(m.motion, manoeuvre, who.onFoot);
+    return { basis: words, words, manoeuvre, kind: kindOf(m.motion, manoeuvre) };
   });
 }
 
@@ -112,28 +123,41 @@ function endsStanding({ motion: m }: Nameable, manoeuvre: Manoeuvre): boolean {
   return speed < JUDGING.standing_mps || speed < Math.min(ROLLS_MPS, ROLLS_SHARE * Math.max(...m.speed));
 }
 
+/** A vehicle that stood and moves up by less than its length goes nowhere to the eye, metres. */
+const MOVES_UP_M = 5;
+
+function movesUp(mode: Nameable, who: Naming): boolean {
+  const { motion: m } = mode;
+  if (who.onFoot || Math.abs(m.speed[0]) >= STANDS_MPS || pathLength(m) >= MOVES_UP_M) return false;
+  return manoeuvreOf(mode, who) === 'straight';
+}
+
 /** Smaller movements are invisible, metres. */
 const CREEPS_M = 0.4;
 
-function manner(m: Motion, manoeuvre: Manoeuvre, onFoot: boolean): string[] {
+function kindOf(m: Motion, manoeuvre: Manoeuvre): NameHead['kind'] {
+  return manoeuvre !== 'stays' ? 'goes' : pathLength(m) < CREEPS_M ? null : 'rolls';
+}
+
+function manner(m: Motion, manoeuvre: Manoeuvre, onFoot: boolean): string {
   switch (manoeuvre) {
     case 'left':
-      return [TEXTS.turnsLeft, TEXTS.left];
+      return TEXTS.turnsLeft;
     case 'right':
-      return [TEXTS.turnsRight, TEXTS.right];
+      return TEXTS.turnsRight;
     case 'lane_left':
-      return onFoot ? [TEXTS.bearsLeft] : [TEXTS.toTheLeftLane, TEXTS.leftLane];
+      return onFoot ? TEXTS.bearsLeft : TEXTS.changesLaneLeft;
     case 'lane_right':
-      return onFoot ? [TEXTS.bearsRight] : [TEXTS.toTheRightLane, TEXTS.rightLane];
+      return onFoot ? TEXTS.bearsRight : TEXTS.changesLaneRight;
     case 'turn_round':
-      return [TEXTS.uTurn];
+      return TEXTS.uTurn;
     case 'stays':
-      if (pathLength(m) >= CREEPS_M) return [onFoot ? TEXTS.aStepOrTwo : TEXTS.rollsForward];
-      return [onFoot ? TEXTS.stays : TEXTS.standsStill];
+      if (pathLength(m) < CREEPS_M) return TEXTS.standsStill;
+      return onFoot ? TEXTS.aStepOrTwo : TEXTS.rollsForward;
     case 'reverse':
-      return [TEXTS.backsUp];
+      return TEXTS.reverses;
     case 'straight':
-      return onFoot ? [TEXTS.straight] : [TEXTS.straightOn, TEXTS.straight];
+      return TEXTS.straightOn;
   }
 }
 
@@ -145,6 +169,8 @@ interface NameGroup {
   readonly all: readonly number[];
   /** Have all futures this manoeuvre? */
   readonly alone: boolean;
+  /** Names that futures keep. */
+  readonly taken: readonly string[];
 }
 
 /** Manoeuvres whose relations to others are named: one that stops or turns round is told by that. */
@@ -154,14 +180,14 @@ type Names = Map<number, FutureName>;
 
 function nameGroup(modes: readonly Nameable[], who: Naming, group: NameGroup): Names {
   const { head, all } = group;
-  if (!RELATED.includes(head.manoeuvre)) return byTraits(modes, group);
-  const names = byRelation(modes, who, group) ?? byTraits(modes, group);
+  if (!RELATED.includes(head.manoeuvre)) return byTraits(modes, group, who);
+  const names = byRelation(modes, who, group) ?? byTraits(modes, group, who);
   // The only one that stands is told by whom it lets pass, unless it is the one that the others differ from.
   const standing = all.filter((i) => standTime(modes[i].motion) >= STEP_S);
   const [i] = standing;
   const waits = standing.length === 1 && (i !== all[0] || modes.length === 1) && waitsFor(modes[i], who);
-  const name = waits && withOther(group, TEXTS.waitsFor, who.nameOf(waits.with)!).find((f) => f.length <= LONGEST);
-  if (waits && name) names.set(i, { name, basis: basisOf(group, waits) });
+  const name = waits && withOther(group, WAITS, who.nameOf(waits.with)!);
+  if (waits && name && name.length <= LONGEST) names.set(i, { name, basis: basisOf(group, waits) });
   return names;
 }
 
@@ -175,8 +201,8 @@ function byRelation(modes: readonly Nameable[], who: Naming, group: NameGroup): 
     const names: Names = new Map();
     for (const [order, word] of Object.entries(ORDERS)) {
       const part = all.filter((_, k) => orders[k] === order);
-      const forms = withOther(group, word, other);
-      for (const [i, { name }] of byTraits(modes, { ...group, head: { ...head, forms }, all: part }))
+      const words = withOther(group, word, other);
+      for (const [i, { name }] of byTraits(modes, { ...group, head: { ...head, words }, all: part }, who))
         names.set(i, { name, basis: basisOf(group, relationTo(modes[i], id)!) });
     }
     if ([...names.values()].every(({ name }) => name.length <= LONGEST)) return names;
@@ -190,7 +216,14 @@ const relationTo = ({ about }: Nameable, id: string): Relation | undefined =>
 const basisOf = ({ head, alone }: NameGroup, r: Relation): string =>
   `${alone ? '' : head.manoeuvre}|${r.kind}:${r.with}`;
 
-const ORDERS = { before: TEXTS.before, after: TEXTS.after } as const;
+/** Words of a relation: alone, and after the manoeuvre. */
+type OtherWords = readonly [alone: (name: string) => string, then: (head: string, name: string) => string];
+
+const ORDERS: Readonly<Record<'before' | 'after', OtherWords>> = {
+  before: [TEXTS.before, TEXTS.thenBefore],
+  after: [TEXTS.after, TEXTS.thenAfter],
+};
+const WAITS: OtherWords = [TEXTS.waitsFor, TEXTS.thenWaitsFor];
 
 /** Between the two at the crossing, seconds; less is no order to the eye. */
 const CLEAR_S = 0.8;
@@ -207,54 +240,55 @@ function orderOf(m: Nameable, id: string): keyof typeof ORDERS | null {
 /** Does a future have a fault towards another? */
 const isMet = ({ about }: Nameable, id: string): boolean => !!about?.faults.some((f) => f.with === id);
 
-/** The words of a relation with each form of the other's name, after the manoeuvre if that differs. */
-function withOther({ head, alone }: NameGroup, word: string, name: string): string[] {
-  const words = [...new Set([name, shortName(name)])].map((n) => `${word} ${n}`);
-  return alone ? words : words.map((w) => `${head.forms.at(-1)}, ${lowered(w)}`);
-}
-
-const lowered = (w: string): string => w.charAt(0).toLowerCase() + w.slice(1);
-
-/** A given name with the long word shortened. */
-const shortName = (name: string): string => SHORT.reduce((n, [long, short]) => n.replace(long, short), name);
-const SHORT = [
-  [KINDS.pedestrian, TEXTS.ped],
-  [KINDS.motorcycle, TEXTS.moto],
-  [KINDS.cyclist, TEXTS.cycl],
-] as const;
+/** The words of a relation, after the manoeuvre if that differs. */
+const withOther = ({ head, alone }: NameGroup, [only, then]: OtherWords, name: string): string =>
+  alone ? only(name) : then(head.words, name);
 
 /** Share of the visible difference from which a word for it is true. */
 const SLIGHT = 0.5;
+/** Share of the visible difference from which a figure tells two apart that look the same. */
+const FIGURE = 0.3;
 
-function byTraits(modes: readonly Nameable[], { head, all }: NameGroup): Names {
-  const names: Names = new Map();
-  const traits = traitsOf((i) => modes[i].motion, all);
-  const [own, looks] = lookingAlike(traits, all);
-  const told = tellApart(traits, own);
-  const give = (i: number, end: string): unknown => names.set(i, { name: fit(head.forms, end), basis: head.basis });
-  const offset = ({ values }: VisibleTrait, i: number): number => values.get(i)! - values.get(all[0])!;
-  for (const i of all) give(i, '');
-  for (const [i, trait] of told) {
-    const by = (k: number): number => offset(trait, k);
-    // A single one to this side needs no number.
-    const isOnly = [...told].every(([k, t]) => t === trait && (k === i || by(k) * by(i) <= 0));
-    give(i, isOnly && trait.plain && head.manoeuvre ? trait.plain(by(i)) : trait.words(by(i), i));
-  }
+function byTraits(modes: readonly Nameable[], { head, all, taken }: NameGroup, { onFoot }: Naming): Names {
+  const { kind } = head;
+  const traits = kind ? traitsOf((i) => modes[i].motion, all, { kind, onFoot }) : [];
+  const visible = traits.filter((t) => !t.isFine);
+  const [own, looks] = lookingAlike(visible, all);
+  const told = tellApart(visible, own);
+  const by = (trait: VisibleTrait, i: number): number => trait.values.get(i)! - trait.values.get(all[0])!;
+  const wordsOf = (trait: VisibleTrait, i: number): string => trait.words(by(trait, i), i);
+  const used = new Set([...told].map(([i, trait]) => wordsOf(trait, i)));
   for (const [i, like] of looks) {
-    const trait = told.get(like);
-    names.set(i, names.get(like)!);
-    // Like it, but hardly different from the first in what its name says: named by its own difference.
-    if (!trait || (offset(trait, i) * offset(trait, like) > 0 && apart(trait, i, all[0]) >= SLIGHT)) continue;
-    const [most] = [...traits].sort((t, u) => apart(u, i, all[0]) - apart(t, i, all[0]));
-    give(i, most.words(offset(most, i), i));
+    const asLike = told.get(like);
+    const isSo = asLike && by(asLike, i) * by(asLike, like) > 0 && apart(asLike, i, all[0]) >= SLIGHT;
+    const most = traits.toSorted((t, u) => apart(u, i, like) - apart(t, i, like));
+    const isNew = (t: VisibleTrait): boolean => {
+      const words = wordsOf(t, i);
+      return words !== '' && apart(t, i, like) >= FIGURE && !used.has(words) && !taken.includes(nameOf(head, words));
+    };
+    const trait = [...(isSo ? [asLike] : []), ...most].find(isNew);
+    if (!trait) continue;
+    told.set(i, trait);
+    used.add(wordsOf(trait, i));
+  }
+  const names: Names = new Map();
+  for (const i of all) {
+    const trait = told.get(i);
+    // A single one to this side needs no number.
+    const isOnly =
+      kind !== 'rolls' &&
+      !looks.has(i) &&
+      [...told].every(([k, t]) => k === i || t !== trait || by(t, k) * by(t, i) <= 0);
+    const plain = trait && isOnly && head.manoeuvre && trait.plain?.(by(trait, i));
+    const end = trait ? plain || wordsOf(trait, i) : looks.has(i) ? TEXTS.almostIdentical : '';
+    names.set(i, { name: nameOf(head, end), basis: head.basis });
   }
   return names;
 }
 
-/** The best form that is short enough with its difference, else the shortest. */
-function fit(heads: readonly string[], end: string): string {
-  const all = heads.map((h) => (end ? `${h}, ${end}` : h));
-  return all.find((n) => n.length <= LONGEST) ?? all.at(-1)!;
+function nameOf({ words, kind }: NameHead, end: string): string {
+  if (!end) return words;
+  return `${words}${kind === 'stops' && end !== TEXTS.almostIdentical ? ' ' : ', '}${end}`;
 }
 
 /** Those that differ from each other, and those that look like one of them. */
@@ -296,20 +330,18 @@ function tellApart(traits: readonly VisibleTrait[], all: readonly number[]): Map
 
 /** At most so far from where the other passes does one wait for it, metres. */
 const WAITS_WITHIN_M = 15;
-/** A shorter stand is no waiting, seconds. */
-const WAITS_S = 1;
 
 /** The other that passes close by while it stands, if it stands for that one. */
 function waitsFor(mode: Nameable, who: Naming): Relation | null {
   const { motion: m, about } = mode;
   const stand = standOf(m);
-  if (!stand || standTime(m) < WAITS_S) return null;
+  if (!stand || standTime(m) < SHORTEST_S) return null;
   const [from, to] = stand.map((i) => (m.first + i) * STEP_S);
   const [x, y] = [m.x[stand[1]], m.y[stand[1]]];
   const passes = (r: Relation): boolean => {
     if (r.kind !== 'gives_way_to' || r.gap === null || who.nameOf(r.with) === null || isMet(mode, r.with)) return false;
     const left = r.time - r.gap;
-    return Math.hypot(r.at[0] - x, r.at[1] - y) < WAITS_WITHIN_M && left > from && left < to + WAITS_S;
+    return Math.hypot(r.at[0] - x, r.at[1] - y) < WAITS_WITHIN_M && left > from && left < to + SHORTEST_S;
   };
   return about?.relations.find(passes) ?? null;
 }

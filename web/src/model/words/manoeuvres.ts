@@ -41,7 +41,7 @@ function shapeOf(m: Motion, onFoot: boolean): Manoeuvre {
 }
 
 /** Change of heading, radians; positive to the left. */
-export function totalTurn(m: Motion): number {
+function totalTurn(m: Motion): number {
   let t = 0;
   for (let i = 1; i < m.heading.length; i++) t += wrapAngle(m.heading[i] - m.heading[i - 1]);
   return t;

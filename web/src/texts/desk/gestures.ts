@@ -26,7 +26,7 @@ export const TEXTS = table('gestures', {
   moveThePicture: 'Pan the view',
   orFurtherOn: (far: string) => `, or ${far} ahead`,
   somebody: 'A road user',
-  standsHerePut: (name: string, where: string) => `${name} is here. Place it here anyway${where}?`,
+  standsHerePut: (name: string, where: string) => `${name} is already here. Place one anyway${where}?`,
   furtherOn: 'Place ahead',
   putHere: 'Place here',
   ofFit: (n: number, countWords: string) => `${n} of ${countWords} fit`,

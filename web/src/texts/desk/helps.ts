@@ -2,7 +2,7 @@
 import { table } from '../table';
 
 export const HELPS = table('helps', {
-  itStaysWhile: 'Stays in the view and the list while other futures are replaced; again: unpin',
+  itStaysWhile: 'Keeps this future in the view and the list while others are replaced; press again to unpin',
   thresholdsOfTheScene: 'Thresholds of gap, time to collision, braking and steering in this scene',
   drivesTheSelected:
     'Drives the selected road user with W, A, S, D or the arrow keys while all others react; the motion becomes the recording',
@@ -149,8 +149,9 @@ export const HELPS = table('helps', {
   starredComeFirst: 'Starred variants come first and stay',
   aNameOfYour: 'Your own name; leave empty to name it by its differences',
   removesItFromTheStrip: 'Removes it from the strip; can be undone',
-  pressItOnTwo: 'The two kept variants, or press it on two cards: both in one view, with their differences',
-  aFileEachThose: 'One file each: the kept variants, or all',
+  pressItOnTwo:
+    'Shows two variants in one view, with their differences: the two kept ones, or the two cards where you press it',
+  aFileEachThose: 'One file per variant: the kept ones, or all',
   movesTheRightToTheLeft: 'Moves the right variant to the left',
   goesThroughTheDifferences: 'Goes through the listed differences',
   drawRoundA: 'Draw around an area and preview its traffic before you add it.',

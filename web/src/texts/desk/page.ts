@@ -26,7 +26,7 @@ export const TEXTS = table('page', {
   fileAndSettings: 'File and settings',
   actions: 'Actions',
   more: 'More',
-  generateOptions: 'Options of Generate',
+  generateOptions: 'Generate options',
   waiting: 'Waiting …',
   dragtraffic: (name: string) => `${name}, DragTraffic`,
   dragging: 'Dragging',

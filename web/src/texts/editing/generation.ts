@@ -22,8 +22,6 @@ export const TEXTS = table('generation', {
   keepCurve: 'Keep speed curve',
   curveIsOff: 'The speed curve no longer applies.',
   collisionWith: (other: string, time: string) => ` Collision with ${other} at ${time}.`,
-  othersChanged: (n: number, step: string) =>
-    plural(n, { one: `${step}. ${n} other changed.`, other: `${step}. ${n} others changed.` }),
   noOtherAffected: ' No other road user is affected.',
   othersChangedAndHit: (n: number, step: string, hit: string) =>
     plural(n, { one: `${step}. ${n} other changed.${hit}`, other: `${step}. ${n} others changed.${hit}` }),

@@ -26,6 +26,8 @@ export const TEXTS = table('moves', {
   goalOfMovedTo: (name: string) => `Goal of ${name} moved to the nearest reachable point`,
   leaveTheHeading: 'Leave the heading free',
   anyHeading: 'any heading at the goal',
+  reachItIn: (time: string) => `Reach it in ${time}`,
+  insteadOfSlowing: (speed: string) => `without slowing to ${speed}`,
   allowMoreTime: 'Allow more time',
   sceneOf: (time: string, length: number) => `${time}, scene ${length} s`,
   startFaster: 'Start faster',

@@ -3,14 +3,14 @@ import { table } from '../table';
 export const TEXTS = table('picture', {
   furtherOn: 'further on',
   short: 'short',
-  aside: 'aside',
+  aside: 'to the side',
   byRoad: (distance: string, where: string) => `By road: ${distance} ${where}`,
   armComes: (arm: string, rate: number, now: number, later: number) =>
     `${arm} ${rate}/h · ${now} now${later ? `, ${later} later` : ''}`,
   thePreviewDid: 'The preview did not load. Try again when the network is back.',
   kerb: (radius: string) => `Kerb ${radius}`,
   collision: (title: string) => `Collision · ${title}`,
-  inTheLog: (text: string) => `${text} · in the log`,
+  inTheLog: (text: string) => `${text} · in the recording`,
   goal: (time: string) => `Goal · ${time}`,
   goalFree: 'Goal · free',
   nearestReachable: (gets: string) => `Nearest reachable · ${gets}`,

@@ -32,7 +32,7 @@ export const TEXTS = table('report-page', {
   axesInMetres:
     'Metres and seconds; x east, y north; headings counter-clockwise from the x axis. 0 s is the first step.',
   noEvents: 'No events.',
-  inTheLog: 'in the log',
+  inTheLog: 'in the recording',
   time: 'Time',
   event: 'Event',
   position: (unit: string) => `Position, ${unit}`,

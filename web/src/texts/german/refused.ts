@@ -20,6 +20,7 @@ export const refused: Readonly<Record<string, string>> = {
   cancelled: 'Das wurde abgebrochen.',
   'step-order': 'Dieser Schritt ist nicht der nächste des Laufs.',
   'too-many-runs': 'Auf dem Server ist kein Platz für einen weiteren Lauf.',
+  'too-many-requests': 'Zu viele Anfragen in kurzer Zeit.',
   'stale-etag': 'Die Szene wurde inzwischen anderswo geändert.',
   'body-too-large': 'Die Anfrage ist größer, als der Server annimmt.',
   'decoded-too-large': 'Entpackt ist die Anfrage größer, als der Server annimmt.',

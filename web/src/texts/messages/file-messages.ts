@@ -41,6 +41,24 @@ export const SENTENCES = table('file-messages', {
         one: `The long side of ${v.count} box lies across its motion: length and width may be exchanged`,
         other: `The long sides of ${v.count} boxes lie across their motion: length and width may be exchanged`,
       }),
+    'columns-recognised': (v: Values) =>
+      `The columns are read as those of the data set ${v.sets}; --columns names others`,
+    'agents-table-missing': 'The table of road users is not there, which says their types',
+    'recording-table-missing': 'The table of the recording is not there, which says frame rate, speed limit and place',
+    'rows-in-part': (v: Values) =>
+      `${v.found} rows are more than are read at once; the ${v.kept} rows before ${v.before_s} s are read. "only" in a file of columns chooses another part by time_s or agent_id`,
+    'files-beside': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} file of the same folder is read with the table: ${v.names}`,
+        other: `${v.count} files of the same folder are read with the table: ${v.names}`,
+      }),
+    'map-unread': (v: Values) => `The map ${v.name} cannot be read: ${v.why}`,
+    'map-chosen': (v: Values) => `Of ${v.maps} maps, that of ${v.name} has most of the vehicles on its lanes`,
+    'speed-limit-of-recording': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} lane without a speed limit has that of the recording, ${v.limit_mps} m/s`,
+        other: `${v.count} lanes without a speed limit have that of the recording, ${v.limit_mps} m/s`,
+      }),
     'columns-missing': (v: Values) =>
       `No column ${v.missing}; there are ${v.columns}. A file of columns can name them.`,
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',

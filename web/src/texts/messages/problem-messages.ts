@@ -34,6 +34,11 @@ export const SENTENCES = table('problem-messages', {
     'snapshot-of-another-scene': 'the snapshot is of another scene',
     'snapshot-broken': (v: Values) => `no snapshot: byte ${v.at} is wrong`,
     'too-many-runs': 'no room for another run; delete one, or wait',
+    'too-many-requests': (v: Values) =>
+      plural(Number(v.most), {
+        one: `more than ${v.most} request a second from this caller`,
+        other: `more than ${v.most} requests a second from this caller`,
+      }),
     defect: 'The server failed; see its log.',
     'exactly-one': (v: Values) => `exactly one of ${v.first} and ${v.second} is needed`,
     'share-sum': (v: Values) => `the shares sum to ${v.sum}; 1 expected`,

@@ -59,7 +59,7 @@ export const TEXTS = table('agent', {
   firstGuess: 'first draft',
   beforeTheLastChange: 'before the last change',
   chosen: (letter: string) => `chosen: ${letter}`,
-  byRank: (n: number | string) => (n === 1 ? 'one' : `${n}, #1 is the likeliest`),
+  byRank: (n: number | string) => (n === 1 ? 'one' : `${n}, #1 is the most likely`),
   noGoalSet: (n: number | string) => `${n}, no goal set`,
   noneChosenYet: (n: number | string) => `${n}, none chosen yet`,
   asRecorded: 'As recorded',

@@ -3,7 +3,7 @@ import { table } from '../table';
 export const TEXTS = table('events-panel', {
   inTheseS: (duration: string) => `in these ${duration} s`,
   events: 'Events',
-  inTheLog: (inLog: number) => ` · ${inLog} in the log`,
+  inTheLog: (inLog: number) => ` · ${inLog} in the recording`,
   where: 'Where',
   remedies: 'Remedies',
   change: (name: string) => `Change ${name}`,

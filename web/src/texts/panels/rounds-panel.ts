@@ -22,6 +22,7 @@ export const TEXTS = table('rounds-panel', {
   noAnswersYet: 'no answers yet',
   learnedPreferences: 'Learned preferences',
   strength: 'strength',
+  weakOnes: (n: number) => plural(n, { one: `${n} weak preference`, other: `${n} weak preferences` }),
   noneYetTheyCome: 'None yet. They need three answers that agree, and apply from the next round.',
   addedByYou: 'Added by you. Applies from the next round.',
   removeOne: (words: string) => `Remove: ${words}`,

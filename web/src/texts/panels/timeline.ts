@@ -11,7 +11,7 @@ export const TEXTS = table('timeline', {
   nobodyOnThisMap: 'No road users yet. Use this map, then place a car or fill an area.',
   selectARoadUser: 'Select a road user to see its speed',
   placeARoadUser: 'Place a road user to see its speed',
-  inTheLog: (name: string, title: string) => `${name}, in the log: ${title}`,
+  inTheLog: (name: string, title: string) => `${name}, in the recording: ${title}`,
   andMore: (more: number) => `, and ${more} more`,
   events: 'Events',
   playhead: 'Playhead',

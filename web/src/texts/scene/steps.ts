@@ -23,7 +23,7 @@ export const TEXTS = table('steps', {
   othersHoldStill: 'Others hold still',
   replanEvery: (replan: number) => `Replan every ${replan} s`,
   signalPhasesChanged: 'Signal phases changed',
-  allGeneratedAgain: 'All road users generated again',
+  allGeneratedAgain: 'All road users replanned',
   length: (length: number) => `Length ${length} s`,
   renamedTo: (name: string) => `Renamed to ${name}`,
 });

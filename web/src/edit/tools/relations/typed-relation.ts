@@ -4,7 +4,9 @@ import { RELATION } from '../../../model/base/domain';
 import { figure, fromUnit, type SpeedUnit } from '../../../model/base/units';
 import type { Agent, Scene } from '../../../model/document/scene';
 import type { GoalRelationJson } from '../../../model/document/scene-json';
-import { dependence } from '../../moves/relating';
+import type { Command } from '../../../model/document/commands';
+import { dependence, relate } from '../../moves/relating';
+import type { Editor } from '../../session/editor';
 import { TEXTS } from '../../../texts/editing/relation';
 
 /** A relation, and the goal time where one was typed; or why there is none. */
@@ -24,6 +26,10 @@ const UNITS: Readonly<Record<string, readonly [of: 'length' | 'time' | 'speed', 
 
 const COUNTS = ['one', 'two', 'three', 'four'] as const;
 type Key = keyof typeof TEXTS.words;
+
+/** The name of another road user, for an example; empty where there is none. */
+export const otherName = (scene: Scene, own: Agent): string =>
+  [...scene.agents.values()].find((a) => a.id !== own.id)?.name ?? '';
 
 /** The name of another road user in a text, and the text without it. The longest counts: "Car 12" has "Car 1" in it. */
 function nameIn(text: string, scene: Scene, own: Agent): { readonly to: Agent; readonly rest: string } | null {
@@ -109,7 +115,7 @@ function outside(relation: GoalRelationJson): string | null {
 
 export function readRelation(text: string, scene: Scene, own: Agent): TypedRelation {
   const named = nameIn(text, scene, own);
-  if (!named) return { why: TEXTS.nameAnother };
+  if (!named) return { why: TEXTS.nameAnother(otherName(scene, own)) };
   const parts = partsOf(named.rest);
   const place = placeOf(parts);
   if (!place) return { why: TEXTS.sayWhere };
@@ -123,4 +129,11 @@ export function readRelation(text: string, scene: Scene, own: Agent): TypedRelat
   }
   const why = outside(relation) ?? dependence(scene, own, named.to);
   return why === null ? { relation, time: due[0] ?? null } : { why };
+}
+
+/** The command of a typed relation, or why there is none. */
+export function relationCommand(e: Editor, a: Agent, words: string): Command | string {
+  const read = readRelation(words, e.scene.peek()!, a);
+  if (read.why !== undefined) return read.why;
+  return relate(e, a, read.relation, read.time, words) ?? TEXTS.setPlace;
 }

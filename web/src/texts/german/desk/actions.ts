@@ -3,6 +3,7 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   noSceneIsOpen: 'Es ist keine Szene offen.',
+  notHere: (action) => `${action}: hier nicht möglich. Alle Tasten mit ?.`,
   selectARoadUser: 'Erst einen Verkehrsteilnehmer auswählen.',
   thisOneCanBe: 'Dieser Verkehrsteilnehmer lässt sich nicht ändern.',
   itIsLockedCtrl: 'Gesperrt. Strg L entsperrt.',
@@ -175,7 +176,7 @@ export const german: Said<typeof TEXTS> = {
   history: 'Verlauf',
   newMap: 'Neue Karte',
   changeTheMap: 'Karte ändern',
-  thisMapIsFrom: 'Diese Karte stammt aus keiner Vorlage.',
+  thisMapIsFrom: 'Diese Karte stammt aus keiner Vorlage. Umschalt T legt eine neue an.',
   useThisMap: 'Diese Karte verwenden',
   previousArm: 'Voriger Arm',
   nextArm: 'Nächster Arm',

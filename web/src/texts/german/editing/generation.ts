@@ -24,8 +24,6 @@ export const german: Said<typeof TEXTS> = {
   keepCurve: 'Tempokurve behalten',
   curveIsOff: 'Die Tempokurve gilt nicht mehr.',
   collisionWith: (other, time) => ` Zusammenstoß mit ${other} bei ${time}.`,
-  othersChanged: (n, step) =>
-    plural(n, { one: `${step}. ${n} weiterer betroffen.`, other: `${step}. ${n} weitere betroffen.` }),
   noOtherAffected: ' Niemand sonst ist betroffen.',
   othersChangedAndHit: (n, step, hit) =>
     plural(n, { one: `${step}. ${n} weiterer betroffen.${hit}`, other: `${step}. ${n} weitere betroffen.${hit}` }),

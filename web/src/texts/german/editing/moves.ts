@@ -28,6 +28,8 @@ export const german: Said<typeof TEXTS> = {
   goalOfMovedTo: (name) => `Ziel von ${name} zum nächsten erreichbaren Punkt verschoben`,
   leaveTheHeading: 'Richtung frei lassen',
   anyHeading: 'beliebige Richtung am Ziel',
+  reachItIn: (time) => `In ${time} erreichen`,
+  insteadOfSlowing: (speed) => `ohne auf ${speed} abzubremsen`,
   allowMoreTime: 'Mehr Zeit geben',
   sceneOf: (time, length) => `${time}, Szene ${length} s`,
   startFaster: 'Schneller starten',

@@ -42,6 +42,24 @@ export const german: Said<typeof SENTENCES> = {
         one: `Die lange Seite von ${v.count} Box liegt quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
         other: `Die langen Seiten von ${v.count} Boxen liegen quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
       }),
+    'columns-recognised': (v: Values) =>
+      `Die Spalten werden als die des Datensatzes ${v.sets} gelesen; --columns nennt andere`,
+    'agents-table-missing': 'Die Tabelle der Verkehrsteilnehmer fehlt, die ihre Typen nennt',
+    'recording-table-missing': 'Die Tabelle der Aufzeichnung fehlt, die Bildrate, Tempolimit und Ort nennt',
+    'rows-in-part': (v: Values) =>
+      `${v.found} Zeilen sind mehr, als auf einmal gelesen werden; gelesen sind die ${v.kept} Zeilen vor ${v.before_s} s. "only" in einer Spaltendatei wählt einen anderen Teil nach time_s oder agent_id`,
+    'files-beside': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Datei desselben Ordners wird mit der Tabelle gelesen: ${v.names}`,
+        other: `${v.count} Dateien desselben Ordners werden mit der Tabelle gelesen: ${v.names}`,
+      }),
+    'map-unread': (v: Values) => `Die Karte ${v.name} ist nicht lesbar: ${v.why}`,
+    'map-chosen': (v: Values) => `Von ${v.maps} Karten hat die von ${v.name} die meisten Fahrzeuge auf ihren Spuren`,
+    'speed-limit-of-recording': (v: Values) =>
+      plural(Number(v.count), {
+        one: `${v.count} Spur ohne Tempolimit hat das der Aufzeichnung, ${v.limit_mps} m/s`,
+        other: `${v.count} Spuren ohne Tempolimit haben das der Aufzeichnung, ${v.limit_mps} m/s`,
+      }),
     'columns-missing': (v: Values) =>
       `Keine Spalte ${v.missing}; vorhanden sind ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
     'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',

@@ -36,6 +36,11 @@ export const german: Said<typeof SENTENCES> = {
     'snapshot-of-another-scene': 'Der Schnappschuss stammt aus einer anderen Szene',
     'snapshot-broken': (v: Values) => `Kein Schnappschuss: Byte ${v.at} ist falsch`,
     'too-many-runs': 'Für einen weiteren Lauf ist kein Platz; einen löschen oder warten',
+    'too-many-requests': (v: Values) =>
+      plural(Number(v.most), {
+        one: `mehr als ${v.most} Anfrage in der Sekunde von diesem Aufrufer`,
+        other: `mehr als ${v.most} Anfragen in der Sekunde von diesem Aufrufer`,
+      }),
     defect: 'Im Server ist ein Fehler aufgetreten. Mehr steht in seinem Protokoll.',
     'exactly-one': (v: Values) => `Nötig ist genau eines von ${v.first} und ${v.second}`,
     'share-sum': (v: Values) => `Die Summe der Anteile ist ${v.sum}; erwartet: 1`,

@@ -60,7 +60,7 @@ export const german: Said<typeof TEXTS> = {
   firstGuess: 'erster Entwurf',
   beforeTheLastChange: 'vor der letzten Änderung',
   chosen: (letter) => `gewählt: ${letter}`,
-  byRank: (n) => (n === 1 ? 'eine' : `${n}, #1 ist die wahrscheinlichste`),
+  byRank: (n) => (n === 1 ? 'eine' : `${n}, nach Wahrscheinlichkeit`),
   noGoalSet: (n: number | string) => `${n}, kein Ziel gesetzt`,
   noneChosenYet: (n: number | string) => `${n}, noch keine gewählt`,
   asRecorded: 'Wie aufgezeichnet',

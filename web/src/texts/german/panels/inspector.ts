@@ -25,7 +25,7 @@ export const german: Said<typeof TEXTS> = {
   otherObjects: 'Andere Objekte',
   lanes: (n) => plural(n, { one: `${n} Spur`, other: `${n} Spuren` }),
   crosswalks: (n: number) => plural(n, { one: `${n} Überweg`, other: `${n} Überwege` }),
-  bikeLanes: (n: number) => plural(n, { one: `${n} Radspur`, other: `${n} Radspuren` }),
+  bikeLanes: (n: number) => `${n} Radfahrstreifen`,
   stopSigns: 'Stoppschilder',
   noSignals: 'keine Ampeln',
   licence: (licence: string) => `Lizenz: ${licence}`,

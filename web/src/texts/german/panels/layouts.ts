@@ -21,7 +21,7 @@ export const german: Said<typeof TEXTS> = {
   bayLength: 'Stellplatzlänge',
   aisleWidth: 'Gassenbreite',
   speedLimit: 'Tempolimit',
-  cycleLane: 'Radspur',
+  cycleLane: 'Radfahrstreifen',
   parking: 'Parken',
   median: 'Mittelstreifen',
   crosswalk: 'Überweg',

@@ -24,6 +24,7 @@ export const german: Said<typeof TEXTS> = {
   noAnswersYet: 'noch keine Antworten',
   learnedPreferences: 'Gelernte Wünsche',
   strength: 'Stärke',
+  weakOnes: (n) => plural(n, { one: `${n} schwacher Wunsch`, other: `${n} schwache Wünsche` }),
   noneYetTheyCome: 'Noch keine. Sie brauchen drei gleiche Antworten und gelten ab der nächsten Runde.',
   addedByYou: 'Selbst angegeben. Gilt ab der nächsten Runde.',
   removeOne: (words) => `Entfernen: ${words}`,

@@ -27,7 +27,7 @@ export const german: Said<typeof TEXTS> = {
   },
   on: (lane) => lane,
   arm: (compass) => `Arm ${compass}`,
-  bikeLane: (arm) => `${arm}, Radspur`,
+  bikeLane: (arm) => `${arm}, Radfahrstreifen`,
   busLane: (arm) => `${arm}, Busspur`,
   leftTurnLane: (arm) => `${arm}, Linksabbiegespur`,
   rightTurnLane: (arm) => `${arm}, Rechtsabbiegespur`,
