@@ -100,14 +100,16 @@ impl NativeScene {
                 let count = read.scenes.len() + read.skipped.len();
                 if count <= left {
                     left -= count;
-                } else if read.skipped.iter().any(|(at, _)| *at == left) {
-                    return Err(read.skipped.swap_remove(read.skipped.len() - 1).1);
-                } else {
-                    return read
+                    continue;
+                }
+                // The last one is the one asked for: a scene, or why it is none.
+                return match read.skipped.pop() {
+                    Some((at, problem)) if at == left => Err(problem),
+                    _ => read
                         .scenes
                         .pop()
-                        .ok_or_else(|| Problem::internal("a scene was counted and is not there"));
-                }
+                        .ok_or_else(|| Problem::internal("a scene was counted and is not there")),
+                };
             }
             Err(Problem::new(
                 Code::NotFound,

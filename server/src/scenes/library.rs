@@ -18,7 +18,7 @@ use base::netconvert::companions;
 use base::party::Party;
 use formats::table;
 use scene::{ContentHash, LaneMap, Scene, Shared};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
@@ -40,6 +40,14 @@ enum ScenePlace {
 struct Entry {
     item: SceneItem,
     place: ScenePlace,
+}
+
+/// What a list says of a scene's file.
+struct FileFacts {
+    etag: String,
+    /// Of it and of what is read with it.
+    bytes: u64,
+    modified: SystemTime,
 }
 
 struct LibraryState {
@@ -134,18 +142,18 @@ impl Library {
         }
     }
 
-    fn add(&self, id: String, scene: &Scene, place: ScenePlace, file: &HeldFile, modified: SystemTime) {
-        let time = clock::text(modified);
+    fn add(&self, id: String, scene: &Scene, place: ScenePlace, file: &FileFacts) {
+        let time = clock::text(file.modified);
         let item = SceneItem {
             name: if scene.name.is_empty() { id.clone() } else { scene.name.clone() },
-            etag: etag_of(file),
+            etag: file.etag.clone(),
             created_at: time.clone(),
             updated_at: time,
             facts: Facts::of(scene),
             map_sha256: scene.map.hash().hex(),
             tags: scene.meta.tags.clone(),
             parent_id: None,
-            bytes: file.length(),
+            bytes: file.bytes,
             readonly: true,
             owner: None,
             shared: None,
@@ -161,8 +169,12 @@ impl Library {
             match demo.scene {
                 Ok(scene) => {
                     let place = ScenePlace::Demo(id.clone());
-                    let file = HeldFile::alone(demo.bytes.to_vec());
-                    self.add(id, &scene, place, &file, SystemTime::UNIX_EPOCH);
+                    let file = FileFacts {
+                        etag: etag_of(&demo.bytes, &[]),
+                        bytes: demo.bytes.len() as u64,
+                        modified: SystemTime::UNIX_EPOCH,
+                    };
+                    self.add(id, &scene, place, &file);
                 }
                 Err(problem) => tracing::error!(%id, detail = %problem.detail, "demo scene is broken"),
             }
@@ -180,15 +192,16 @@ impl Library {
         files.truncate(MOST_FILES);
         let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
         // Tables beside the tracks are read with them.
-        let beside: BTreeSet<usize> = table::groups(&names, None)
-            .iter()
-            .flat_map(|group| group.all().skip(1).collect::<Vec<_>>())
-            .collect();
-        for (_, path) in files.iter().enumerate().filter(|(at, _)| !beside.contains(at)) {
+        let followers = table::followers(&names, None);
+        for (_, path) in files.iter().enumerate().filter(|(at, _)| !followers.contains(at)) {
             let held = folder.read(path).map_err(|error| error.to_string());
             match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
                 Ok((scenes, held)) => {
-                    let modified = folder.modified(path).unwrap_or(SystemTime::UNIX_EPOCH);
+                    let file = FileFacts {
+                        etag: etag_of(&held.bytes, &held.others),
+                        bytes: held.length(),
+                        modified: folder.modified(path).unwrap_or(SystemTime::UNIX_EPOCH),
+                    };
                     for (index, scene) in scenes.iter().enumerate() {
                         // Existing scenes stay: a file replaces neither a demo nor another file's scene.
                         let ids = [file_id(path, scene, index), name_id(path, index)];
@@ -196,7 +209,7 @@ impl Library {
                             tracing::warn!(file = %path.display(), "its scene's id is taken");
                             continue;
                         };
-                        self.add(id, scene, ScenePlace::File(path.clone(), index), &held, modified);
+                        self.add(id, scene, ScenePlace::File(path.clone(), index), &file);
                     }
                 }
                 Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
@@ -205,14 +218,15 @@ impl Library {
     }
 }
 
-fn etag_of(file: &HeldFile) -> String {
+/// Version of a file, with the files that are read with it.
+fn etag_of(bytes: &[u8], others: &[(String, Arc<Vec<u8>>)]) -> String {
     let hash = |bytes: &[u8]| ContentHash::of_bytes(bytes).hex();
-    let own = hash(&file.bytes);
-    let others = file.others.iter().map(|(name, bytes)| format!(" {name} {}", hash(bytes)));
+    let own = hash(bytes);
     // That of a file with nothing beside it is the one of its bytes.
-    let hash = if file.others.is_empty() {
+    let hash = if others.is_empty() {
         own
     } else {
+        let others = others.iter().map(|(name, bytes)| format!(" {name} {}", hash(bytes)));
         hash(others.fold(own, |all, other| all + &other).as_bytes())
     };
     format!("\"ro-{}\"", hash.get(..16).unwrap_or_default())
@@ -232,7 +246,7 @@ fn read(entry: &Entry, file: Option<io::Result<HeldFile>>) -> Result<Scene, Prob
             };
             let file = file.ok_or_else(|| Problem::internal("no data folder"))?;
             let held = file.map_err(|error| changed(error.to_string()))?;
-            if etag_of(&held) != entry.item.etag {
+            if etag_of(&held.bytes, &held.others) != entry.item.etag {
                 return Err(changed("another content".into()));
             }
             let mut scenes = scenes_of(path, &held).map_err(changed)?;

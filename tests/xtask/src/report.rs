@@ -20,31 +20,39 @@ thread_local! {
 }
 
 /// Runs the stages one after the other, the lanes of each side by side: a check that fails does not stop the others. With
-/// `strict`, a skipped check fails.
+/// `strict`, a skipped check fails. What failed checks printed beside others comes last, just above the table.
 pub fn run(stages: Vec<Vec<Lane<'_>>>, strict: bool) -> ExitCode {
     let began = Instant::now();
-    let mut lines = Vec::new();
+    let (mut lines, mut faults) = (Vec::new(), Vec::new());
     for mut lanes in stages {
         lanes.retain(|lane| !lane.is_empty());
         match &lanes[..] {
             [lane] => lines.extend(lane.iter().map(|(name, work)| ended(name, *work, strict))),
-            lanes => lines.extend(side_by_side(lanes, strict)),
+            lanes => {
+                for (line, text) in side_by_side(lanes, strict) {
+                    lines.push(line);
+                    faults.extend(text);
+                }
+            }
         }
     }
+    faults.iter().for_each(|text| print_bytes(text));
     let failed = lines.iter().any(|(.., outcome)| matches!(outcome, Outcome::Failed(_)));
     println!("\n{}", table(lines, began.elapsed()));
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Runs each lane on a thread; what the commands of a check print comes at its end.
-fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<Line<'a>> {
+/// Runs each lane on a thread. What the commands of a check print comes at its end; where it failed, with its line.
+fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<(Line<'a>, Option<Vec<u8>>)> {
     let held = move |(name, work): &(&'a str, Work<'a>)| {
         HELD.set(Some(format!("== {name}\n").into_bytes()));
         let line = worked(name, *work, strict);
         let text = HELD.take().unwrap_or_default();
-        // A closed terminal is no fault of the check.
-        let _ = std::io::stdout().lock().write_all(&text);
-        line
+        if matches!(line.2, Outcome::Failed(_)) {
+            return (line, Some(text));
+        }
+        print_bytes(&text);
+        (line, None)
     };
     std::thread::scope(|scope| {
         let threads: Vec<_> =
@@ -53,6 +61,11 @@ fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<Line<'a>> {
             threads.into_iter().flat_map(|thread| thread.join().unwrap_or_else(|why| resume_unwind(why)));
         ended.collect()
     })
+}
+
+fn print_bytes(text: &[u8]) {
+    // A closed terminal is no fault of the check.
+    let _ = std::io::stdout().lock().write_all(text);
 }
 
 fn ended<'a>(name: &'a str, work: Work<'_>, strict: bool) -> Line<'a> {
@@ -112,7 +125,7 @@ fn table(mut lines: Vec<Line<'_>>, total: Duration) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{HELD, Outcome, run, status, table};
+    use super::{HELD, Outcome, run, side_by_side, status, table};
     use std::process::{Command, ExitCode};
     use std::sync::Barrier;
     use std::sync::atomic::{AtomicUsize, Ordering};

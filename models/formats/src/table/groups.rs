@@ -121,6 +121,11 @@ pub fn firsts(names: &[&str], columns: Option<&dyn Source>) -> Vec<usize> {
     groups(names, columns).iter().filter_map(|group| group.tracks.first().copied()).collect()
 }
 
+/// The tables that are read with the first one of their recording, and open nothing by themselves.
+pub fn followers(names: &[&str], columns: Option<&dyn Source>) -> BTreeSet<usize> {
+    groups(names, columns).iter().flat_map(|group| group.all().skip(1).collect::<Vec<_>>()).collect()
+}
+
 /// The files of a folder that are read with the table of tracks of this name: the other tables of its recording, and
 /// all maps. None where no set has tracks of such a name; only else the names of the folder are asked for.
 ///

@@ -15,7 +15,7 @@ mod write;
 
 pub use columns::{PRESETS, preset};
 pub use format::TableFormat;
-pub use groups::{TableGroup, beside, firsts, groups, is_map};
+pub use groups::{beside, firsts, followers, is_map};
 pub use write::cell;
 
 /// Columns of a row, in order; units are in their names. `sample`, `mode` and `probability` are set only for
