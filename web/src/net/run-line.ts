@@ -24,6 +24,7 @@ export class RunLine {
   #socket: WebSocket | null;
   readonly #steps = new Multiplexer<string>();
   readonly #over = new AbortController();
+  #last: Promise<unknown> = Promise.resolve();
 
   private constructor(
     private readonly client: Client,
@@ -55,14 +56,20 @@ export class RunLine {
   }
 
   /**
-   * The next step, numbered from 1 on. A number may be sent again: it gives the same reply, so that a busy server is
-   * asked until it has room.
+   * The next step, numbered from 1 on; it is sent once the one before is answered, and fails where that failed. A
+   * number may be sent again: it gives the same reply, so that a busy server is asked until it has room.
    */
-  async step(number: number, ego: Omit<EgoJson, 'plan'>): Promise<StepReply> {
+  step(number: number, ego: Omit<EgoJson, 'plan'>): Promise<StepReply> {
     const body = JSON.stringify({ number, egos: [ego] });
+    const step = this.#last.then(() => this.#stepOnceFree(body));
+    this.#last = step;
+    return step;
+  }
+
+  async #stepOnceFree(body: string): Promise<StepReply> {
     for (;;) {
       try {
-        return await this.#stepOnce(body);
+        return await this.#stepNow(body);
       } catch (e) {
         const wait = e instanceof Refused ? waitOf(e.problem) : null;
         if (wait === null) throw e;
@@ -72,7 +79,7 @@ export class RunLine {
     }
   }
 
-  async #stepOnce(body: string): Promise<StepReply> {
+  async #stepNow(body: string): Promise<StepReply> {
     const socket = this.#socket;
     if (socket && socket.readyState === socket.OPEN) {
       const reply = await this.#overLine(socket, body).catch(() => null);

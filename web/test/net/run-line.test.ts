@@ -48,6 +48,21 @@ it('sends a step again after the time that a busy server asks for', async () => 
   expect(new Set(sent).size).toBe(1);
 });
 
+it('sends a step once the one before is answered, and none after one that failed', async () => {
+  const bodies: Record<number, Response> = {
+    1: new Response(JSON.stringify(STEP)),
+    2: refusal(409, 'step-order'),
+  };
+  const { line, sent } = await running((all) => bodies[all.length]);
+  const first = line.step(1, EGO);
+  const later = [line.step(2, EGO), line.step(3, EGO)];
+  const refused = later.map((step) => expect(step).rejects.toBeInstanceOf(Refused));
+  expect(sent.length).toBeLessThan(2);
+  expect(await first).toEqual(STEP);
+  await Promise.all(refused);
+  expect(sent.map((body) => (JSON.parse(body) as { number: number }).number)).toEqual([1, 2]);
+});
+
 it('gives other refusals to the caller', async () => {
   const { line, sent } = await running(() => refusal(404, 'not-found'));
   await expect(line.step(1, EGO)).rejects.toBeInstanceOf(Refused);

@@ -129,7 +129,7 @@ export class LiveDrive {
       this.#me = driveOn(this.agent, this.#me, this.#controls(), to - this.#time);
       this.#time = to;
       if (to < step - 1e-9) continue;
-      // The one before is answered, or the time would not have come here.
+      // The one before may still be under way: the line keeps their order.
       this.#sent++;
       this.#way.push([this.#me.x, this.#me.y]);
       this.#answered = this.#tell(this.#sent, this.#me);
