@@ -6,6 +6,7 @@ use crate::around::Chosen;
 use crate::format::{ExportOptions, ExportedMotion, FolderFiles, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::osm::extract;
+use crate::problem::ReadError;
 use crate::registry;
 use crate::source::Source;
 use crate::table::beside;
@@ -205,7 +206,10 @@ pub fn both_ways(format: &str, bytes: &[u8]) -> bool {
         // A scene without a map may be one that the format has no place for.
         if let Ok(file) = format.export(&[&scene], &options) {
             let again = format.import(&file.bytes, &ImportOptions::default()).pop();
-            assert!(matches!(again, Some(Ok(_))), "what was written is not read: {again:?}");
+            // A map just within the bound may be beyond it once its points are rounded.
+            let too_complex = |error: &ReadError| error.problems.iter().all(|p| p.code == "map-too-complex");
+            let is_read = again.as_ref().is_some_and(|again| again.as_ref().err().is_none_or(too_complex));
+            assert!(is_read, "what was written is not read: {again:?}");
         }
         read = true;
     }

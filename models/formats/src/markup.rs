@@ -1,6 +1,7 @@
 //! XML as it is written: elements that close in the order in which they open, with text that cannot break out.
 
 use crate::written::FileBounds;
+use crate::xml::is_char;
 use std::fmt::{Display, Write};
 use std::io;
 
@@ -101,7 +102,7 @@ pub(crate) fn decimal(value: f64) -> String {
     ((value * 1e6).round() / 1e6 + 0.0).to_string()
 }
 
-/// Text with marks as references, and without the characters that XML 1.0 has no place for.
+/// Text with marks as references, and without the characters that XML has no place for.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -111,8 +112,8 @@ fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\t' | '\n' | '\r' => out.push(' '),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
+            c if is_char(c) => out.push(c),
+            _ => {}
         }
     }
     out

@@ -353,7 +353,13 @@ fn attribute(text: &str) -> Result<((String, String), &str), Message> {
     Ok(((name.to_owned(), unescaped(value)?), rest))
 }
 
-/// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows.
+/// Whether text of XML may have this character (XML 1.0, 2.2; the discouraged controls are left out too).
+pub(crate) fn is_char(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
+}
+
+/// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows. Characters that XML has no
+/// place for are left out, as they are in what is written.
 fn unescaped(value: &str) -> Result<String, Message> {
     let mut text = String::with_capacity(value.len());
     let mut rest = value;
@@ -379,6 +385,7 @@ fn unescaped(value: &str) -> Result<String, Message> {
         rest = after;
     }
     text.push_str(rest);
+    text.retain(is_char);
     Ok(text)
 }
 
@@ -430,6 +437,12 @@ mod tests {
     fn reads_elements_and_attributes() {
         let text = "\u{feff}<?xml version=\"1.0\"?>\n<!-- a > b --> <a x = '1>\"' y=\"&lt;&#65;&#x42;&amp;\">t<b/></a>\n<!---->";
         assert_eq!(all(text).unwrap(), "a[x:1>\"][y:<AB&]b;;");
+    }
+
+    #[test]
+    fn characters_without_a_place_in_xml_are_left_out() {
+        let text = "<a x=\"s\u{3}ide\u{ffff}wa&#7;lk\" y=\"ü\t\u{1f6b8}\"/>";
+        assert_eq!(all(text).unwrap(), "a[x:sidewalk][y:ü\t\u{1f6b8}];");
     }
 
     #[test]

@@ -82,6 +82,15 @@ impl Sweep {
         Some(last.about(last.center() + self.velocity(HORIZON_STEPS) * time_s))
     }
 
+    /// Corners of the upright box about the places at all steps, and so many seconds after the last one.
+    pub(in crate::generator) fn extent(&self, beyond_s: f64) -> (Vec2, Vec2) {
+        let last = self.state(HORIZON_STEPS);
+        let beyond = last.map(|last| last.position() + self.velocity(HORIZON_STEPS) * beyond_s);
+        let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        let places = self.states.iter().flatten().map(State::position).chain(beyond);
+        places.fold(none, |(low, high), at| (low.inf(&at), high.sup(&at)))
+    }
+
     /// The boxes that the choice compares.
     pub(in crate::generator) fn swept(&self) -> &SweptBoxes {
         self.swept.get_or_init(|| {

@@ -19,6 +19,8 @@ const CHUNK: usize = 8;
 const BEYOND_STRIDE: usize = 3;
 /// An agent that is out of the way for fewer steps has not left.
 const FLICKER: usize = 3;
+/// Rounding of distances, metres.
+const HAIR_M: f64 = 1e-6;
 
 /// An agent or a closed line in the way for a while. Progress is that of the path's box centre.
 #[derive(Clone, Debug)]
@@ -110,6 +112,9 @@ impl Corridor {
     /// When and where another agent is in the way.
     pub(super) fn blocks(&self, other: &Sweep) -> Vec<PathBlock> {
         let mut out: Vec<PathBlock> = Vec::new();
+        if self.is_away_from(other) {
+            return out;
+        }
         let mut away = FLICKER;
         for step in self.enters..=HORIZON_STEPS {
             let Some(taken) = other.at(step).and_then(|b| self.taken(b, other.velocity(step.max(1)))) else {
@@ -130,6 +135,16 @@ impl Corridor {
             out.extend(self.block_beyond(other));
         }
         out
+    }
+
+    /// No box of the other agent is near the path, not even soon after the window.
+    fn is_away_from(&self, other: &Sweep) -> bool {
+        let Some(own) = self.outlines.first() else { return true };
+        let Size { length_m, width_m, .. } = *other.size();
+        let reach_m = own.radius_m() + 0.5 * length_m.hypot(width_m) + CROSSING_M + HAIR_M;
+        let (low, high) = other.extent(BEYOND_S);
+        let away = (self.extent.0 - high).sup(&(low - self.extent.1));
+        away.x.max(away.y) > reach_m
     }
 
     /// Where another agent comes into the way soon after the window, if it goes on as it does at its end.

@@ -61,7 +61,7 @@ impl Others<'_> {
         let cost = |who: ReactingAgent<'_>| {
             let price = self.price(&who.other.sweep, sweep);
             (price > 0.0 && !who.other.is_kept_out_by(sweep)).then(|| {
-                let way = self.way(who, &[SeenMotion { reactor: None, kept: false, sweep }]);
+                let way = self.way(who, &[SeenMotion { reactor: None, kept: false, sweep }], price);
                 way.map_or(price, |way| way.cost.min(price))
             })
         };
@@ -177,7 +177,7 @@ impl Others<'_> {
             let now = ways[at].as_ref().map_or(&reactors[at].other.sweep, |w| &w.sweep);
             let stays: f64 = others.iter().map(|s| self.price(now, s.sweep)).sum();
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
-            match self.way(reactors[at], &others) {
+            match self.way(reactors[at], &others, stays - 1e-9) {
                 Some(way) if way.cost < stays - 1e-9 => ways[at] = Some(way),
                 // Nothing helps now; the change of another agent may.
                 _ => decisions[at] = MOST_DECISIONS,

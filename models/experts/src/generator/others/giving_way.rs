@@ -42,8 +42,16 @@ impl Others<'_> {
     }
 
     /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
-    /// are.
-    pub(super) fn way(&self, who: ReactingAgent<'_>, changed: &[SeenMotion<'_>]) -> Option<YieldOption> {
+    /// are. Of what costs `most` or more nothing need be found.
+    pub(super) fn way(
+        &self,
+        who: ReactingAgent<'_>,
+        changed: &[SeenMotion<'_>],
+        most: f64,
+    ) -> Option<YieldOption> {
+        if self.tuning.choice.deviating >= most {
+            return None;
+        }
         let (own, road) = (who.own, self.road(who.own));
         let ahead: Vec<Vec<PathBlock>> = changed.iter().map(|c| road.corridor.blocks(c.sweep)).collect();
         let around = own.around.get_or_init(|| self.around(who));
@@ -57,13 +65,13 @@ impl Others<'_> {
         let entries = if own.path.enters > 0 { &ENTRIES[..] } else { &[] };
         let slower = entries.iter().map(|entry| YieldManner { entry: *entry, ..manners(own)[0] });
         for manner in manners(own).into_iter().chain(slower) {
-            let way = self.weighed(who, behind(&road.path, &all, manner), manner, changed);
-            let Some(way) = way else { continue };
-            let free = way.1 == 0.0;
-            if best.as_ref().is_none_or(|b| way.0.cost < b.cost - 1e-9) {
-                best = Some(way.0);
+            let most = best.as_ref().map_or(most, |b| b.cost - 1e-9);
+            let way = self.weighed(who, behind(&road.path, &all, manner), (manner, most), changed);
+            let Some((way, meets)) = way else { continue };
+            if way.cost < most {
+                best = Some(way);
             }
-            if free {
+            if meets == 0.0 {
                 return best;
             }
         }
@@ -73,42 +81,48 @@ impl Others<'_> {
             if !own.hurries_safely(&road.path, &paced) {
                 continue;
             }
-            if let Some((way, _)) = self.weighed(who, paced, manner, changed)
-                && best.as_ref().is_none_or(|b| way.cost < b.cost - 1e-9)
-            {
+            let most = best.as_ref().map_or(most, |b| b.cost - 1e-9);
+            let way = self.weighed(who, paced, (manner, most), changed);
+            if let Some((way, _)) = way.filter(|(way, _)| way.cost < most) {
                 best = Some(way);
             }
         }
         best
     }
 
-    /// A pace with its cost, and the part of the cost for meetings; `None` for the kept motion itself.
+    /// A pace with its cost, and the part of the cost for meetings; `None` for the kept motion itself, and for one that
+    /// meets somebody and costs `most` or more.
     fn weighed(
         &self,
         who: ReactingAgent<'_>,
         paced: Paced,
-        manner: YieldManner,
+        (manner, most): (YieldManner, f64),
         changed: &[SeenMotion<'_>],
     ) -> Option<(YieldOption, f64)> {
         let (own, path) = (who.own, &self.road(who.own).path);
         if paced.is_own(path) {
             return None;
         }
+        let tuning = &self.tuning.reacting;
+        let hard = (manner.brake_mps2 - tuning.easily_mps2).max(0.0);
+        let late_s = own.late_s(&paced).abs();
+        let alone = self.tuning.choice.deviating + tuning.late * late_s + tuning.hard * hard;
+        let is_dear = |meets: f64| meets > 0.0 && alone + meets >= most;
         let states = paced.states(path);
         let sweep = Sweep::entering(own.path.enters, &states, &own.size);
         let mut meets: f64 = changed.iter().map(|c| self.mitigated(who, &sweep, c.sweep)).sum();
         let is_changed = |at: usize| changed.iter().any(|c| c.reactor == Some(at));
         for (at, other) in self.each.iter().enumerate().filter(|(at, _)| *at != who.at && !is_changed(*at)) {
-            if !self.were_near(who, &other.sweep, other.kept_from) {
+            if is_dear(meets) {
+                return None;
+            }
+            let price = self.price(&sweep, &other.sweep);
+            if price > 0.0 && !self.were_near(who, &other.sweep, other.kept_from) {
                 let share = if at < self.reacting { PASSED_ON } else { 1.0 };
-                meets += share * self.price(&sweep, &other.sweep);
+                meets += share * price;
             }
         }
-        let tuning = &self.tuning.reacting;
-        let hard = (manner.brake_mps2 - tuning.easily_mps2).max(0.0);
-        let late_s = own.late_s(&paced).abs();
-        let cost = self.tuning.choice.deviating + tuning.late * late_s + tuning.hard * hard + meets;
-        Some((YieldOption { paced, states, sweep, cost }, meets))
+        Some((YieldOption { paced, states, sweep, cost: alone + meets }, meets))
     }
 
     /// The price of a meeting, less for an agent that is slower than it would be without giving way.
