@@ -135,7 +135,7 @@ export function buildMap(json: MapJson): LaneMap {
   };
 }
 
-// -------------------------------------------------------------- rules that a scene changes: the limit, and who may use a lane
+// -------------------------------------------------------------- rules that a scene changes
 
 /** By the ids of changed lanes. */
 export type LaneRules = Readonly<Record<string, LaneRule>>;

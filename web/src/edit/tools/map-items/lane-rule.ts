@@ -6,9 +6,9 @@ import type { LaneRule } from '../../../model/document/scene-json';
 
 /** Another rule of a lane: all road users are computed again. */
 export function setLaneRule(scene: Scene, lane: Lane, rule: LaneRule, name: string): Command {
-  const { [lane.id]: _, ...others } = scene.laneRules;
   const was = ruleOf(lane);
   const same = was.speed_limit_mps === rule.speed_limit_mps && was.type === rule.type;
-  const laneRules = Object.freeze(same ? others : { ...others, [lane.id]: rule });
+  const others = Object.entries(scene.laneRules).filter(([id]) => id !== lane.id);
+  const laneRules = Object.freeze(Object.fromEntries(same ? others : [...others, [lane.id, rule]]));
   return patchScene(name, { laneRules, drawn: scene.drawn + 1 }, `${name}:${lane.id}`);
 }
