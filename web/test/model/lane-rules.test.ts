@@ -50,6 +50,11 @@ describe('a rule of a lane', () => {
     const again = readScene(file);
     expect(again.laneRules).toEqual(changed.laneRules);
     expect(lane(again)).toEqual(lane(changed));
+    // The order of changes does not matter: equal rules, equal texts.
+    const [first, last] = ['a', 'b'].map((name) => ({ ...lane(scene), id: name }));
+    const both = (...all: (typeof first)[]) =>
+      all.reduce((s, l) => ({ ...s, laneRules: setLaneRule(s, l, rule, '').apply(s).laneRules }), scene);
+    expect(JSON.stringify(both(first, last).laneRules)).toBe(JSON.stringify(both(last, first).laneRules));
     // The step back leads to the rule of the map, in the document and in a file.
     const back = applyDiff(again, diffOf(scene, changed), 'back');
     expect(lane(back)).toEqual(lane(scene));

@@ -1,4 +1,4 @@
-// The lane map as the editor uses it: lines with running lengths, a search grid, and routes.
+// The lane map as the editor uses it: lines with running lengths, a search grid, and rules of its lanes.
 import {
   isMapRef,
   type AreaJson,
@@ -137,8 +137,10 @@ export function buildMap(json: MapJson): LaneMap {
 
 // -------------------------------------------------------------- rules that a scene changes
 
-/** By the ids of changed lanes. */
+/** By the ids of changed lanes, always in the same order. */
 export type LaneRules = Readonly<Record<string, LaneRule>>;
+
+export const rulesOf = (all: [id: string, LaneRule][]): LaneRules => Object.freeze(Object.fromEntries(all.sort()));
 
 export const isEmptyRules = (rules: LaneRules): boolean => !Object.keys(rules).length;
 
@@ -147,7 +149,7 @@ export const formerRules = (json: SceneJson): LaneRules => json.x_editor?.lanes_
 
 /** The rules in force on those lanes. */
 export const rulesIn = (map: SceneJson['map'], of: LaneRules): LaneRules =>
-  Object.fromEntries(
+  rulesOf(
     (isMapRef(map) ? [] : (map.lanes ?? []))
       .filter((l) => of[l.id])
       .map(({ id, speed_limit_mps = null, type = 'undefined' }) => [id, { speed_limit_mps, type }]),
