@@ -36,6 +36,10 @@ const PARTS = {
     () => import('./inspector/agent-panel'),
     (m) => m.AgentPanel,
   ),
+  menu: of(
+    () => import('./opened-menu'),
+    (m) => m.default,
+  ),
   'generate options': of(
     () => import('./parts/asking'),
     (m) => m.GenerateOptions,
@@ -67,6 +71,10 @@ const PARTS = {
   place: of(
     () => import('./hud/place-panel'),
     (m) => m.PlacePanel,
+  ),
+  thumb: of(
+    () => import('./hud/thumb'),
+    (m) => m.Thumb,
   ),
   drive: of(
     () => import('./hud/drive-bar'),

@@ -133,6 +133,9 @@ function settledDash(f: Futures, outdated: boolean): number[] {
   return left <= 0 ? [] : left >= f.steps * 0.5 ? [2, 5] : [8, 4];
 }
 
+/** Width of all futures where none is in force. */
+const EVEN_PX = 2;
+
 const REJECTED_DASH = [1, 6];
 
 export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void {
@@ -159,7 +162,7 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
     }
     trail(g, v, m.motion, {
       colour: f.sketch ? colours()['ink-3'] : modeColour(i),
-      width: isChosen ? Math.max(width, 3.2) : width,
+      width: s.chosen < 0 ? EVEN_PX : isChosen ? Math.max(width, 3.2) : width,
       alpha: (lit ? (isChosen ? Math.max(alpha, 0.9) : alpha) : 0.14) * (s.alpha ?? 1),
       halo: lit,
       dots: lit,

@@ -38,6 +38,11 @@ describe('names on the picture', () => {
   it('are those of the selected one, of those that it meets, and of those that react', () => {
     expect(namedNow(editor)).toEqual(['1']);
     s.generator.last.on.final(finalWith({ '1': futures(0, true) }), 5);
+    // It replays the recording: the futures with their faults are possible only.
+    expect(namedNow(editor)).toEqual(['1']);
+    editor.commits.run(goal());
+    vi.advanceTimersByTime(100);
+    s.generator.last.on.final(finalWith({ '1': futures(0, true) }), 5);
     expect(namedNow(editor)).toEqual(['1', '2']);
     editor.commits.run(goal());
     vi.advanceTimersByTime(100);

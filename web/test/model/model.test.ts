@@ -1,7 +1,8 @@
 import fc from 'fast-check';
 import { afterEach, describe, expect, it } from 'vitest';
 import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../../src/model/base/geometry';
-import { findRoute, nearestLanes } from '../../src/model/document/lanemap';
+import { findRoute } from '../../src/model/physics/lane-routes';
+import { nearestLanes } from '../../src/model/document/lanemap';
 import { limitsOf, rangesOf, topSpeed } from '../../src/model/base/domain';
 import { furthestReach, leastReach } from '../../src/model/physics/reach';
 import {

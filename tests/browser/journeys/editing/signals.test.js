@@ -97,4 +97,73 @@ journeys('signals, lanes and crosswalks', (stage) => {
     assert.match(await e.text(PANEL), /Lane[^]*Speed limit[^]*Who may use it/);
     await e.picture('lane-picked');
   });
+
+  it('the limit of a lane and its users are changed, undone and stored', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const { map } = await e.get('/v1/scenes/demo-crossing');
+    // A lane of an arm in sight; its middle is clicked.
+    const streets = map.lanes.filter((l) => l.type === 'surface_street' && l.speed_limit_mps && !l.interpolating);
+    const places = await Promise.all(streets.map((l) => e.at(...l.points_m[l.points_m.length >> 1])));
+    const pick = async () => {
+      for (const [i, place] of places.entries()) {
+        if (!(await e.open(place))) continue;
+        await e.page.mouse.click(...place);
+        await e.frames(2);
+        if (await e.page.locator('[data-field="lane-limit"]').count()) return streets[i];
+        await e.key('Escape');
+      }
+      return assert.fail('a lane is in sight');
+    };
+    const picked = await pick();
+    const shown = () => e.value('lane-limit');
+    const was = Math.round(picked.speed_limit_mps * 3.6);
+    assert.equal(await shown(), was);
+    const sent = () => e.wire.last().body;
+    const ruleSent = () => {
+      const { type, speed_limit_mps } = sent().scene.map.lanes.find((l) => l.id === picked.id);
+      return [type, speed_limit_mps && Math.round(speed_limit_mps * 3.6)];
+    };
+    await e.type('lane-limit', '30');
+    assert.equal(sent().agents, 'all');
+    assert.deepEqual(ruleSent(), ['surface_street', 30]);
+    assert.match(await e.text(PANEL), new RegExp(`In the map: ${was} km/h`));
+    await e.page.selectOption('[data-field="lane-users"]', 'bus_lane');
+    await e.settled();
+    assert.deepEqual(ruleSent(), ['bus_lane', 30]);
+    assert.match(await e.text(PANEL), /In the map: Motor vehicles and cyclists/);
+    await e.picture('lane-changed');
+    const users = () => e.page.locator('[data-field="lane-users"]').inputValue();
+    await e.key('Control+z');
+    await e.settled();
+    assert.deepEqual([await shown(), await users()], [30, 'surface_street']);
+
+    // Another page has it, and so has a saved copy, whose undo leads back to the rule of the map.
+    await e.page.reload();
+    await e.ready();
+    await e.begin();
+    await pick();
+    assert.equal(await shown(), 30);
+    await e.key('Control+s');
+    const saved = () => e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    await saved();
+    const name = await e.page.inputValue('.title input');
+    const { id } = (await e.get('/v1/scenes')).scenes.find((s) => s.name === name);
+    const stored = async () => {
+      const json = await e.get(`/v1/scenes/${id}`);
+      return Math.round(json.map.lanes.find((l) => l.id === picked.id).speed_limit_mps * 3.6);
+    };
+    assert.equal(await stored(), 30);
+    await e.page.reload();
+    await e.ready();
+    await e.begin();
+    const undo = e.page.locator('[data-action="undo"]').first();
+    await undo.click();
+    await e.settled();
+    assert.equal(await undo.isDisabled(), true);
+    // Saved a moment after the step.
+    while ((await stored()) !== was) await e.frames(10);
+    await pick();
+    assert.equal(await shown(), was);
+  });
 });

@@ -9,7 +9,7 @@ const making = (e) => e.page.evaluate(() => document.querySelector('.stage').get
 /** The last requested map is on the picture. */
 async function drawn(e) {
   await e.frames(2);
-  await e.until(() => /lanes? · \d+ crosswalks? · \d+ ms/.test(document.querySelector('.status')?.textContent ?? ''));
+  await e.until(() => /lanes? · \d+ crosswalks?$/.test(document.querySelector('.status')?.textContent ?? ''));
   await e.settled();
   assert.ok(await making(e));
 }

@@ -16,7 +16,6 @@ import { HoverCard } from './hover-card';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
 import { viewTick } from './view-tick';
-import { Thumb } from './thumb';
 import { Toast } from './toast';
 import { lengthUnit } from '../../model/base/units';
 import { TEXTS } from '../../texts/desk/hud';
@@ -42,7 +41,7 @@ export function Hud() {
   turned.current ||= isTurned;
   return (
     <div class="hud">
-      {form.small.value ? <Thumb /> : <Rail />}
+      {form.small.value ? <Later part="thumb" /> : <Rail />}
       <div class="tr">
         <div class="card chipbar">
           <MenuButton name="layers" icon="down" label={TEXTS.allLayers}>

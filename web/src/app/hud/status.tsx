@@ -17,6 +17,8 @@ interface StatusLine {
   /** Colour of the dot; empty without problems. */
   readonly dot: '' | 'busy' | 'near' | 'collision';
   readonly text: string;
+  /** Time of the computation, shown on the pointer. */
+  readonly ms?: number;
   /** Action of a press on it. */
   readonly go?: () => void;
 }
@@ -64,19 +66,26 @@ function mapLine({ layouts }: Context): StatusLine {
   if (!made) return { dot: 'busy', text: TEXTS.drawing };
   const { lanes, crosswalks } = made.scene.map;
   const bad = made.checks.some((k) => !k.passed);
-  const words = TEXTS.lanesCrosswalks(driven(lanes), crosswalks.length, Math.max(1, Math.round(made.ms)));
-  return { dot: bad ? 'near' : '', text: words };
+  const words = TEXTS.lanesCrosswalks(driven(lanes), crosswalks.length);
+  return { dot: bad ? 'near' : '', text: words, ms: made.ms };
 }
 
+const took = (ms?: number): string | undefined => (ms ? TEXTS.took(ms.toFixed(0)) : undefined);
+
 /** Neither row is a component: a drag alternates between them in every frame. */
-function row({ dot, text, go }: StatusLine) {
+function row({ dot, text, ms, go }: StatusLine) {
   const words = (
     <>
       <span class={`dot ${dot}`} />
       {text}
     </>
   );
-  if (!go) return <div class="row">{words}</div>;
+  if (!go)
+    return (
+      <div class="row" title={took(ms)}>
+        {words}
+      </div>
+    );
   return (
     <button type="button" class="row" title={TEXTS.goToTheFirst} onClick={go}>
       {words}
@@ -87,16 +96,15 @@ function row({ dot, text, go }: StatusLine) {
 type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
 
 function refining({ step, steps, ms, part }: RefiningStatus) {
-  const after = TEXTS.ms(ms.toFixed(0));
   const words = part
-    ? TEXTS.refining(part, after)
+    ? TEXTS.refining(part)
     : step
-      ? TEXTS.refiningStep(step, steps, after)
+      ? TEXTS.refiningStep(step, steps)
       : ms
-        ? TEXTS.firstGuess(after)
+        ? TEXTS.firstGuess
         : TEXTS.computingFutures;
   return (
-    <div class="row">
+    <div class="row" title={took(ms)}>
       <span class="steps">
         {Array.from({ length: steps }, (_, i) => (
           <i key={i} class={i < step ? 'd' : ''} />
@@ -136,13 +144,9 @@ function settledLine(c: Context, ms: number, adapted: number | null): StatusLine
   if (bad && !bad.outranked) return { dot: 'near', text: TEXTS.showingFutures };
   if (!editor.selection.value) return sceneLine(c);
   const n = editor.reading.futures.value?.modes.length ?? 6;
-  const parts = [
-    TEXTS.futures(n === 6 ? TEXTS.six : n),
-    ms ? TEXTS.ms(ms.toFixed(0)) : '',
-    adapted ? TEXTS.othersReact(adapted) : '',
-  ];
+  const parts = [TEXTS.futures(n === 6 ? TEXTS.six : n), adapted ? TEXTS.othersReact(adapted) : ''];
   // Beside a collision the dot is not green.
-  return { dot: dotOf(editor.reading.events.value), text: parts.filter(Boolean).join(' · ') };
+  return { dot: dotOf(editor.reading.events.value), text: parts.filter(Boolean).join(' · '), ms };
 }
 
 function dotOf(events: readonly TrafficEvent[]): StatusLine['dot'] {

@@ -243,7 +243,9 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
-    const told = verdictsHold(editor) ? editor.reading.toldFutures.value?.modes[index] : null;
+    // A road user that nothing was asked of has only possible futures: their faults are marked one at a time.
+    const isDue = !editor.reading.replays.value || editor.hoverFuture.value === index;
+    const told = isDue && verdictsHold(editor) ? editor.reading.toldFutures.value?.modes[index] : null;
     const m = told?.about ? markOf(told.about) : null;
     const due = goalTimeOf(agent.value);
     return m === 'ok' && (due === null || endsBefore(told!.motion, due)) ? null : m;

@@ -1,9 +1,12 @@
 // The picked part of the map in the inspector: a signal with its phases, a lane with its limit and its users, a
 // crosswalk or a stop sign with who goes first.
-import { num, speedInUse } from '../../model/base/units';
-import type { Lane } from '../../model/document/lanemap';
+import { useComputed } from '@preact/signals';
+import { fromUnit, num, speedInUse, speedText, toUnit } from '../../model/base/units';
+import { ruleOf } from '../../model/document/lanemap';
+import type { LaneRule } from '../../model/document/scene-json';
 import { hasSignals } from '../../model/physics/signals';
 import { placeOfItem } from '../../edit/gestures/on-the-map';
+import { setLaneRule } from '../../edit/tools/map-items/lane-rule';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
@@ -17,7 +20,7 @@ export default function MapItemPanel() {
   const item = editor.mapItem.value;
   const scene = editor.resting.value;
   if (!item || !scene) return null;
-  const lane = item.kind === 'lane' ? scene.map.lanes.get(item.lane) : undefined;
+  const lane = item.kind === 'lane' && scene.map.lanes.has(item.lane) ? item.lane : null;
   return (
     <>
       <div class="ih">
@@ -39,7 +42,7 @@ export default function MapItemPanel() {
         </button>
       </div>
       {item.kind === 'signal' ? <Phases /> : null}
-      {lane ? <LaneRows lane={lane} /> : null}
+      {lane ? <LaneRows key={lane} id={lane} place={placeOfItem(scene, item)} /> : null}
       {item.kind === 'crosswalk' ? (
         <Priority words={hasSignals(scene, item.index) ? TEXTS.bySignals : TEXTS.pedestriansFirst} />
       ) : null}
@@ -104,31 +107,84 @@ function Phases() {
   );
 }
 
-function LaneRows({ lane: { limit, kind, type } }: { lane: Lane }) {
-  const who =
-    kind === 'bike'
-      ? TEXTS.users.bike
-      : type === 'bus_lane'
-        ? TEXTS.users.bus
-        : type === 'freeway'
-          ? TEXTS.users.motorAlone
-          : TEXTS.users.motor;
+/** Types of lanes to choose from; any other type is one for motor vehicles. */
+const USERS = {
+  surface_street: TEXTS.users.motor,
+  freeway: TEXTS.users.motorAlone,
+  bus_lane: TEXTS.users.bus,
+  bike_lane: TEXTS.users.bike,
+} as const;
+type ChosenType = keyof typeof USERS;
+
+const isChosenType = (type: string): type is ChosenType => Object.hasOwn(USERS, type);
+const chosenType = (type: string): ChosenType => (isChosenType(type) ? type : 'surface_street');
+
+/** Limits that can be typed, m/s. */
+const LIMITS_MPS = [5 / 3.6, 200 / 3.6] as const;
+
+function LaneRows({ id, place }: { id: string; place: string }) {
+  const { editor } = useApp();
+  const lane = useComputed(() => editor.resting.value!.map.lanes.get(id)!);
+  const { limit, type } = lane.value;
+  const was = ruleOf(lane.value);
+  const unit = () => editor.view.speedUnit.value;
+  const set = (rule: Partial<LaneRule>, name: string) => {
+    const now = { speed_limit_mps: lane.peek().limit, type: lane.peek().type };
+    editor.commits.run(setLaneRule(editor.resting.peek()!, lane.peek(), { ...now, ...rule }, name));
+  };
+  const choose = (chosen: ChosenType) => {
+    const to = chosenType(was.type) === chosen ? was.type : chosen;
+    set({ type: to }, TEXTS.usersChanged(place));
+  };
   return (
-    <section class="sect last">
-      <Line label={TEXTS.speedLimit} value={limit === null ? TEXTS.notGiven : speedInUse(limit, false)} />
-      <Line label={TEXTS.whoMayUseIt} value={who} />
+    <section class="sect last lanerules">
+      <div class="pr">
+        <span class="lab">{TEXTS.speedLimit}</span>
+        <NumberField
+          label={TEXTS.speedLimit}
+          field="lane-limit"
+          unit={unit}
+          quantity={unit}
+          step={unit() === 'km/h' ? 10 : 5}
+          range={() => [Math.ceil(toUnit(LIMITS_MPS[0], unit())), Math.floor(toUnit(LIMITS_MPS[1], unit()))]}
+          value={() => {
+            const mps = lane.value.limit;
+            return mps === null ? null : toUnit(mps, unit());
+          }}
+          text={() => {
+            const mps = lane.value.limit;
+            return mps === null ? '' : speedText(mps, unit());
+          }}
+          set={(v) => set({ speed_limit_mps: fromUnit(v, unit()) }, TEXTS.limitChanged(place))}
+        />
+        <Former
+          is={was.speed_limit_mps === limit}
+          words={was.speed_limit_mps === null ? TEXTS.notGiven : speedInUse(was.speed_limit_mps, false)}
+        />
+      </div>
+      <div class="pr">
+        <span class="lab">{TEXTS.whoMayUseIt}</span>
+        <select
+          class="field pick"
+          aria-label={TEXTS.whoMayUseIt}
+          data-field="lane-users"
+          value={chosenType(type)}
+          onChange={(e) => choose(e.currentTarget.value as ChosenType)}
+        >
+          {Object.entries(USERS).map(([of, words]) => (
+            <option key={of} value={of}>
+              {words}
+            </option>
+          ))}
+        </select>
+        <Former is={was.type === type} words={USERS[chosenType(was.type)]} />
+      </div>
     </section>
   );
 }
 
-function Line({ label, value }: { label: string; value: string }) {
-  return (
-    <div class="kindrow">
-      <span class="sec grow">{label}</span>
-      <b>{value}</b>
-    </div>
-  );
-}
+/** What the map has, where the scene has another rule. */
+const Former = ({ is, words }: { is: boolean; words: string }) => (is ? null : <small>{TEXTS.inTheMap(words)}</small>);
 
 function Priority({ words }: { words: string }) {
   return (

@@ -66,7 +66,7 @@ export class RequestBuilder {
       on,
       options: { ...this.#options(scene, set, w), ...shownOf(this.editor, w) },
       scene: () => this.#reference(scene, set, w, preview),
-      whole: () => this.#written(scene, set, w, this.file.map!),
+      whole: () => this.#written(scene, set, w, this.file.wholeMap(scene.laneRules)!),
     };
   }
 
@@ -74,13 +74,12 @@ export class RequestBuilder {
    * The same, independent of the shown state and of the scene stored on the server: all road users move as in `set`.
    */
   makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
-    const { map } = this.file;
     return {
       preview: false,
       on,
       options: { ...this.#options(scene, set, w), ...ANSWER_ALONE },
-      scene: () => ({ scene: this.#written(scene, set, w, this.file.sentMap()) }),
-      whole: () => this.#written(scene, set, w, map!),
+      scene: () => ({ scene: this.#written(scene, set, w, this.file.sentMap(scene)) }),
+      whole: () => this.#written(scene, set, w, this.file.wholeMap(scene.laneRules)!),
     };
   }
 
@@ -118,7 +117,7 @@ export class RequestBuilder {
     const { file } = this;
     const asStored = file.holds(scene) && !set.driving.size && !w.kept?.size && !someStill(scene);
     if (asStored) return { id: scene.id };
-    const map = file.sentMap();
+    const map = file.sentMap(scene);
     if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag sends sixty requests a second with the same surroundings.
     const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));

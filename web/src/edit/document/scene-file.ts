@@ -1,4 +1,5 @@
 // The open scene as a file: as it was read, and written with the committed changes.
+import { formerRules, isEmptyRules, mapWith, rulesIn, type LaneRules } from '../../model/document/lanemap';
 import type { GeneratedJson, MapJson, SceneJson } from '../../model/document/scene-json';
 import type { MotionSet } from '../../model/document/futures';
 import type { Committed } from '../../model/document/history';
@@ -40,6 +41,10 @@ export class SceneFile {
   #castKey: string | null = null;
   #drive = '';
   #signals = '';
+  #rules = '';
+  #whole: { readonly of: MapJson; readonly rules: LaneRules; readonly map: MapJson } | null = null;
+  /** The server may hold another map than the hash names: rules of its lanes have changed. */
+  #hasRules = false;
 
   constructor(private readonly session: Session) {}
 
@@ -47,29 +52,41 @@ export class SceneFile {
     this.raw = json;
     this.map = map;
     this.mapHash = () => null;
+    this.#hasRules = !isEmptyRules(formerRules(json));
     this.stored = stored;
-    this.noteStored(json);
+    this.noteStored(json, map);
   }
 
   /** The map of a request: its hash where the server has it, else the whole map. */
-  sentMap(): SceneJson['map'] {
-    const hash = this.mapHash();
-    return hash ? { ref: hash } : this.map!;
+  sentMap({ laneRules }: Scene): SceneJson['map'] {
+    this.#hasRules ||= !isEmptyRules(laneRules);
+    const hash = this.#hasRules ? null : this.mapHash();
+    return hash ? { ref: hash } : this.wholeMap(laneRules)!;
+  }
+
+  /** The map with the rules of a document; null while no scene is open. */
+  wholeMap(rules: LaneRules): MapJson | null {
+    const { raw, map } = this;
+    if (!raw || !map) return null;
+    if (this.#whole?.of !== map || this.#whole.rules !== rules)
+      this.#whole = { of: map, rules, map: mapWith(mapWith(map, formerRules(raw)), rules) };
+    return this.#whole.map;
   }
 
   /** Does the server hold a scene of these road users, recordings and signals under the id of this one? */
   holds(scene: Scene): boolean {
     if (!this.stored || this.#castKey !== scene.castKey || this.#drive !== scene.drive) return false;
-    return this.#signals === statesOf(scene.signals);
+    return this.#signals === statesOf(scene.signals) && this.#rules === JSON.stringify(scene.laneRules);
   }
 
   /**
    * The server holds this version: remembers its road users, and those with conditions; released ones are sent as free.
    */
-  noteStored(json: SceneJson): void {
+  noteStored(json: SceneJson, map = json.map): void {
     this.#castKey = castKeyOfJson(json);
     this.#drive = json.x_editor?.drive ?? '';
     this.#signals = statesOf(json.signals ?? []);
+    this.#rules = JSON.stringify(rulesIn(map, formerRules(json)));
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
   }
@@ -78,7 +95,7 @@ export class SceneFile {
   reference(scene: Scene): SceneRef {
     if (this.holds(scene)) return { id: scene.id };
     const raw = this.raw!;
-    const of = { agents: castJson(scene), map: this.sentMap(), ...timedJson(raw, scene) };
+    const of = { agents: castJson(scene), map: this.sentMap(scene), ...timedJson(raw, scene) };
     return { scene: { ...raw, ...of, generated: null } };
   }
 
@@ -89,14 +106,15 @@ export class SceneFile {
   /** The committed document now; null while no scene is open. */
   snapshot(): Snapshot | null {
     const committed = this.session.document.committed.peek();
-    const { raw, map } = this;
+    const { raw } = this;
     if (!committed || !raw) return null;
     const { scene } = committed;
+    const map = this.wholeMap(scene.laneRules);
     const generated = this.answers();
     const takes = generated ? this.variantTakes() : [];
     let written: SceneJson | null = null;
     const body = (): SceneJson =>
-      (written ??= withVariants(writeScene(raw, scene, generated, this.sentMap() ?? undefined), takes));
+      (written ??= withVariants(writeScene(raw, scene, generated, this.sentMap(scene)), takes));
     return { committed, map, body, complete: () => (map ? { ...body(), map } : body()) };
   }
 
@@ -109,8 +127,8 @@ export class SceneFile {
 
   /** A document as a file of its own, with the map inside. */
   completeOf(scene: Scene, set: MotionSet): SceneJson | null {
-    const { raw, map } = this;
-    return raw && writeScene(raw, scene, answersIn(scene, set), map ?? undefined);
+    const map = this.wholeMap(scene.laneRules);
+    return this.raw && writeScene(this.raw, scene, answersIn(scene, set), map ?? undefined);
   }
 
   /** The committed document as a file, with the map inside. */

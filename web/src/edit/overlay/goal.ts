@@ -133,7 +133,8 @@ export class GoalOverlay {
     paintFlag(g, this.labels, [x, y], colour, !goal.set, v.grip);
     if (bad) this.paintNearest(g, v, a, bad.nearest);
     const said = bad && !bad.outranked;
-    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(goal.time)) : TEXTS.goalFree;
+    const free = a.locked ? TEXTS.noGoal : TEXTS.dragToSetAGoal;
+    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(goal.time)) : free;
     if (drag?.part === 'goal' && drag.handle === 'body') return;
     // A free goal has no label beside the words of a stop.
     if (!goal.set && this.isDecided()) return;

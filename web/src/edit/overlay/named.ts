@@ -29,7 +29,7 @@ export function namedNow(e: NamedIn): string[] {
       ? (e.answers.previewed.value ?? [])
       : []
     : e.answers.changes.value;
-  const met = a && verdictsHold(e) ? (e.reading.futures.value?.modes ?? []) : [];
+  const met = a && verdictsHold(e) && !e.reading.replays.value ? (e.reading.futures.value?.modes ?? []) : [];
   const events = e.selected.value.length ? [] : counted(e.reading.events.value).slice(0, MOST_EVENTS);
   const all = [
     ...(a ? [a.id, e.reading.named.value ?? a.id] : []),

@@ -243,7 +243,13 @@ export class Overlay {
         });
     }
     if (!atStart && now && !e.playhead.playing.value)
-      tag(g, this.labels, v.to(now.x, now.y), speedLabel(now.speed, e.view.unitOf(a)), { radii: [30, 42, 56] });
+      tag(
+        g,
+        this.labels,
+        v.to(now.x, now.y),
+        TEXTS.speedAt(speedLabel(now.speed, e.view.unitOf(a)), seconds(e.playhead.time.value)),
+        { radii: [30, 42, 56] },
+      );
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest, quiet);
     paintVias(g, this.labels, v, e, a);
@@ -322,6 +328,8 @@ export class Overlay {
     if (!verdictsHold(e) || this.trying) return [];
     const one = this.committed(a) || this.tooFar(a) || this.isDecided;
     const only = e.hoverFuture.value ?? (one ? e.reading.chosen.value : null);
+    // A road user that nothing was asked of has only possible futures: their faults are shown one at a time.
+    if (only === null && e.reading.replays.value) return [];
     if (only !== null) return only < f.modes.length ? [only] : [];
     return f.modes.map((_, i) => i);
   }

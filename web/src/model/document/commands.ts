@@ -9,6 +9,7 @@ import {
   numberIn,
   startPose,
   withAgents,
+  withItsRules,
   type Agent,
   type GoalSpec,
   type Length,
@@ -229,6 +230,7 @@ type ScenePatch = Partial<
     | 'variantStates'
     | 'feedback'
     | 'thresholds'
+    | 'laneRules'
   >
 >;
 
@@ -236,7 +238,7 @@ export function patchScene(name: string, patch: ScenePatch, fold?: string): Comm
   return {
     name,
     fold,
-    apply: (scene) => Object.freeze({ ...scene, ...patch }),
+    apply: (scene) => Object.freeze(withItsRules({ ...scene, ...patch })),
     invert(scene) {
       const old: Record<string, unknown> = {};
       for (const k of Object.keys(patch) as (keyof ScenePatch)[]) old[k] = scene[k];

@@ -1,13 +1,19 @@
-// The lane map as the editor uses it: lines with running lengths, a search grid, and routes.
-import type { AreaJson, LineJson, MapJson, PointJson } from './scene-json';
+// The lane map as the editor uses it: lines with running lengths, a search grid, and rules of its lanes.
+import {
+  isMapRef,
+  type AreaJson,
+  type LaneRule,
+  type LineJson,
+  type MapJson,
+  type PointJson,
+  type SceneJson,
+} from './scene-json';
 import {
   boxOf,
   emptyBox,
   growBox,
   makeLine,
-  pointAt,
   project,
-  sliceLine,
   wrapAngle,
   type Box,
   type Line,
@@ -21,13 +27,15 @@ export type LaneKind = 'road' | 'bike' | 'walk' | 'other';
 export interface Lane {
   readonly id: string;
   readonly kind: LaneKind;
-  readonly type: string;
+  readonly type: LaneRule['type'];
   readonly line: Line;
   readonly width: number;
   readonly limit: number | null;
   readonly next: readonly string[];
   readonly prev: readonly string[];
   readonly inside: boolean;
+  /** Its rule in the map, where the scene has another one. */
+  readonly was: LaneRule | null;
 }
 export interface MapLine {
   readonly id: string;
@@ -45,6 +53,8 @@ export interface LaneMap {
   readonly stopSigns: readonly Vec[];
   readonly box: Box;
   readonly grid: Grid;
+  /** Rules that differ from those of the map as it was read. */
+  readonly rules: LaneRules;
 }
 
 /** View only: a stop sign belongs to the lane that ends this near, metres. The document names lanes of few signs. */
@@ -93,6 +103,7 @@ export function buildMap(json: MapJson): LaneMap {
       next: l.successors ?? [],
       prev: l.predecessors ?? [],
       inside,
+      was: null,
     });
   }
   const lines = (list: LineJson[] | undefined): MapLine[] =>
@@ -120,8 +131,50 @@ export function buildMap(json: MapJson): LaneMap {
     stopSigns: (json.stop_signs ?? []).map((s): Vec => [s.position_m[0], s.position_m[1]]),
     box,
     grid: new Grid(lanes.values()),
+    rules: {},
   };
 }
+
+// -------------------------------------------------------------- rules that a scene changes
+
+/** By the ids of changed lanes, always in the same order. */
+export type LaneRules = Readonly<Record<string, LaneRule>>;
+
+export const rulesOf = (all: [id: string, LaneRule][]): LaneRules => Object.freeze(Object.fromEntries(all.sort()));
+
+export const isEmptyRules = (rules: LaneRules): boolean => !Object.keys(rules).length;
+
+/** What the changed lanes of a file were. */
+export const formerRules = (json: SceneJson): LaneRules => json.x_editor?.lanes_were ?? {};
+
+/** The rules in force on those lanes. */
+export const rulesIn = (map: SceneJson['map'], of: LaneRules): LaneRules =>
+  rulesOf(
+    (isMapRef(map) ? [] : (map.lanes ?? []))
+      .filter((l) => of[l.id])
+      .map(({ id, speed_limit_mps = null, type = 'undefined' }) => [id, { speed_limit_mps, type }]),
+  );
+
+/** A map with these rules on its lanes. */
+export const mapWith = (map: MapJson, rules: LaneRules): MapJson =>
+  isEmptyRules(rules) ? map : { ...map, lanes: map.lanes?.map((l) => ({ ...l, ...rules[l.id] })) };
+
+/** The map with other rules on its lanes. */
+export function withRules(map: LaneMap, rules: LaneRules): LaneMap {
+  if (map.rules === rules || (isEmptyRules(map.rules) && isEmptyRules(rules))) return map;
+  const lanes = new Map(map.lanes);
+  for (const id of Object.keys({ ...map.rules, ...rules })) {
+    const lane = lanes.get(id);
+    if (!lane) continue;
+    const [was, rule] = [ruleOf(lane), rules[id]];
+    const { speed_limit_mps: limit, type } = rule ?? was;
+    lanes.set(id, { ...lane, limit, type, kind: laneKind(type), was: rule ? was : null });
+  }
+  return { ...map, lanes, rules, grid: new Grid(lanes.values()) };
+}
+
+/** The rule of a lane in its map. */
+export const ruleOf = ({ was, limit, type }: Lane): LaneRule => was ?? { speed_limit_mps: limit, type };
 
 /** Change of direction over a lane, in radians; positive to the left. */
 export function turnOf(line: Line): number {
@@ -219,80 +272,4 @@ export function lanesAfter(map: LaneMap, from: readonly LaneHit[], far: number):
     }
   }
   return new Set(left.keys());
-}
-
-export interface Route {
-  readonly line: Line;
-  readonly length: number;
-  readonly lanes: readonly Lane[];
-  /** Where each of them ends along the line, metres. */
-  readonly ends: readonly number[];
-}
-
-/** Shortest route along the lanes from one hit to another, without lane changes. */
-export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400): Route | null {
-  if (from.lane === to.lane && to.s >= from.s - 0.5)
-    return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane], [to.s - from.s]);
-  interface Node {
-    lane: Lane;
-    cost: number;
-    back: Node | null;
-  }
-  const open: Node[] = [{ lane: from.lane, cost: from.lane.line.length - from.s, back: null }];
-  const seen = new Set<string>();
-  for (let n = 0; open.length && n < limit; n++) {
-    let best = 0;
-    for (let i = 1; i < open.length; i++) if (open[i].cost < open[best].cost) best = i;
-    const node = open.splice(best, 1)[0];
-    if (seen.has(node.lane.id)) continue;
-    if (node.back) seen.add(node.lane.id);
-    for (const id of node.lane.next) {
-      const lane = map.lanes.get(id);
-      if (!lane || seen.has(id)) continue;
-      if (lane === to.lane) return join(from, { lane, cost: 0, back: node }, to);
-      open.push({ lane, cost: node.cost + lane.line.length, back: node });
-    }
-  }
-  return null;
-
-  function join(a: LaneHit, end: Node, b: LaneHit): Route {
-    const chain: Lane[] = [];
-    for (let n: Node | null = end; n; n = n.back) chain.unshift(n.lane);
-    const pts: Vec[] = [];
-    const ends: number[] = [];
-    chain.forEach((lane, i) => {
-      const [s0, s1] = [i === 0 ? a.s : 0, i === chain.length - 1 ? b.s : lane.line.length];
-      const piece = sliceLine(lane.line, s0, s1);
-      pts.push(...(i ? piece.slice(1) : piece));
-      ends.push((ends.at(-1) ?? 0) + s1 - s0);
-    });
-    return routeOf(pts, chain, ends);
-  }
-}
-
-function routeOf(pts: Vec[], lanes: readonly Lane[], ends: readonly number[]): Route {
-  const line = makeLine(pts);
-  return { line, length: line.length, lanes, ends };
-}
-
-/** Sharpest bend of a line as a radius, metres. */
-export const tightestRadius = (line: Line): number => Math.min(...radii(line));
-
-/** Radii of a line about every 2 m from its start on, measured over stretches of about 4 m; its ends are straight. */
-export function radii(line: Line): number[] {
-  const n = Math.max(2, Math.floor(line.length / 2));
-  const out = new Array<number>(n + 1).fill(Infinity);
-  const at = (i: number): Vec => {
-    const p = pointAt(line, (line.length * i) / n);
-    return [p.x, p.y];
-  };
-  for (let i = 2; i <= n; i++) {
-    const a = at(i - 2),
-      b = at(i - 1),
-      c = at(i);
-    const t = Math.abs(wrapAngle(Math.atan2(c[1] - b[1], c[0] - b[0]) - Math.atan2(b[1] - a[1], b[0] - a[0])));
-    const d = line.length / n;
-    if (t > 1e-3) out[i - 1] = d / t;
-  }
-  return out;
 }

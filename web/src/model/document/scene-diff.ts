@@ -1,6 +1,6 @@
 // The difference between two versions of a document, in both directions. Plain data that a browser can store, whatever
 // the command.
-import { withCast, type Agent, type Scene } from './scene';
+import { withCast, withItsRules, type Agent, type Scene } from './scene';
 
 /** Changed members of a road user; all of them when it is added or removed; null where it is absent. */
 type AgentChange = Partial<Agent> | null;
@@ -72,7 +72,7 @@ export function applyDiff(scene: Scene, diff: SceneDiff, way: HistoryDirection):
     else if (a || isWhole(side)) agents.set(d.id, Object.freeze({ ...a, ...side } as Agent));
   }
   const order = diff.order?.[way];
-  return withCast({ ...scene, ...diff[way] }, order ? inOrder(agents, order) : agents);
+  return withCast(withItsRules({ ...scene, ...diff[way] }), order ? inOrder(agents, order) : agents);
 }
 
 const isWhole = (side: Partial<Agent>): boolean => side.log !== undefined;
@@ -107,7 +107,7 @@ export function withState(file: Scene, state: SceneState): Scene {
   const agents = new Map(
     state.agents.map((s) => [s.id, Object.freeze({ ...file.agents.get(s.id), ...s } as Agent)] as const),
   );
-  return withCast({ ...file, ...state.fields }, agents);
+  return withCast(withItsRules({ ...file, ...state.fields }), agents);
 }
 
 /** Have all road users a recording, as a document requires? */

@@ -103,6 +103,13 @@ export interface EditorJson {
   scene_feedback?: Feedback;
   /** Thresholds of events that differ from the usual ones. */
   thresholds?: Record<string, number>;
+  /** What lanes with a changed limit or changed users were. */
+  lanes_were?: Record<string, LaneRule>;
+}
+/** Parts of a lane that a scene may change. */
+export interface LaneRule {
+  readonly speed_limit_mps: number | null;
+  readonly type: NonNullable<LaneJson['type']>;
 }
 /** A pinned future: its motion, and the start and goal it was made for. */
 export interface PinJson {

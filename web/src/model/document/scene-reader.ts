@@ -1,6 +1,6 @@
 // Scene JSON -> document. Tolerates missing members; counts unreadable ones.
 import { readAnswering } from './reaction-records';
-import { buildMap, nearestLanes, type LaneMap } from './lanemap';
+import { buildMap, formerRules, mapWith, nearestLanes, rulesIn, withRules, type LaneMap } from './lanemap';
 import {
   isMapRef,
   type AgentFuturesJson,
@@ -54,7 +54,8 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   if ((json.version ?? 1) > 1) throw new SceneError(TEXTS.thisSceneWas(json.version));
   const source = mapJson ?? (isMapRef(json.map) ? undefined : json.map);
   if (!source) throw new SceneError(TEXTS.theMapOfThis);
-  const map = buildMap(source);
+  const were = formerRules(json);
+  const map = buildMap(mapWith(source, were));
   const steps =
     json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track?.first_step ?? 0) + (a.track?.x_m.length ?? 0)));
   const agents = new Map<string, Agent>();
@@ -62,6 +63,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json.x_editor ?? {}));
   const ed = json.x_editor ?? {};
   const length = readLength(ed.length_s);
+  const laneRules = rulesIn(source, were);
   return Object.freeze({
     id: json.id ?? '',
     name: TEXTS.sceneName(json.id ?? '', json.name ?? TEXTS.untitled),
@@ -71,7 +73,8 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     duration: durationOf(length, steps),
     length,
     replan: readReplan(ed.replan_s),
-    map,
+    map: withRules(map, laneRules),
+    laneRules,
     signals: (json.signals ?? []).map((s) => ({
       lane: s.lane,
       stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null,

@@ -16,6 +16,7 @@ import type {
   TrackJson,
   VariantJson,
 } from './scene-json';
+import { ruleOf } from './lanemap';
 import { DEFAULTS } from '../base/domain';
 import { trackJson } from '../base/motion';
 import {
@@ -206,6 +207,7 @@ export function writeScene(
       ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
       ...(scene.feedback ? { scene_feedback: scene.feedback } : {}),
       ...thresholdsOf(scene),
+      ...lanesWere(scene),
     },
   };
 }
@@ -213,6 +215,12 @@ export function writeScene(
 /** Thresholds that differ from the usual ones: for files and for requests. */
 export const thresholdsOf = (s: Scene): { thresholds?: Record<string, number> } =>
   Object.keys(s.thresholds).length ? { thresholds: { ...s.thresholds } } : {};
+
+/** What the lanes with changed rules were. */
+function lanesWere({ map: { lanes }, laneRules }: Scene): Pick<EditorJson, 'lanes_were'> {
+  const were = Object.keys(laneRules).flatMap((id) => (lanes.has(id) ? [[id, ruleOf(lanes.get(id)!)]] : []));
+  return were.length ? { lanes_were: Object.fromEntries(were) } : {};
+}
 
 /** Variants in file form. */
 export const variantsJson = (scene: Scene): VariantJson[] =>

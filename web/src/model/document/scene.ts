@@ -1,7 +1,7 @@
 // The document: the user's input. Frozen and structurally shared; generated motion is not part of it, but is looked up
 // by the document's key (see futures.ts).
 import type { AgentType, Kind } from '../base/kinds';
-import type { LaneMap } from './lanemap';
+import { isEmptyRules, withRules, type LaneMap, type LaneRules } from './lanemap';
 import { DEFAULTS } from '../base/domain';
 import type { Feedback } from './feedback';
 import type { AgentJson, GoalRelationJson } from './scene-json';
@@ -157,6 +157,8 @@ export interface Scene {
   readonly feedback: Feedback | null;
   /** Thresholds of events that differ from the usual ones. */
   readonly thresholds: Thresholds;
+  /** Rules of lanes that differ from the file's; `map` has them. */
+  readonly laneRules: LaneRules;
 }
 
 /** Numbers by the server's names. */
@@ -235,6 +237,9 @@ export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
   return Object.freeze({ ...scene, agents });
 }
 
+/** A scene whose map has its rules. */
+export const withItsRules = (scene: Scene): Scene => ({ ...scene, map: withRules(scene.map, scene.laneRules) });
+
 const subtypeOf = (a: Pick<Agent, 'subtype' | 'kind'>): string => a.subtype ?? a.kind;
 export const castKeyOf = (agents: Iterable<Agent>): string =>
   Array.from(agents, (a) => `${a.id}:${a.type}:${subtypeOf(a)}`).join(' ');
@@ -279,6 +284,7 @@ function keyOf(scene: Scene): string {
   parts.push(scene.castKey);
   if (scene.drive) parts.push(scene.drive);
   if (Object.keys(scene.thresholds).length) parts.push(scene.thresholds);
+  if (!isEmptyRules(scene.laneRules)) parts.push(scene.laneRules);
   for (const s of scene.signals) if (s.edited) parts.push([s.lane, s.states]);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);

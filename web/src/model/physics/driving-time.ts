@@ -1,7 +1,7 @@
 // The least time that a road user takes along a line without haste: within the speed limits, and without harsh braking,
 // steering or running.
 import { limitsOf, PLANNING, type Typed } from '../base/domain';
-import { radii, type Route } from '../document/lanemap';
+import { radii, type Route } from './lane-routes';
 
 // View only: the time that a remedy offers, before the server has tried it. Limits, manners and the speed of walkers
 // are the server's.

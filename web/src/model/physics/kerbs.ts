@@ -1,7 +1,8 @@
 // Kerbs: road edges that separate, and whether the road still leads to the other side.
 import { longestRoute, PLANNING } from '../base/domain';
 import type { Point, Pose, Vec } from '../base/geometry';
-import { findRoute, lanesFromStart, nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
+import { findRoute } from './lane-routes';
+import { lanesFromStart, nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
 
 /** Intersection of segment `a`-`b` with `c`-`d`, as a share of `a`-`b`; null where they do not intersect. */
 function meets(a: Vec, b: Vec, c: Vec, d: Vec): number | null {

@@ -11,7 +11,8 @@ import {
   type Vec,
 } from '../base/geometry';
 import type { DrivenRoute } from './driving-time';
-import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from '../document/lanemap';
+import { findRoute, tightestRadius } from './lane-routes';
+import { nearestLanes, type Lane, type LaneMap } from '../document/lanemap';
 import { JUDGING, limitsOf, longestRoute, PLANNING, THRESHOLDS, type Limits } from '../base/domain';
 import type { Agent, GoalSpec } from '../document/scene';
 

@@ -70,12 +70,12 @@ export const TEXTS = table('hud', {
   placing: (kind_name: string) => `Placing: ${kind_name}`,
   ofSelected: (some: number, count: number) => `${some} of ${count} selected`,
   drawing: 'Drawing the map …',
-  lanesCrosswalks: (driven: number, count: number, ms: number) =>
-    `${plural(driven, { one: `${driven} lane`, other: `${driven} lanes` })} · ${plural(count, { one: `${count} crosswalk`, other: `${count} crosswalks` })} · ${ms} ms`,
-  ms: (ms: string) => `${ms} ms`,
-  refining: (part: string, after: string) => `Refining ${part} · ${after}`,
-  refiningStep: (step: number, steps: number, after: string) => `Refining, step ${step} of ${steps} · ${after}`,
-  firstGuess: (after: string) => `First draft · ${after}`,
+  lanesCrosswalks: (driven: number, count: number) =>
+    `${plural(driven, { one: `${driven} lane`, other: `${driven} lanes` })} · ${plural(count, { one: `${count} crosswalk`, other: `${count} crosswalks` })}`,
+  took: (ms: string) => `Computed in ${ms} ms`,
+  refining: (part: string) => `Refining ${part}`,
+  refiningStep: (step: number, steps: number) => `Refining, step ${step} of ${steps}`,
+  firstGuess: 'First draft',
   computingFutures: 'Computing futures …',
   loadingTheScene: 'Loading the scene …',
   youCanKeepDragging: ' You can keep dragging.',

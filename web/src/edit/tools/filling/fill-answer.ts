@@ -37,7 +37,7 @@ export class FillAnswers {
     const pins = wish.pinned.map((n, i) => wholeAgentJson(settle(n, `pinned-${i + 1}`)));
     const gone = new Set(replaced);
     const there = castJson(scene).filter((a) => !gone.has(a.id));
-    const map = file.sentMap();
+    const map = file.sentMap(scene);
     const [min_mps, max_mps] = wish.speeds;
     const where = {
       scene: { ...file.raw!, ...timedJson(file.raw!, scene), agents: [...there, ...pins], map, generated: null },

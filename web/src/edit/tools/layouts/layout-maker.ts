@@ -167,7 +167,8 @@ export class LayoutMaker implements SessionPart {
     if (!base) return this.care.newOnMap(made.json, TEMPLATE_TITLES[made.layout.template]);
     const agents: AgentJson[] = base.agents;
     const body: SceneJson = { ...base, map: made.json.map, signals: made.json.signals, agents, generated: null };
-    Object.assign(body, { x_layout: made.layout });
+    // Rules of lanes belong to the map before.
+    Object.assign(body, { x_layout: made.layout, x_editor: { ...base.x_editor, lanes_were: undefined } });
     const lost = offTheLanes(body);
     const said = lost.length ? TEXTS.noLongerOnALane(lost.length, lost.slice(0, 5).join(', ')) : '';
     return this.care.newOnMap(body, TEXTS.otherMap(base.name), said);

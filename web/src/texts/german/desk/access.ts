@@ -20,7 +20,7 @@ export const german: Said<typeof TEXTS> = {
   cyclists: 'Radfahrer',
   onFoot: 'Zu Fuß',
   roadUsers: (count) => `Verkehrsteilnehmer, ${count}`,
-  useTheArrowKeys: 'Die Pfeiltasten bewegen durch die Liste.',
+  useTheArrowKeys: 'Die Pfeiltasten führen durch die Liste.',
   tabGoesToThe: 'Tab führt zum nächsten Verkehrsteilnehmer, F6 zum nächsten Bereich der Seite.',
   roadUsersTitle: 'Verkehrsteilnehmer',
   filters: 'Filter',

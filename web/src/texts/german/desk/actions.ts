@@ -169,7 +169,7 @@ export const german: Said<typeof TEXTS> = {
   keepACardFirst: 'Erst einen Vorschlag behalten.',
   saveAsTable: 'Als Tabelle sichern',
   nothingWasKept: 'Noch kein Vorschlag behalten oder verworfen.',
-  examplesAreReadOnly: 'Beispiele sind schreibgeschützt. Zum Ändern eines kopieren.',
+  examplesAreReadOnly: 'Beispiele sind schreibgeschützt. Zum Ändern eine Kopie anlegen.',
   noMapIsBeing: 'Es wird keine Karte bearbeitet.',
   scenes: 'Szenen',
   roadUsers: 'Verkehrsteilnehmer',

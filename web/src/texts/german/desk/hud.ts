@@ -75,12 +75,12 @@ export const german: Said<typeof TEXTS> = {
   placing: (kind: string) => `Einsetzen: ${kind}`,
   ofSelected: (some: number, all: number) => `${some} von ${all} ausgewählt`,
   drawing: 'Zeichnet die Karte …',
-  lanesCrosswalks: (driven, count, ms) =>
-    `${plural(driven, { one: `${driven} Spur`, other: `${driven} Spuren` })} · ${plural(count, { one: `${count} Überweg`, other: `${count} Überwege` })} · ${ms} ms`,
-  ms: (ms) => `${ms} ms`,
-  refining: (part: string, after: string) => `Verfeinert ${part} · ${after}`,
-  refiningStep: (step: number, steps: number, after: string) => `Verfeinert, Schritt ${step} von ${steps} · ${after}`,
-  firstGuess: (after: string) => `Erster Entwurf · ${after}`,
+  lanesCrosswalks: (driven, count) =>
+    `${plural(driven, { one: `${driven} Spur`, other: `${driven} Spuren` })} · ${plural(count, { one: `${count} Überweg`, other: `${count} Überwege` })}`,
+  took: (ms) => `In ${ms} ms berechnet`,
+  refining: (part: string) => `Verfeinert ${part}`,
+  refiningStep: (step: number, steps: number) => `Verfeinert, Schritt ${step} von ${steps}`,
+  firstGuess: 'Erster Entwurf',
   computingFutures: 'Berechnet Zukünfte …',
   loadingTheScene: 'Lädt die Szene …',
   youCanKeepDragging: ' Weiterziehen ist möglich.',

@@ -4,11 +4,11 @@ import type { Said } from '../../table';
 export const german: Said<typeof TEXTS> = {
   addOneOrTake: 'Einen hinzufügen oder entfernen',
   marqueeSelect: 'Mit Rahmen auswählen',
-  dragOverTheGround: 'über den Grund ziehen',
+  dragOverTheGround: 'über freie Fläche ziehen',
   addOrSubtractMarquee: 'Rahmen hinzufügen oder abziehen',
   pan: 'Verschieben',
   zoom: 'Vergrößern',
-  dragACopy: 'Kopie wegziehen',
+  dragACopy: 'Kopie ziehen',
   dragFromARoad: 'von einem Verkehrsteilnehmer aus ziehen',
   menu: 'Menü',
   rightButtonOr: 'rechte Taste oder langes Drücken',
@@ -52,5 +52,5 @@ export const german: Said<typeof TEXTS> = {
   whileMap: 'Beim Anlegen einer Karte oder ohne Verkehrsteilnehmer',
   click: 'Klick',
   drag: 'Ziehen',
-  wheel: 'Rad',
+  wheel: 'Mausrad',
 };

@@ -47,7 +47,7 @@ export const german: Said<typeof SENTENCES> = {
     'agents-table-missing': 'Die Tabelle der Verkehrsteilnehmer fehlt, die ihre Typen nennt',
     'recording-table-missing': 'Die Tabelle der Aufzeichnung fehlt, die Bildrate, Tempolimit und Ort nennt',
     'rows-in-part': (v: Values) =>
-      `${v.found} Zeilen sind mehr, als auf einmal gelesen werden; gelesen sind die ${v.kept} Zeilen vor ${v.before_s} s. "only" in einer Spaltendatei wählt einen anderen Teil nach time_s oder agent_id`,
+      `${v.found} Zeilen sind mehr, als auf einmal gelesen werden; gelesen sind die ${v.kept} Zeilen vor ${v.before_s} s. „only“ in einer Spaltendatei wählt einen anderen Teil nach time_s oder agent_id`,
     'files-beside': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Datei desselben Ordners wird mit der Tabelle gelesen: ${v.names}`,
@@ -178,8 +178,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'lanes-shared': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Straße für beide Richtungen ist eine Spur breit: beide fahren in ihrer Mitte`,
-        other: `${v.count} Straßen für beide Richtungen sind eine Spur breit: beide fahren in ihrer Mitte`,
+        one: `${v.count} Straße für beide Richtungen ist eine Spur breit: Beide fahren in ihrer Mitte`,
+        other: `${v.count} Straßen für beide Richtungen sind eine Spur breit: Beide fahren in ihrer Mitte`,
       }),
     'lanes-without-line': (v: Values) =>
       plural(Number(v.count), {
@@ -200,8 +200,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'links-turned': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Spurverbindung führt rückwärts: sie ist umgedreht, wie die Spuren aneinanderstoßen`,
-        other: `${v.count} Spurverbindungen führen rückwärts: sie sind umgedreht, wie die Spuren aneinanderstoßen`,
+        one: `${v.count} Spurverbindung führt rückwärts: Sie wurde so gedreht, wie die Spuren aneinanderstoßen`,
+        other: `${v.count} Spurverbindungen führen rückwärts: Sie wurden so gedreht, wie die Spuren aneinanderstoßen`,
       }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
@@ -253,13 +253,13 @@ export const german: Said<typeof SENTENCES> = {
     'map-faults': (v: Values) => `${v.first} (und ${v.more} weitere)`,
     'map-heights-dropped': 'Das Netz hat Höhen; die Karte ist eben',
     'map-lacks-lanelets': 'Die Datei hat keine Lanelets: Die Szene hat keine Karte',
-    'map-missing': 'Zum Szenario kam keine Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
+    'map-missing': 'Zum Szenario fehlt die Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
     'map-elsewhere': (v: Values) =>
       `Die Karte liegt unter den Verkehrsteilnehmern, aber nur ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren: Sie gehört zu einem anderen Ort oder Bezugssystem`,
     'map-laid': (v: Values) =>
       `Die Karte liegt unter den Verkehrsteilnehmern: ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren`,
     'moved-by-metadrive': 'MetaDrive hat die Datei verschoben und gedreht; der Ort der Aufzeichnung ist unbekannt',
-    'network-missing': 'Zur Aufzeichnung kam kein Netz: Die Szene hat weder Spuren noch Ampeln',
+    'network-missing': 'Zur Aufzeichnung fehlt das Netz: Die Szene hat weder Spuren noch Ampeln',
     'not-a-known-format': (v: Values) => `Keine Datei eines bekannten Formats (${v.formats}).`,
     'now-step-moved': (v: Values) => `Der aktuelle Schritt ist ${v.now} von ${v.steps}: Genommen wird der letzte`,
     'obstacles-absent': (v: Values) =>

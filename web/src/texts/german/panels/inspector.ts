@@ -8,7 +8,7 @@ export const german: Said<typeof TEXTS> = {
   scene: 'Szene',
   opensWithThe: 'Zum Beginnen eine Szene öffnen',
   whatThisPanelLists:
-    'Hier stehen die Verkehrsteilnehmer der Szene und für einen ausgewählten Start, Ziel und sechs Zukünfte.',
+    'Hier stehen die Verkehrsteilnehmer der Szene; für einen ausgewählten auch Start, Ziel und sechs Zukünfte.',
   nothingSelected: 'Nichts ausgewählt',
   noRoadUsersYet: 'Noch keine Verkehrsteilnehmer',
   inThisScene: 'In dieser Szene',

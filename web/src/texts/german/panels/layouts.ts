@@ -60,7 +60,7 @@ export const german: Said<typeof TEXTS> = {
   leftHand: 'Links',
   junction: 'Kreuzung',
   road: 'Straße',
-  rightOfWay: 'Vorrang',
+  rightOfWay: 'Vorfahrtregelung',
   traffic: 'Verkehr',
   checks: 'Prüfungen',
   startFrom: 'Beginnen mit',

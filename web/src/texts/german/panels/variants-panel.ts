@@ -66,7 +66,7 @@ export const german: Said<typeof TEXTS> = {
   noMatches: 'Keine Treffer.',
   noVariantsYet: 'Noch keine Varianten.',
   make: (count) => `${count} erzeugen`,
-  allRunOnOneClock: 'alle mit derselben Uhr',
+  allRunOnOneClock: 'alle synchron abgespielt',
   futuresOfTheScene: 'Zukünfte der Szene',
   seedDiversity: (seed, diversity) => `Startwert ${seed}, Vielfalt ${diversity} %`,
   futuresOf: (who, from) => `Zukünfte von ${who}, ${from}`,

@@ -10,7 +10,7 @@ export const german: Said<typeof TEXTS> = {
   offTheRoad: 'Neben der Straße',
   offTheMap: 'Außerhalb der Karte',
   onTheCarriageway: 'Auf der Fahrbahn',
-  speeding: 'Geschwindigkeitsüberschreitung',
+  speeding: 'Tempolimit überschritten',
   running: 'Rennt',
   askew: 'Schräg zur Spur',
   hardBraking: 'Starkes Bremsen',

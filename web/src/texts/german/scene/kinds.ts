@@ -12,7 +12,7 @@ export const german: Said<typeof TEXTS> = {
   object: 'Objekt',
   smallCar: 'Kleinwagen',
   van: 'Lieferwagen',
-  deliveryTruck: 'Kleinlaster',
+  deliveryTruck: 'Verteiler-Lkw',
   semiTrailer: 'Sattelzug',
   cityBus: 'Stadtbus',
   articulatedBus: 'Gelenkbus',

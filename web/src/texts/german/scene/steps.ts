@@ -23,8 +23,8 @@ export const german: Said<typeof TEXTS> = {
   othersReplay: 'Andere wie aufgezeichnet',
   othersHoldStill: 'Andere bleiben stehen',
   replanEvery: (replan) => `Alle ${replan} s neu planen`,
-  signalPhasesChanged: 'Signalphasen geändert',
-  allGeneratedAgain: 'Alle Verkehrsteilnehmer neu erzeugt',
+  signalPhasesChanged: 'Ampelphasen geändert',
+  allGeneratedAgain: 'Alle Verkehrsteilnehmer neu geplant',
   length: (length) => `Dauer ${length} s`,
   renamedTo: (name) => `Umbenannt in ${name}`,
 };
