@@ -31,6 +31,7 @@ pub const CONSTANTS: &[(&str, &str, &str)] = &[
     ("generator/variations.rs", "END_S", "geometry"),
     ("generator/variations.rs", "HELD_AT_S", "grid"),
     ("generator/others/blocks.rs", "SPACING_M", "grid"),
+    ("generator/others/blocks.rs", "HAIR_M", "rounding"),
     ("generator/others/path_progress.rs", "GRAIN_M", "grid"),
     ("generator/others/yielding.rs", "HAIR_M", "rounding"),
     ("generator/repulsion.rs", "NEAR_M", "bound"),

@@ -1,7 +1,6 @@
 //! XML as it is written: elements that close in the order in which they open, with text that cannot break out.
 
 use crate::written::FileBounds;
-use crate::xml::is_char;
 use std::fmt::{Display, Write};
 use std::io;
 
@@ -100,6 +99,11 @@ impl Markup {
 /// A number to the millionth, without an exponent.
 pub(crate) fn decimal(value: f64) -> String {
     ((value * 1e6).round() / 1e6 + 0.0).to_string()
+}
+
+/// Whether text of XML may have this character (XML 1.0, 2.2; the discouraged controls are left out too).
+pub(crate) fn is_char(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
 /// Text with marks as references, and without the characters that XML has no place for.

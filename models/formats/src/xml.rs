@@ -12,6 +12,7 @@
 //! ours to check.
 
 use crate::encoding::Utf8;
+use crate::markup::is_char;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, found_expected, quoted, shown, tag, wanted, what};
 use crate::unpack;
@@ -351,11 +352,6 @@ fn attribute(text: &str) -> Result<((String, String), &str), Message> {
         return Err(wrong());
     }
     Ok(((name.to_owned(), unescaped(value)?), rest))
-}
-
-/// Whether text of XML may have this character (XML 1.0, 2.2; the discouraged controls are left out too).
-pub(crate) fn is_char(c: char) -> bool {
-    matches!(c, '\t' | '\n' | '\r') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
 /// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows. Characters that XML has no
