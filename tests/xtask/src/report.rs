@@ -177,6 +177,22 @@ mod tests {
     }
 
     #[test]
+    fn what_a_failed_check_printed_comes_with_its_line() {
+        let fails = || {
+            status(Command::new("cargo").arg("no-such-command"))?;
+            anyhow::bail!("broken")
+        };
+        let passes = || {
+            status(Command::new("cargo").arg("--version"))?;
+            Ok(Outcome::Passed)
+        };
+        let ended = side_by_side(&[vec![("a", &fails as _)], vec![("b", &passes as _)]], false);
+        let texts: Vec<_> = ended.into_iter().map(|(line, text)| (line.0, text)).collect();
+        let [("a", Some(failed)), ("b", None)] = &texts[..] else { panic!("{texts:?}") };
+        assert!(String::from_utf8_lossy(failed).contains("no-such-command"));
+    }
+
+    #[test]
     fn what_a_command_prints_is_held_in_its_order_where_another_check_runs() {
         HELD.set(Some(Vec::new()));
         let ended = status(Command::new("cargo").arg("--version")).unwrap();
