@@ -2,19 +2,20 @@
 //
 //   npm run figures                                    all rows, with the built program
 //   npm run figures -- --bin OLD --bin NEW --turns 3   two programs in turn, on the same machine
-//   npm run figures -- drag tabs                       some rows: opening, drag, crowds, record, edits, tabs
+//   npm run figures -- drag tabs                       some rows: opening, drag, phases, crowds, record, edits, tabs
 //   npm run figures -- --hand 60                       pointer moves per second; 125 by default
 import { availableParallelism, loadavg } from 'node:os';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { crowd } from './support/crowds.js';
 import { Editor, launch } from './support/editor.js';
-import { answered, atRest, costs, edit, flagNow, hand, held, takeFlag } from './support/measures.js';
+import { answered, atRest, costs, edit, flagNow, hand, held, phaseDrags, takeFlag } from './support/measures.js';
 import { Program } from './support/program.js';
 import { missing, out, program as built, recordedFile } from './support/where.js';
 
 const FRAMES = 120;
 const EDITS = 1000;
+const PHASE_DRAGS = 9;
 const TABS = 12;
 const SIZES = { '1440x900': { width: 1440, height: 900 } };
 
@@ -84,6 +85,16 @@ const ROWS = {
   async drag(row, stage) {
     await ofScene((name, v) => row(`example, before: ${name}`, v), stage, null);
     await ofScene((name, v) => row(`example, after: ${name}`, v), stage, null, { after: true });
+  },
+  /** From the release of a phase's edge to new futures of all road users. */
+  async phases(row, { browser, program }) {
+    const e = await Editor.open(browser, program.url, { listening: 'nothing' });
+    try {
+      await e.begin();
+      row('phases: release to futures of all p50', (await phaseDrags(e, PHASE_DRAGS)).p50);
+    } finally {
+      await e.close();
+    }
   },
   async crowds(row, stage) {
     for (const [count, scale] of [

@@ -180,3 +180,39 @@ export async function edit(e, times) {
   for (let i = 0; i < times; i++) await e.key(keys[i % keys.length]);
   await e.settled();
 }
+
+/** Drags an edge of a signal's phases to and fro; from each release until no road user is computed any more. */
+export async function phaseDrags(e, count) {
+  const { signals } = await e.get('/v1/scenes/demo-crossing');
+  const { stop_m } = signals.find((s) => s.states.length === 2 && s.states[0][1] === 'go');
+  await e.page.mouse.click(...(await e.at(...stop_m)));
+  const edge = e.page.locator('.phases .edge').first();
+  await edge.waitFor();
+  const took = [];
+  for (let i = 0; i < count; i++) {
+    const box = await edge.boundingBox();
+    const from = [box.x + box.width / 2, box.y + box.height / 2];
+    await e.drag(from, [from[0] + (i % 2 ? 120 : -120), from[1]], { moves: 6 });
+    const done = e.page.evaluate(
+      () =>
+        new Promise((tell) => {
+          const stage = document.querySelector('main.stage');
+          let began = 0;
+          let isBusy = false;
+          const watch = new MutationObserver(() => {
+            if (stage.getAttribute('aria-busy') === 'true') isBusy = true;
+            else if (isBusy) requestAnimationFrame(() => tell(performance.now() - began));
+          });
+          const release = () => {
+            began = performance.now();
+            watch.observe(stage, { attributeFilter: ['aria-busy'] });
+          };
+          addEventListener('pointerup', release, { once: true, capture: true });
+        }),
+    );
+    await e.frames(2);
+    await e.release();
+    took.push(await done);
+  }
+  return spread(took);
+}
