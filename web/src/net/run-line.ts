@@ -61,12 +61,12 @@ export class RunLine {
    */
   step(number: number, ego: Omit<EgoJson, 'plan'>): Promise<StepReply> {
     const body = JSON.stringify({ number, egos: [ego] });
-    const step = this.#last.then(() => this.#stepOnceFree(body));
+    const step = this.#last.then(() => this.#stepWhenFree(body));
     this.#last = step;
     return step;
   }
 
-  async #stepOnceFree(body: string): Promise<StepReply> {
+  async #stepWhenFree(body: string): Promise<StepReply> {
     for (;;) {
       try {
         return await this.#stepNow(body);
