@@ -55,7 +55,7 @@ export const german: Said<typeof TEXTS> = {
   turns: { left: 'links', straight: 'geradeaus', right: 'rechts' },
   signals: 'Ampel',
   priority: 'Vorfahrt',
-  equal: 'Rechts vor links',
+  equal: 'Ungeregelt',
   rightHand: 'Rechts',
   leftHand: 'Links',
   junction: 'Kreuzung',
