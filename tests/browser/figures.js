@@ -48,9 +48,17 @@ async function ofScene(row, { browser, program }, id, { scale = 1, after = false
         row('hand to futures p95', a.hand.p95);
         row('pointer to futures p50', a.shown.p50);
         row('pointer to futures p95', a.shown.p95);
-        row('of it asking p50', a.asked.p50);
-        row('of it waiting p50', a.came.p50);
-        row('of it drawing p50', a.drawn.p50);
+        for (const [stage, time] of [
+          ['asking', a.asked],
+          ['waiting', a.came],
+          ['drawing', a.drawn],
+          ['drawing, the page records', a.recorded],
+          ['drawing, the worker paints', a.painted],
+          ['drawing, the browser composes', a.composed],
+        ]) {
+          row(`of it ${stage} p50`, time.p50);
+          row(`of it ${stage} p95`, time.p95);
+        }
         row('request bytes p95', a.request.p95);
         row('answer bytes p50', a.answer.p50);
       } else {

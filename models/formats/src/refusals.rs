@@ -13,7 +13,7 @@ pub mod what {
     scene::words! {
         ATTRIBUTE = "attribute";
         ATTRIBUTES = "attributes";
-        CALL = "a call of what is no name";
+        CALL = "a call of something that is not a name";
         CLASS_OBJECT = "an object of a class";
         BYTES = "bytes";
         CHUNKS = "column chunks";
@@ -63,7 +63,7 @@ pub mod what {
         REFERENCES = "references";
         REGISTERED_NAME = "a name by its number in a registry";
         RELATIONS = "relations";
-        REMEMBERED = "things to remember";
+        REMEMBERED = "memo entries";
         ROADS = "roads";
         ROAD_BYTES = "bytes of roads";
         ROAD_ELEMENTS = "elements of roads";
@@ -78,7 +78,7 @@ pub mod what {
         SECTION_LANES = "lanes in one lane section";
         SIGNS = "signs, lights and references";
         SPEED = "speed in m/s";
-        STATE = "a state of what is no array";
+        STATE = "a state of something that is not an array";
         STATES = "states";
         TAG = "a tag";
         TAG_BYTES = "bytes in a tag";
@@ -144,11 +144,11 @@ pub mod wanted {
         INSTRUCTION = "a known instruction";
         ITEM = "an item on the stack";
         KEY_VALUES = "a value for each key";
-        LETTER = "the number of a letter";
+        LETTER = "a character code";
         LIST = "a list";
         MAGIC = "PAR1 at the beginning and the end";
         MARK = "a mark on the stack";
-        MEMORY = "a place of the memory";
+        MEMORY = "a memo entry";
         METRES = "at most 1e8 m";
         NAME_OR_OBJECT = "a name or an object";
         NUMBER = "a number";
@@ -193,7 +193,7 @@ pub mod wanted {
         TIME = "a time in seconds";
         TIME_AFTER = "a time after that of the time step before";
         TIME_OR_STEP = "a time in seconds, or a step";
-        TRUTH = "truth values";
+        TRUTH = "booleans";
         TUPLE = "a tuple";
         VERSION = "a version from 1 on";
         VELOCITY = "a velocity in m/s";
@@ -247,8 +247,7 @@ scene::messages! {
         "netconvert-failed", "netconvert could not make a network of the file: {words}";
     netconvert_missing() =
         "netconvert-missing",
-        "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with \
-         `pip install eclipse-sumo` and start again";
+        "an extract of OpenStreetMap is read with SUMO's netconvert, which is not installed: run `pip install eclipse-sumo` and start again";
     nothing_around(radius_m: f64, x: f64, y: f64, x_range: &str, y_range: &str) =
         "nothing-around",
         "no lane lies within {radius_m:.0} m of {x}, {y}; the file has x {x_range} and y {y_range}";
@@ -262,7 +261,7 @@ scene::messages! {
         "no-open-lanelets",
         "no lanelets with two sides that a road user may pass: subtypes and participants decide";
     no_projection(key: &str) =
-        "no-projection", "the projection is not known: {key} of the map names no zone of UTM";
+        "no-projection", "the projection is unknown: {key} of the map names no UTM zone";
     no_roads_with_lanes(words: &str) = "no-roads-with-lanes", "no roads with lanes: {words}";
     no_table(table: &str) = "no-table", "the database has no table {table}";
     not_both(first: &str, second: &str) = "not-both", "give either {first} or {second}, not both";
@@ -297,17 +296,17 @@ scene::messages! {
     roads_over_memory(lanes_m: f64, elements: usize) =
         "roads-over-memory",
         "{lanes_m:.0} m of lanes and {elements} elements would take more memory than a file of this size may";
-    roads_too_far(reach_km: f64) = "roads-too-far", "roads over {reach_km:.0} km; a map has some kilometres";
+    roads_too_far(reach_km: f64) = "roads-too-far", "roads over {reach_km:.0} km; a map spans a few kilometres";
     too_far_from_start(what: Word, distance_m: f64, most_m: f64) =
         "too-far-from-start", "the {what} is {distance_m:.1} m from the start, at most {most_m} m expected";
     unequal_columns(count: usize, expected: usize, like: &str) =
         "unequal-columns",
         [count] "{count} value, {expected} expected, as in {like}",
         "{count} values, {expected} expected, as in {like}";
-    unknown_map() = "unknown-map", "no map with this hash is known here; send the map itself";
+    unknown_map() = "unknown-map", "the server has no map with this hash; send the map itself";
     unreadable(format: &str, words: &str) = "unreadable", "cannot be read as {format}: {words}";
     unsupported_version(found: u64, known: u64) =
-        "unsupported-version", "version {found} found, up to {known} is known here";
+        "unsupported-version", "version {found} found, versions up to {known} are supported";
     zip_without(first: &str, second: &str) =
         "zip-without", "a zip without a file whose name ends in {first} or {second}";
 }

@@ -51,10 +51,10 @@ scene::messages! {
     columns_recognised(sets: &str) =
         "columns-recognised", "The columns are read as those of the data set {sets}; --columns names others";
     agents_table_missing() =
-        "agents-table-missing", "The table of road users is not there, which says their types";
+        "agents-table-missing", "The table of road users, which gives their types, is missing";
     recording_table_missing() =
         "recording-table-missing",
-        "The table of the recording is not there, which says frame rate, speed limit and place";
+        "The table of the recording, which gives frame rate, speed limit and place, is missing";
     rows_in_part(kept: usize, found: usize, before_s: f64) =
         "rows-in-part",
         "{found} rows are more than are read at once; the {kept} rows before {before_s:.1} s are read. \
@@ -128,19 +128,17 @@ scene::messages! {
          heading";
     headings_along_degrees(agree: usize, moving: usize) =
         "headings-along-degrees",
-        "Headings are in degrees and were converted to radians: {agree} of {moving} moving road users go along \
-         them";
+        "Headings are in degrees and were converted to radians: {agree} of {moving} moving road users move along them";
     headings_along_radians(agree: usize, moving: usize) =
         "headings-along-radians",
-        "Headings are in radians where degrees are usual: {agree} of {moving} moving road users go along them";
+        "Headings are in radians where degrees are usual: {agree} of {moving} moving road users move along them";
     headings_in_degrees(outside: usize, found: usize) =
         "headings-in-degrees",
-        "Headings are in degrees and were converted to radians: those of {outside} of {found} road users are \
-         outside of a turn in radians, or the format has degrees";
+        "Headings are in degrees and were converted to radians: those of {outside} of {found} road users exceed a full turn in radians, or the format has degrees";
     headings_wrapped(count: usize) =
         "headings-wrapped",
-        [count] "{count} heading is outside of a turn and was wrapped",
-        "{count} headings are outside of a turn and were wrapped";
+        [count] "{count} heading exceeds a full turn and was wrapped",
+        "{count} headings exceed a full turn and were wrapped";
     ids_renumbered() = "ids-renumbered", "Lanes and junctions have numbers instead of SUMO's ids";
     ids_replaced(count: usize, subject: Word) =
         "ids-replaced",
@@ -156,16 +154,16 @@ scene::messages! {
         "{count} repeated ids of {subject} got a suffix";
     identities_joined(count: usize, pairs: &str, more: usize) =
         "identities-joined",
-        [count] "{count} road user had a second id and is joined: {pairs} (and {more} more)",
-        "{count} road users had a second id and are joined: {pairs} (and {more} more)";
+        [count] "{count} road user had a second id and is merged: {pairs} (and {more} more)",
+        "{count} road users had a second id and are merged: {pairs} (and {more} more)";
     identities_joined_all(count: usize, pairs: &str) =
         "identities-joined-all",
-        [count] "{count} road user had a second id and is joined: {pairs}",
-        "{count} road users had a second id and are joined: {pairs}";
+        [count] "{count} road user had a second id and is merged: {pairs}",
+        "{count} road users had a second id and are merged: {pairs}";
     jumps(count: usize) =
         "jumps",
-        [count] "A road user was moved elsewhere {count} time; this gap remains",
-        "Road users were moved elsewhere {count} times; these gaps remain";
+        [count] "A road user was teleported {count} time; this gap remains",
+        "Road users were teleported {count} times; these gaps remain";
     lanelets_unusable(count: usize) =
         "lanelets-unusable",
         [count] "{count} lanelet without two sides, or not for traffic, is left out",
@@ -200,7 +198,7 @@ scene::messages! {
         "lanes-without-line",
         [count] "{count} lane without a centre line is left out",
         "{count} lanes without a centre line are left out";
-    left_hand() = "left-hand", "Traffic keeps to the left, as it does in this region";
+    left_hand() = "left-hand", "Traffic keeps to the left, as in this region";
     left_hand_network() = "left-hand-network", "Traffic keeps to the left, as the network states";
     lines_thinned(count: usize) =
         "lines-thinned",
@@ -220,8 +218,8 @@ scene::messages! {
         "{count} painted lines have a type or colour that a scene does not support";
     loss_lane_lines(off_mm: f64, count: usize) =
         "loss-lane-lines",
-        [count] "lanes are lines within {off_mm:.0} mm, and {count} begins with a way into it",
-        "lanes are lines within {off_mm:.0} mm, and {count} begin with a way into them";
+        [count] "lanes are polylines within {off_mm:.0} mm, and {count} has its start as a connecting road",
+        "lanes are polylines within {off_mm:.0} mm, and {count} have their start as a connecting road";
     loss_lane_points(off_mm: f64) =
         "loss-lane-points",
         "lanes are within {off_mm:.0} mm of their lines when their points are set again; stop lines and stop \
@@ -235,7 +233,7 @@ scene::messages! {
         "a record has room for {most} lights per step";
     loss_lines_sampled(apart_m: f64) =
         "loss-lines-sampled",
-        "lines as points {apart_m} m apart, without the graph and the limits of lanes";
+        "lines as points {apart_m} m apart, without lane graph and speed limits";
     loss_longer(steps: usize, known: usize) =
         "loss-longer",
         "nothing is cut: {steps} steps, where the scene has {known}";
@@ -273,13 +271,12 @@ scene::messages! {
         "map-missing", "The scenario has no map file (log_map_archive_*.json): the scene has no lanes";
     map_elsewhere(percent: f64) =
         "map-elsewhere",
-        "The map lies under the road users, but only {percent:.0} % of the places of vehicles are on its lanes: it is \
-         that of another place, or in another frame";
+        "Only {percent:.0} % of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference";
     map_chosen(name: &str, maps: usize) =
-        "map-chosen", "Of {maps} maps, that of {name} has most of the vehicles on its lanes";
+        "map-chosen", "Of {maps} maps, that of {name} has the most vehicles on its lanes";
     map_laid(percent: f64) =
         "map-laid",
-        "The map lies under the road users: {percent:.0} % of the places of vehicles are on its lanes";
+        "{percent:.0} % of the vehicle positions are on lanes of the map";
     moved_by_metadrive() =
         "moved-by-metadrive", "MetaDrive moved and turned the file; the place of the recording is unknown";
     network_missing() =

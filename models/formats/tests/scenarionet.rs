@@ -86,7 +86,7 @@ fn a_pickle_that_would_be_a_program_is_refused_by_name() {
         (b"\x80\x02(ios\nsystem\n.", "an object of a class"),
         (b"\x80\x02\x82\x01.", "a registry"),
         // A list is no name, whatever its arguments are.
-        (b"\x80\x02])R.", "a call of what is no name"),
+        (b"\x80\x02])R.", "a call of something that is not a name"),
         (b"\x80\x02cnumpy\ndtype\n(X\x01\x00\x00\x00OtR.", "array(O)"),
     ] {
         let error = refused(bytes);
@@ -109,7 +109,7 @@ fn broken_pickles_say_where() {
         (b"\x80\x02X\xff\xff\xff\xff", 2, "the file ends inside an instruction"),
         (b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\xff", 2, "the file ends inside an instruction"),
         (b"\x80\x02t.", 2, "a mark on the stack"),
-        (b"\x80\x02h\x05.", 2, "a place of the memory"),
+        (b"\x80\x02h\x05.", 2, "a memo entry"),
         (b"\x80\x02NNs.", 4, "a dictionary expected"),
         (b"\x80\x02}NNs", 6, "the file ends"),
         (b"\x80\x02Na.", 3, "a list expected"),

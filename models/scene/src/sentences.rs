@@ -48,7 +48,7 @@ crate::messages! {
         [count] "{count} point; {least} to {most} expected",
         "{count} points; {least} to {most} expected";
     relation_gone(agent: &str, time_s: f64) =
-        "relation-gone", "Road user {agent}, which the goal is relative to, is not there at {time_s:.1} s.";
+        "relation-gone", "Road user {agent}, to which the goal is relative, is not in the scene at {time_s:.1} s.";
     relation_lane_ends(agent: &str, short_m: f64, time_s: f64) =
         "relation-lane-ends",
         "The lane ends {short_m:.0} m before the place that is relative to road user {agent} at {time_s:.1} s.";
@@ -66,8 +66,8 @@ crate::messages! {
         "relation-outside",
         "Road user {agent} passes the goal at {passed_s:.1} s. The goal is then due at {time_s:.1} s; {least_s:.1} s to \
          {most_s:.1} s is possible.";
-    relation_ring(row: &str) = "relation-ring", "the goals are relative to each other in a ring: {row}";
-    relation_row(most: usize) = "relation-row", "more than {most} goals are relative to each other in a row";
+    relation_ring(row: &str) = "relation-ring", "the goals are relative to each other in a circle: {row}";
+    relation_row(most: usize) = "relation-row", "more than {most} goals are relative to each other in a chain";
     relation_stands(agent: &str, time_s: f64) =
         "relation-stands", "Road user {agent} stands at {time_s:.1} s. A time gap needs a speed; use a gap in metres.";
     relation_to_itself() = "relation-to-itself", "the goal is relative to the same road user";

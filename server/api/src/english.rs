@@ -44,20 +44,20 @@ scene::messages! {
     empty_map() = "empty-map", "the map is empty: it has no place for a region";
     one_scene() = "one-scene", "exactly one of scene and scene_id is needed";
     changed_scene() = "changed-scene", "The stored scene has changed since it was read.";
-    no_network(format: &str) = "no-network", "a file of format {format} has no network";
+    no_network(format: &str) = "no-network", "a file of format {format} takes no network file";
     no_part(format: &str) =
         "no-part", "a file of format {format} is read whole; maps of SUMO, OpenDRIVE, Lanelet2 and OpenStreetMap are read in part";
     no_columns(format: &str) = "no-columns", "a file of format {format} has no columns to name";
     unknown_format(format: &str, formats: &str) =
         "unknown-format", "No format is named \"{format}\"; there are {formats}.";
-    ego_absent(id: &str) = "ego-absent", "\"{id}\" is not there at the start";
-    ego_once(id: &str) = "ego-once", "\"{id}\" is needed once";
-    not_an_ego(id: &str) = "not-an-ego", "\"{id}\" is no ego";
-    no_state(id: &str, at: usize) = "no-ego-state", "\"{id}\", state {at}: no road user is there or so fast";
-    step_order(got: usize, next: usize) = "step-order", "step {got}; {next} is next";
+    ego_absent(id: &str) = "ego-absent", "\"{id}\" is not in the scene at the start";
+    ego_once(id: &str) = "ego-once", "\"{id}\" must be named exactly once";
+    not_an_ego(id: &str) = "not-an-ego", "\"{id}\" is not an ego";
+    no_state(id: &str, at: usize) = "no-ego-state", "\"{id}\", state {at}: the position or the speed is out of range";
+    step_order(got: usize, next: usize) = "step-order", "step {got} found, step {next} expected";
     setting_of_snapshot(member: &str) = "setting-of-snapshot", "the snapshot has its own {member}";
     snapshot_of_another_scene() = "snapshot-of-another-scene", "the snapshot is of another scene";
-    snapshot_broken(at: usize) = "snapshot-broken", "no snapshot: byte {at} is wrong";
+    snapshot_broken(at: usize) = "snapshot-broken", "not a snapshot: byte {at} is wrong";
     too_many_runs() = "too-many-runs", "no room for another run; delete one, or wait";
     too_many_requests(most: usize) =
         "too-many-requests",

@@ -27,7 +27,7 @@ pub fn within(
 /// One sentence.
 pub fn number(text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|v: &f64| v.is_finite());
-    number.ok_or_else(|| format!("\"{text}\" is no number"))
+    number.ok_or_else(|| format!("\"{text}\" is not a number"))
 }
 
 /// A whole number from `min` to `max`, both allowed.

@@ -4,6 +4,8 @@
 const DEMO = 'demo-arterial';
 /** Road users computed in one call. */
 const AT_ONCE = 60;
+/** Road users placed beyond those that are needed. */
+const SPARE = 30;
 
 async function asked(url, path, body) {
   const reply = await fetch(new URL(path, url), {
@@ -19,12 +21,14 @@ async function asked(url, path, body) {
 export async function crowd(url, count) {
   const scene = await (await fetch(new URL(`/v1/scenes/${DEMO}`, url))).json();
   const missing = count - scene.agents.length;
-  const { agents } = await asked(url, '/v1/place', {
+  // Some kinds may find no place.
+  const placed = await asked(url, '/v1/place', {
     scene_id: DEMO,
-    density: { count: missing },
+    density: { count: missing + SPARE },
     seed: 1,
     min_gap_m: 1,
   });
+  const agents = placed.agents.slice(0, missing);
   if (agents.length < missing) throw new Error(`only ${agents.length} of ${missing} found a place`);
   scene.agents.push(...agents);
   for (let i = 0; i < agents.length; i += AT_ONCE) {

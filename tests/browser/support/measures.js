@@ -80,9 +80,19 @@ export async function answered(browser, e, from, to, frames) {
   const answersTo = (times) =>
     times.flatMap(({ at, known }) => {
       const draft = drafts.find((d) => d.sent >= known);
-      const seen = draft && trace.shownOnceTold(draft.came);
+      const seen = draft && trace.pictureOnceTold(draft.came);
       return seen
-        ? [{ came: draft.came - draft.sent, asked: draft.sent - known, drawn: seen - draft.came, all: seen - at }]
+        ? [
+            {
+              asked: draft.sent - known,
+              came: draft.came - draft.sent,
+              recorded: seen.recorded - draft.came,
+              painted: seen.painted - seen.recorded,
+              composed: seen.shown - seen.painted,
+              drawn: seen.shown - draft.came,
+              all: seen.shown - at,
+            },
+          ]
         : [];
     });
   const shown = answersTo(trace.moves);
@@ -92,6 +102,9 @@ export async function answered(browser, e, from, to, frames) {
     asked: spread(shown.map((m) => m.asked)),
     came: spread(shown.map((m) => m.came)),
     drawn: spread(shown.map((m) => m.drawn)),
+    recorded: spread(shown.map((m) => m.recorded)),
+    painted: spread(shown.map((m) => m.painted)),
+    composed: spread(shown.map((m) => m.composed)),
     request: spread(asked.map((a) => a.weight.request)),
     answer: spread(asked.map((a) => a.weight.answer)),
     questions: asked.length,

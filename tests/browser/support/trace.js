@@ -89,17 +89,25 @@ class Trace {
       .sort((a, b) => a.at - b.at);
   }
 
-  /** Time on screen of the first picture begun after the page handled a worker's message sent at or after a time. */
-  shownOnceTold(time) {
+  /**
+   * The first picture begun after the page handled a worker's message sent at or after a time: when the page had
+   * recorded it, when the painter had painted it and handed it over, and when it was on screen. Null when there was none.
+   */
+  pictureOnceTold(time) {
     const news = this.heard.find((h) => h.said >= time);
-    return news ? this.shownAfter(news.heard) : null;
+    return news ? this.#pictureAfter(news.heard) : null;
   }
 
   /** Time on screen of the first picture begun at or after a time; null when there was none. */
   shownAfter(time) {
+    return this.#pictureAfter(time)?.shown ?? null;
+  }
+
+  #pictureAfter(time) {
     const told = this.told.find((t) => t.begun >= time);
-    const finished = told && this.finished.find((t) => t >= told.painted);
-    return (finished && (this.drawn.find((t) => t >= finished) ?? null)) || null;
+    const painted = told && this.finished.find((t) => t >= told.painted);
+    const shown = painted && this.drawn.find((t) => t >= painted);
+    return shown ? { recorded: told.at, painted, shown } : null;
   }
 }
 

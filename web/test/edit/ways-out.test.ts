@@ -42,7 +42,7 @@ describe('the way by the road', () => {
     answer();
     reach(ROAD);
     const way = roadWay(e, agent())!;
-    expect(way.words).toBe('By road: 14 m further on');
+    expect(way.words).toBe('By road: 14 m past the goal');
     expect(way.to).toMatchObject({ x: ROAD.x, y: ROAD.y });
     e.commits.run(way.command);
     expect(agent().goal.pos).toEqual([ROAD.x, ROAD.y]);
@@ -105,7 +105,7 @@ describe('the way by the road', () => {
     reach(ROAD);
     e.drag.preview(setGoal(agent(), { ...agent().goal, pos: [GOAL[0], GOAL[1] + 4] }));
     answer();
-    expect(roadWay(e, agent())!.words).toBe('By road: 10 m further on');
+    expect(roadWay(e, agent())!.words).toBe('By road: 10 m past the goal');
     e.drag.cancel();
     expect(roadWay(e, agent())).toBeNull();
   });

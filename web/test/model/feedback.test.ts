@@ -204,7 +204,7 @@ describe('words of rounds', () => {
     s = goes(true, 2, 'reject');
     const order = learned({ trait: 'first', who: id, with: '12', wants: 'less' } as never);
     const { answers } = car(s).feedback!;
-    expect(restsOn(order, answers, speaking)).toBe('True of 1 of 2 kept and 0 of 1 rejected.');
+    expect(restsOn(order, answers, speaking)).toBe('Applies to 1 of 2 kept and 0 of 1 rejected.');
     expect(againstWords(answers[1])).toBe('B of round 1, “Way 1”, was kept.');
   });
 

@@ -21,7 +21,7 @@ impl Format for Page {
     fn info(&self) -> Info {
         Info {
             id: "html",
-            name: "Page that plays the scene (HTML)",
+            name: "Interactive page (HTML)",
             media_type: "text/html",
             extensions: &["html"],
             import: false,

@@ -259,7 +259,7 @@ mod tests {
         assert_eq!(wrong("a = 1"), "column 3: \"=\" found; == compares");
         assert_eq!(wrong("a < 1 b"), "column 7: &&, || or the end expected, \"b\" found");
         assert_eq!(wrong("(a < 1"), "column 7: &&, || or ) expected, the end found");
-        assert_eq!(wrong("a < 1..2"), "column 5: \"1..2\" is no number");
+        assert_eq!(wrong("a < 1..2"), "column 5: \"1..2\" is not a number");
         assert_eq!(wrong("a"), "column 2: <, <=, >, >=, == or != expected, the end found");
         assert_eq!(wrong("a < 1 & b < 1"), "column 7: \"&\" found; && joins");
         assert_eq!(wrong("a < 1 && é"), "column 10: no figure \"é\"");

@@ -120,7 +120,7 @@ fn token(rest: &[char]) -> Result<(Token, usize), String> {
             run(&|i, c| c.is_alphanumeric() || c == '.' || (i == 0 || exponent(i)) && (c == '-' || c == '+'));
         let text: String = rest[..length].iter().collect();
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());
-        let number = number.ok_or_else(|| format!("\"{text}\" is no number"))?;
+        let number = number.ok_or_else(|| format!("\"{text}\" is not a number"))?;
         return Ok((Token::Operand(Operand::Number(number)), length));
     }
     Err(match first {

@@ -295,7 +295,7 @@ mod tests {
     #[test]
     fn bad_goals_are_told_apart() {
         let wrong = |text: &str| goal(text).unwrap_err();
-        assert_eq!(wrong("1,NaN"), "y: \"NaN\" is no number");
+        assert_eq!(wrong("1,NaN"), "y: \"NaN\" is not a number");
         assert_eq!(wrong("1,2,3,4,5,6"), "6 numbers; at most X,Y,SPEED,HEADING,TIME expected");
         assert_eq!(wrong("1"), "x needs y beside it");
         assert_eq!(wrong("speed:80"), "speed: 0 to 60 m/s expected");

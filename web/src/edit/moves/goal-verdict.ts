@@ -75,6 +75,7 @@ export function roadGoal(e: Pick<Editor, 'answers' | 'drag' | 'reading' | 'scene
   // Within this distance it is the goal itself.
   if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
-  const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.short : TEXTS.aside;
+  const side = ahead < -distance / 2 ? TEXTS.beforeTheGoal : TEXTS.besideTheGoal;
+  const where = ahead > distance / 2 ? TEXTS.pastTheGoal : side;
   return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byRoad(metres(distance, 0), where) };
 }

@@ -1,6 +1,6 @@
-// Names of futures: the manoeuvre, then what visibly tells it from the others with that manoeuvre. Whatever a name says
-// is true of one future and false of the rest. Of those that look the same it gives the figure that differs most, or
-// says that they are almost identical.
+// Names of futures: the manoeuvre, then what visibly tells it from the others with that manoeuvre: a distance covered,
+// or the difference from the first in a time or to the side. Whatever a name says is true of one future and false of
+// the rest. Of those that look the same it gives the figure that differs most, or says that they are almost identical.
 import { JUDGING } from '../base/domain';
 import { faultMark, leavesRoad, type Manoeuvre, type Relation } from '../document/future-facts';
 import { endPose, lastStep, pathLength, poseAt, STEP_S, type Motion } from '../base/motion';
@@ -271,18 +271,21 @@ function byTraits(modes: readonly Nameable[], { head, all, taken }: NameGroup, {
     told.set(i, trait);
     used.add(wordsOf(trait, i));
   }
-  const names: Names = new Map();
-  for (const i of all) {
+  // A single one to this side needs no number.
+  const isOnly = (trait: VisibleTrait, i: number): boolean =>
+    kind !== 'rolls' &&
+    !looks.has(i) &&
+    [...told].every(([k, t]) => k === i || t !== trait || by(t, k) * by(t, i) <= 0);
+  const endOf = (i: number): string => {
     const trait = told.get(i);
-    // A single one to this side needs no number.
-    const isOnly =
-      kind !== 'rolls' &&
-      !looks.has(i) &&
-      [...told].every(([k, t]) => k === i || t !== trait || by(t, k) * by(t, i) <= 0);
-    const plain = trait && isOnly && head.manoeuvre && trait.plain?.(by(trait, i));
-    const end = trait ? plain || wordsOf(trait, i) : looks.has(i) ? TEXTS.almostIdentical : '';
-    names.set(i, { name: nameOf(head, end), basis: head.basis });
-  }
+    if (!trait) return looks.has(i) ? TEXTS.almostIdentical : '';
+    const plain = i !== all[0] && isOnly(trait, i) && head.manoeuvre && trait.plain?.(by(trait, i));
+    // Where one has its distance, the first has its own.
+    if (!plain && trait === traits[0]) told.set(all[0], trait);
+    return plain || wordsOf(trait, i);
+  };
+  const names: Names = new Map();
+  for (const i of all.toReversed()) names.set(i, { name: nameOf(head, endOf(i)), basis: head.basis });
   return names;
 }
 

@@ -72,7 +72,7 @@ function sized(by: number, more: AmountWords, less: AmountWords, shown: (amount:
 /** When it crawls for good, in seconds; a drive that never does is at its end. */
 const stopTime = (m: Motion): number => (m.speed.findLastIndex((v) => Math.abs(v) >= CRAWLS_MPS) + 1) * STEP_S;
 
-/** The visible traits of a group, the plainest first. All differences are from the first of it. */
+/** The visible traits of a group, the plainest first: the distance. All differences are from the first of the group. */
 export function traitsOf(
   motion: (i: number) => Motion,
   group: readonly number[],
@@ -87,14 +87,13 @@ export function traitsOf(
   // All get at least as far as this.
   const halfway = Math.min(...ends.values()) / 2;
   const stops = kind === 'stops';
-  const [furtherBy, lessFarBy] = stops
-    ? [TEXTS.stopsLaterBy, TEXTS.stopsEarlierBy]
-    : [TEXTS.furtherBy, TEXTS.lessFarBy];
+  const covered = (i: number): string => (stops ? TEXTS.stopsAfter : TEXTS.covers)(metres(ends.get(i)!, 0));
   const traits: VisibleTrait[] = [
     {
       values: ends,
       least: Math.max(LEAST_M, LEAST_SHARE * Math.max(...ends.values())),
-      words: (by) => sized(by, furtherBy, lessFarBy, (m) => metres(m, 0)),
+      // A distance is true without the others: the first has its own.
+      words: (_, i) => (i !== group[0] && covered(i) === covered(group[0]) ? '' : covered(i)),
       plain: (by) => (by > 0 ? TEXTS.faster : TEXTS.slower),
     },
     {

@@ -53,7 +53,7 @@ export const HELPS = table('helps', {
   playsFromTheStart: 'Plays from 0.0 s with the reactions of others',
   eachFuture: 'Each future as a variant, with the reactions of others',
   undoesTheChoice: 'Undoes your choice of a future',
-  theGoalIsThenRelative: 'Makes the goal relative to the road user beside it; it follows when that one moves',
+  theGoalIsThenRelative: 'Makes the goal relative to the road user beside it; the goal then moves with that road user',
   theNearest:
     'Moves the goal to the nearest place reachable by road in the same time, or chooses a future that follows the road',
   forThisGoalOnly: 'For this goal only: the kerb or median that the shown future crosses',
@@ -65,7 +65,7 @@ export const HELPS = table('helps', {
   allThatStart: 'All that start on the lanes of the selected road users',
   allThatCollide: 'All in a collision or near miss with the selected road users',
   allNotSelected: 'All road users that are not selected now',
-  nearestToThe: 'Starts nearest to the middle of the view',
+  nearestToThe: 'Starts with the road user nearest to the middle of the view',
   theWholeMap: 'Shows the whole map',
   theAreaWithTraffic: 'Shows the area with traffic',
   theSelectedRoad: 'Shows the selected road users and their goals',
@@ -149,8 +149,7 @@ export const HELPS = table('helps', {
   starredComeFirst: 'Starred variants come first and stay',
   aNameOfYour: 'Your own name; leave empty to name it by its differences',
   removesItFromTheStrip: 'Removes it from the strip; can be undone',
-  pressItOnTwo:
-    'Shows two variants in one view, with their differences: the two kept ones, or the two cards where you press it',
+  pressItOnTwo: 'Shows two variants in one view, with their differences: the two kept ones, or press it on two cards',
   aFileEachThose: 'One file per variant: the kept ones, or all',
   movesTheRightToTheLeft: 'Moves the right variant to the left',
   goesThroughTheDifferences: 'Goes through the listed differences',

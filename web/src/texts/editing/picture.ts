@@ -1,9 +1,9 @@
 import { table } from '../table';
 
 export const TEXTS = table('picture', {
-  furtherOn: 'further on',
-  short: 'short',
-  aside: 'to the side',
+  pastTheGoal: 'past the goal',
+  beforeTheGoal: 'before the goal',
+  besideTheGoal: 'beside the goal',
   byRoad: (distance: string, where: string) => `By road: ${distance} ${where}`,
   armComes: (arm: string, rate: number, now: number, later: number) =>
     `${arm} ${rate}/h · ${now} now${later ? `, ${later} later` : ''}`,

@@ -2,12 +2,12 @@
 export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> = {
   what: {
     'XML element': 'ein XML-Element',
-    'a call of what is no name': 'ein Aufruf ohne Namen',
+    'a call of something that is not a name': 'ein Aufruf ohne Namen',
     'a document type definition': 'eine Dokumenttyp-Definition',
     'a line': 'einer Zeile',
     'a name by its number in a registry': 'ein Name nach seiner Nummer im Register',
     'a reference to something outside of the file': 'ein Verweis auf etwas außerhalb der Datei',
-    'a state of what is no array': 'ein Zustand ohne Array',
+    'a state of something that is not an array': 'ein Zustand ohne Array',
     'a tag': 'einem Tag',
     'a text': 'einem Text',
     'an instruction': 'einer Anweisung',
@@ -86,7 +86,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'the data of a record': 'der Daten eines Datensatzes',
     'the length of a record (broken, or not a TFRecord file)':
       'der Länge eines Datensatzes (beschädigt oder keine TFRecord-Datei)',
-    'things to remember': 'Merkeinträge',
+    'memo entries': 'Memo-Einträge',
     tracks: 'Trajektorien',
     'tracks and no map features': 'Trajektorien oder Kartenelemente',
     traits: 'Merkmale',
@@ -131,7 +131,7 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'a number of steps': 'eine Anzahl Schritte',
     'a page header without contradictions': 'ein Seitenkopf ohne Widersprüche',
     'a pair': 'ein Paar',
-    'a place of the memory': 'ein Platz im Merkspeicher',
+    'a memo entry': 'ein Memo-Eintrag',
     'X,Y,RADIUS: the coordinates of a place in the file and 10 to 5000 m':
       'X,Y,RADIUS: die Koordinaten eines Ortes in der Datei und 10 bis 5000 m',
     'the name of a declared parameter, or an expression in ${}':
@@ -215,13 +215,13 @@ export const WORDS: Readonly<Record<string, Readonly<Record<string, string>>>> =
     'rows of x, y and z': 'Zeilen aus x, y und z',
     'the end of the document': 'das Ende des Dokuments',
     'the id of a road edge of the map': 'die Kennung eines Straßenrands der Karte',
-    'the number of a letter': 'die Nummer eines Zeichens',
+    'a character code': 'ein Zeichencode',
     'the shape of an array': 'die Form eines Arrays',
     'the state of an array': 'der Zustand eines Arrays',
     'the type of an array': 'der Typ eines Arrays',
     'the whole header of a page': 'der ganze Kopf einer Seite',
     'tracks and map_features of a ScenarioNet scenario': 'tracks und map_features eines ScenarioNet-Szenarios',
-    'truth values': 'Wahrheitswerte',
+    booleans: 'Wahrheitswerte',
     'two or more points': 'mindestens zwei Punkte',
     'vehicle, pedestrian or cyclist': 'vehicle, pedestrian oder cyclist',
     'width 0.1 to 50 m and speed limit 0 to 100 m/s':

@@ -43,8 +43,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'columns-recognised': (v: Values) =>
       `The columns are read as those of the data set ${v.sets}; --columns names others`,
-    'agents-table-missing': 'The table of road users is not there, which says their types',
-    'recording-table-missing': 'The table of the recording is not there, which says frame rate, speed limit and place',
+    'agents-table-missing': 'The table of road users, which gives their types, is missing',
+    'recording-table-missing': 'The table of the recording, which gives frame rate, speed limit and place, is missing',
     'rows-in-part': (v: Values) =>
       `${v.found} rows are more than are read at once; the ${v.kept} rows before ${v.before_s} s are read. "only" in a file of columns chooses another part by time_s or agent_id`,
     'files-beside': (v: Values) =>
@@ -53,7 +53,7 @@ export const SENTENCES = table('file-messages', {
         other: `${v.count} files of the same folder are read with the table: ${v.names}`,
       }),
     'map-unread': (v: Values) => `The map ${v.name} cannot be read: ${v.why}`,
-    'map-chosen': (v: Values) => `Of ${v.maps} maps, that of ${v.name} has most of the vehicles on its lanes`,
+    'map-chosen': (v: Values) => `Of ${v.maps} maps, that of ${v.name} has the most vehicles on its lanes`,
     'speed-limit-of-recording': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} lane without a speed limit has that of the recording, ${v.limit_mps} m/s`,
@@ -101,15 +101,15 @@ export const SENTENCES = table('file-messages', {
       }),
     'headings-derived': 'Headings are derived from the motion; a standing road user keeps its last heading',
     'headings-along-degrees': (v: Values) =>
-      `Headings are in degrees and were converted to radians: ${v.agree} of ${v.moving} moving road users go along them`,
+      `Headings are in degrees and were converted to radians: ${v.agree} of ${v.moving} moving road users move along them`,
     'headings-along-radians': (v: Values) =>
-      `Headings are in radians where degrees are usual: ${v.agree} of ${v.moving} moving road users go along them`,
+      `Headings are in radians where degrees are usual: ${v.agree} of ${v.moving} moving road users move along them`,
     'headings-in-degrees': (v: Values) =>
-      `Headings are in degrees and were converted to radians: those of ${v.outside} of ${v.found} road users are outside of a turn in radians, or the format has degrees`,
+      `Headings are in degrees and were converted to radians: those of ${v.outside} of ${v.found} road users exceed a full turn in radians, or the format has degrees`,
     'headings-wrapped': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} heading is outside of a turn and was wrapped`,
-        other: `${v.count} headings are outside of a turn and were wrapped`,
+        one: `${v.count} heading exceeds a full turn and was wrapped`,
+        other: `${v.count} headings exceed a full turn and were wrapped`,
       }),
     'ids-renumbered': "Lanes and junctions have numbers instead of SUMO's ids",
     'ids-replaced': (v: Values) =>
@@ -129,18 +129,18 @@ export const SENTENCES = table('file-messages', {
       }),
     'identities-joined': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} road user had a second id and is joined: ${v.pairs} (and ${v.more} more)`,
-        other: `${v.count} road users had a second id and are joined: ${v.pairs} (and ${v.more} more)`,
+        one: `${v.count} road user had a second id and is merged: ${v.pairs} (and ${v.more} more)`,
+        other: `${v.count} road users had a second id and are merged: ${v.pairs} (and ${v.more} more)`,
       }),
     'identities-joined-all': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} road user had a second id and is joined: ${v.pairs}`,
-        other: `${v.count} road users had a second id and are joined: ${v.pairs}`,
+        one: `${v.count} road user had a second id and is merged: ${v.pairs}`,
+        other: `${v.count} road users had a second id and are merged: ${v.pairs}`,
       }),
     jumps: (v: Values) =>
       plural(Number(v.count), {
-        one: `A road user was moved elsewhere ${v.count} time; this gap remains`,
-        other: `Road users were moved elsewhere ${v.count} times; these gaps remain`,
+        one: `A road user was teleported ${v.count} time; this gap remains`,
+        other: `Road users were teleported ${v.count} times; these gaps remain`,
       }),
     'json-array': 'The file is a JSON array; a scene is a JSON object with the format dragtraffic.scene',
     'lanelets-unusable': (v: Values) =>
@@ -184,7 +184,7 @@ export const SENTENCES = table('file-messages', {
         one: `${v.count} lane without a centre line is left out`,
         other: `${v.count} lanes without a centre line are left out`,
       }),
-    'left-hand': 'Traffic keeps to the left, as it does in this region',
+    'left-hand': 'Traffic keeps to the left, as in this region',
     'left-hand-network': 'Traffic keeps to the left, as the network states',
     'lines-thinned': (v: Values) =>
       plural(Number(v.count), {
@@ -208,16 +208,15 @@ export const SENTENCES = table('file-messages', {
       }),
     'loss-lane-lines': (v: Values) =>
       plural(Number(v.count), {
-        one: `lanes are lines within ${v.off_mm} mm, and ${v.count} begins with a way into it`,
-        other: `lanes are lines within ${v.off_mm} mm, and ${v.count} begin with a way into them`,
+        one: `lanes are polylines within ${v.off_mm} mm, and ${v.count} has its start as a connecting road`,
+        other: `lanes are polylines within ${v.off_mm} mm, and ${v.count} have their start as a connecting road`,
       }),
     'loss-lane-points': (v: Values) =>
       `lanes are within ${v.off_mm} mm of their lines when their points are set again; stop lines and stop signs are where lanes begin and end`,
     'loss-lanes-without-length': (v: Values) =>
       plural(Number(v.count), { one: `${v.count} lane of no length`, other: `${v.count} lanes of no length` }),
     'loss-lights-over-room': (v: Values) => `a record has room for ${v.most} lights per step`,
-    'loss-lines-sampled': (v: Values) =>
-      `lines as points ${v.apart_m} apart, without the graph and the limits of lanes`,
+    'loss-lines-sampled': (v: Values) => `lines as points ${v.apart_m} apart, without lane graph and speed limits`,
     'loss-longer': (v: Values) => `nothing is cut: ${v.steps} steps, where the scene has ${v.known}`,
     'loss-motion-extrapolated': (v: Values) =>
       plural(Number(v.count), {
@@ -253,9 +252,8 @@ export const SENTENCES = table('file-messages', {
     'map-lacks-lanelets': 'The file has no lanelets: the scene has no map',
     'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
     'map-elsewhere': (v: Values) =>
-      `The map lies under the road users, but only ${v.percent} % of the places of vehicles are on its lanes: it is that of another place, or in another frame`,
-    'map-laid': (v: Values) =>
-      `The map lies under the road users: ${v.percent} % of the places of vehicles are on its lanes`,
+      `Only ${v.percent} % of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference`,
+    'map-laid': (v: Values) => `${v.percent} % of the vehicle positions are on lanes of the map`,
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
     'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
     'not-a-known-format': (v: Values) => `Not a file of a known format (${v.formats}).`,

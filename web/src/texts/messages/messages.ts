@@ -34,7 +34,7 @@ export const SENTENCES = table('messages', {
     },
     'goal-too-tight': {
       title: () => 'Too tight at this speed',
-      rest: (v: Values) => (v.need_mps2 ? `Required: ${v.need_mps2} sideways.` : ''),
+      rest: (v: Values) => (v.need_mps2 ? `Required lateral acceleration: ${v.need_mps2}.` : ''),
     },
     'goal-turn-too-tight': { title: (v: Values) => `The turn is too tight for ${v.kind}`, rest: '' },
     'goal-blocked': {
@@ -85,7 +85,7 @@ export const SENTENCES = table('messages', {
       rest: 'A time gap needs a speed; use a gap in metres.',
     },
     'relation-too-slow': {
-      title: (v: Values) => `${v.slower_mps} slower is below zero`,
+      title: (v: Values) => `${v.slower_mps} slower gives a speed below zero`,
       rest: (v: Values) => `Road user ${v.agent} drives at ${v.other_mps} at ${v.time_s}.`,
     },
     'start-off-road': (v: Values) => `There is no lane within ${v.within_m} of the start.`,

@@ -12,8 +12,8 @@ export const SENTENCES = table('refusal-messages', {
       `${v.lines} polylines with ${v.points} points; at most ${v.most_lines} with ${v.most_points}`,
     'more-than': (v: Values) => `more than ${v.most} ${v.what}`,
     outside: (v: Values) => `${v.found} found, ${v.least} to ${v.most} expected`,
-    'relation-ring': (v: Values) => `the goals are relative to each other in a ring: ${v.row}`,
-    'relation-row': (v: Values) => `more than ${v.most} goals are relative to each other in a row`,
+    'relation-ring': (v: Values) => `the goals are relative to each other in a circle: ${v.row}`,
+    'relation-row': (v: Values) => `more than ${v.most} goals are relative to each other in a chain`,
     'relation-to-itself': 'the goal is relative to the same road user',
     'relation-unknown': (v: Values) => `the goal is relative to "${v.id}", which is not in the scene`,
     'state-expected': (v: Values) => `state ${v.step}: ${v.expected} expected`,
@@ -42,7 +42,7 @@ export const SENTENCES = table('refusal-messages', {
     'nested-deeper': (v: Values) => `nested deeper than ${v.most} levels`,
     'netconvert-failed': (v: Values) => `netconvert could not make a network of the file: ${v.words}`,
     'netconvert-missing':
-      "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with `pip install eclipse-sumo` and start again",
+      "an extract of OpenStreetMap is read with SUMO's netconvert, which is not installed: run `pip install eclipse-sumo` and start again",
     'near-a-place':
       '--around X,Y,RADIUS (in a call: around) reads the part within RADIUS metres of X,Y in the coordinates of the file',
     'network-too-large': (v: Values) => `more than ${v.most} ${v.what}`,
@@ -52,7 +52,7 @@ export const SENTENCES = table('refusal-messages', {
     'no-lanelets': 'no lanelets: if it is an extract of OpenStreetMap, it is read as osm',
     'no-open-lanelets': 'no lanelets with two sides that a road user may pass: subtypes and participants decide',
     'no-roads-with-lanes': (v: Values) => `no roads with lanes: ${v.words}`,
-    'no-projection': (v: Values) => `the projection is not known: ${v.key} of the map names no zone of UTM`,
+    'no-projection': (v: Values) => `the projection is unknown: ${v.key} of the map names no UTM zone`,
     'no-table': (v: Values) => `the database has no table ${v.table}`,
     'not-both': (v: Values) => `give either ${v.first} or ${v.second}, not both`,
     'not-read': (v: Values) => `${v.what} is not read`,
@@ -74,7 +74,7 @@ export const SENTENCES = table('refusal-messages', {
     'road-over-limit': (v: Values) => `road "${v.road}" has ${v.records} records, too many for its length`,
     'roads-over-memory': (v: Values) =>
       `${v.lanes_m} of lanes and ${v.elements} elements would take more memory than a file of this size may`,
-    'roads-too-far': (v: Values) => `roads over ${v.reach_km} km; a map has some kilometres`,
+    'roads-too-far': (v: Values) => `roads over ${v.reach_km} km; a map spans a few kilometres`,
     'too-far-from-start': (v: Values) =>
       `the ${v.what} is ${v.distance_m} from the start, at most ${v.most_m} expected`,
     'unequal-columns': (v: Values) =>
@@ -82,9 +82,9 @@ export const SENTENCES = table('refusal-messages', {
         one: `${v.count} value, ${v.expected} expected, as in ${v.like}`,
         other: `${v.count} values, ${v.expected} expected, as in ${v.like}`,
       }),
-    'unknown-map': 'no map with this hash is known here; send the map itself',
+    'unknown-map': 'the server has no map with this hash; send the map itself',
     unreadable: (v: Values) => `cannot be read as ${v.format}: ${v.words}`,
-    'unsupported-version': (v: Values) => `version ${v.found} found, up to ${v.known} is known here`,
+    'unsupported-version': (v: Values) => `version ${v.found} found, versions up to ${v.known} are supported`,
     'zip-without': (v: Values) => `a zip without a file whose name ends in ${v.first} or ${v.second}`,
   },
 });

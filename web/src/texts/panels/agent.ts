@@ -18,7 +18,7 @@ export const TEXTS = table('agent', {
   moreFields: 'More fields',
   fewerFields: 'Fewer fields',
   partlyFree: 'partly free',
-  freeTheGenerator: 'free: the generator decides',
+  freeTheGenerator: 'chosen by the generator',
   goal: 'Goal',
   /** Before the name of a field, where the context does not name the goal. */
   ofTheGoal: 'Goal ',
@@ -28,12 +28,12 @@ export const TEXTS = table('agent', {
   position: 'Position',
   positionWithin: 'position',
   fixed: (word: string, label: string) => `${word} ${label} fixed`,
-  fixedYouDecide: 'Fixed: you decide. Click to let the generator decide',
-  freeTheGeneratorDecides: 'Free: the generator decides. Click to fix it here',
+  fixedYouDecide: 'Fixed at this value. Click to let the generator choose it',
+  freeTheGeneratorDecides: 'Chosen by the generator. Click to fix it at this value',
   isFixed: 'Fixed',
   free: 'Free',
   isRelative: 'Relative',
-  relativeToAnother: 'Relative to another road user. Click to fix it here',
+  relativeToAnother: 'Relative to another road user. Click to fix it at this value',
   inMetres: (word: string, name: string) => `${word} ${name} in metres`,
   heading: 'Heading',
   headingWithin: 'heading',
@@ -94,7 +94,10 @@ export const TEXTS = table('agent', {
   theClosestEnds: (letter: string, d: string) => `${letter} comes closest and misses the goal by ${d}.`,
   noFutureReaches: 'No future reaches the goal',
   allWithinAt: (count: number, furthest: string, time: string) =>
-    plural(count, { one: `Within ${furthest} at ${time}.`, other: `All within ${furthest} at ${time}.` }),
+    plural(count, {
+      one: `Within ${furthest} of the goal at ${time}.`,
+      other: `All within ${furthest} of the goal at ${time}.`,
+    }),
   endUpToAway: (count: number, letter: string, furthest: string, letters: string) =>
     plural(count, {
       one: `${letter} misses the goal by ${furthest}.`,

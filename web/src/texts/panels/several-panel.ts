@@ -16,7 +16,7 @@ export const TEXTS = table('several-panel', {
   all: 'All',
   goalFixedFor: (field: string, fixed: number, all: number) => `Goal ${field} fixed for ${fixed} of ${all}`,
   startFixedFor: (field: string, fixed: number, all: number) => `Start ${field} fixed for ${fixed} of ${all}`,
-  fixedForAllClick: 'Fixed for all. Click to let the generator decide',
+  fixedForAllClick: 'Fixed for all. Click to let the generator choose it',
   clickToFixIt: 'Click to fix it for all, each at its own value',
   fixed: 'Fixed',
   of: (fixed: number, all: number) => `${fixed} of ${all}`,

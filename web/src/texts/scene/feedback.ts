@@ -34,9 +34,9 @@ export const TEXTS = table('feedback', {
   highestAcceleration: 'Highest acceleration',
   acceleration: 'Acceleration',
   of: (count: number, count2: number) => `${count} of ${count2}`,
-  trueOfBoth: (kept: string, rejected: string) => `True of ${kept} kept and ${rejected} rejected.`,
-  trueOfKept: (kept: string) => `True of ${kept} kept.`,
-  trueOfRejected: (rejected: string) => `True of ${rejected} rejected.`,
+  trueOfBoth: (kept: string, rejected: string) => `Applies to ${kept} kept and ${rejected} rejected.`,
+  trueOfKept: (kept: string) => `Applies to ${kept} kept.`,
+  trueOfRejected: (rejected: string) => `Applies to ${rejected} rejected.`,
   ofRoundWasKept: (letter: string, round: number, name: string) => `${letter} of round ${round}, “${name}”, was kept.`,
   ofRoundWasRejected: (letter: string, round: number, name: string) =>
     `${letter} of round ${round}, “${name}”, was rejected.`,

@@ -12,11 +12,9 @@ export const TEXTS = table('names', {
   doesNotWait: 'does not wait',
   earlierBy: (time: string) => `${time} earlier`,
   laterBy: (time: string) => `${time} later`,
-  furtherBy: (distance: string) => `${distance} further`,
-  lessFarBy: (distance: string) => `${distance} shorter`,
+  covers: (distance: string) => `covers ${distance}`,
   /** The place of a stop, after `Stops`. */
-  stopsEarlierBy: (distance: string) => `${distance} earlier`,
-  stopsLaterBy: (distance: string) => `${distance} further on`,
+  stopsAfter: (distance: string) => `after ${distance}`,
   leftBy: (distance: string) => `${distance} further left`,
   rightBy: (distance: string) => `${distance} further right`,
   endsAt: (speed: string) => `ends at ${speed}`,

@@ -2,14 +2,14 @@ import type { HELPS } from '../../desk/helps';
 import type { Said } from '../../table';
 
 export const german: Said<typeof HELPS> = {
-  itStaysWhile: 'Bleibt im Bild und in der Liste, während andere Zukünfte ersetzt werden; noch einmal: lösen',
+  itStaysWhile: 'Bleibt im Bild und in der Liste, während andere Zukünfte ersetzt werden; noch einmal drücken löst sie',
   thresholdsOfTheScene: 'Schwellwerte dieser Szene für Abstand, TTC, Bremsen und Lenken',
   drivesTheSelected:
     'Steuert den ausgewählten Verkehrsteilnehmer mit W, A, S, D oder den Pfeiltasten; alle anderen reagieren, und die Bewegung wird zur Aufzeichnung',
   circleOfAMap: 'Zeigt eine Kartendatei und importiert, was in einem Kreis liegt; für zu große Karten',
   triesSpeeds:
     'Probiert Tempo, Zeit am Ziel und Startwert eines Verkehrsteilnehmers, bis ein Beinahe-Unfall, starkes Bremsen oder ein anderes Ereignis eintritt',
-  runsUntilEnough: 'Läuft, bis genug Fälle gefunden sind oder sie angehalten wird; Weiterarbeiten ist möglich',
+  runsUntilEnough: 'Sucht, bis genug Fälle gefunden sind oder die Suche angehalten wird; Weiterarbeiten ist möglich',
   removesTheConnection: 'Entfernt die ausgewählte Verbindung zweier Spuren der Karte',
   aPlaceOnThePath:
     'Ein Ort auf dem Weg: am Zeiger, sonst auf halber Strecke. Auch Umschalt und ein Klick auf einen Weg',
@@ -24,7 +24,7 @@ export const german: Said<typeof HELPS> = {
   copiesThem: 'Kopiert die ausgewählten Verkehrsteilnehmer und entfernt sie',
   theCopiedRoadUsers: 'Die kopierten Verkehrsteilnehmer, am Zeiger',
   aCopyNearby: 'Eine Kopie am nächsten freien Ort',
-  leftAndRight: 'Vertauscht links und rechts aus Sicht des ersten ausgewählten, auch bei Zielen',
+  leftAndRight: 'Vertauscht links und rechts aus Sicht des ersten Ausgewählten, auch bei Zielen',
   removesTheSelected: 'Entfernt die ausgewählten Verkehrsteilnehmer aus der Szene',
   lockedRoad: 'Gesperrte Verkehrsteilnehmer lassen sich nicht verschieben, ändern oder entfernen',
   namesTheSelected: 'Benennt den ausgewählten Verkehrsteilnehmer',
@@ -32,7 +32,7 @@ export const german: Said<typeof HELPS> = {
   theSelectedReact: 'Die ausgewählten Verkehrsteilnehmer reagieren auf andere',
   theSelectedReplay: 'Die ausgewählten Verkehrsteilnehmer folgen der Aufzeichnung',
   theSelectedHoldStill: 'Die ausgewählten Verkehrsteilnehmer bleiben am Start stehen',
-  theSameAsThe: 'Wie die rechte Taste oder langes Drücken',
+  theSameAsThe: 'Wie die rechte Maustaste oder langes Drücken',
   cancelsADrag: 'Bricht ein Ziehen ab, schließt dann, was offen ist, hebt dann die Auswahl auf',
   runsAnyAction: 'Findet jede Aktion und führt sie aus',
   undoesTheLastStep: 'Macht den letzten Schritt rückgängig',
@@ -54,7 +54,7 @@ export const german: Said<typeof HELPS> = {
   playsFromTheStart: 'Spielt ab 0,0 s mit den Reaktionen anderer',
   eachFuture: 'Jede Zukunft als Variante, mit den Reaktionen anderer',
   undoesTheChoice: 'Hebt die Wahl einer Zukunft auf',
-  theGoalIsThenRelative: 'Macht das Ziel relativ zum Verkehrsteilnehmer daneben; es folgt, wenn der sich bewegt',
+  theGoalIsThenRelative: 'Bindet das Ziel an den Verkehrsteilnehmer daneben; es bewegt sich dann mit ihm',
   theNearest:
     'Setzt das Ziel auf den nächsten Ort, den die Straße in derselben Zeit erreicht, oder wählt eine Zukunft, die der Straße folgt',
   forThisGoalOnly: 'Nur für dieses Ziel: der Bordstein oder Mittelstreifen, den die gezeigte Zukunft quert',
@@ -82,7 +82,7 @@ export const german: Said<typeof HELPS> = {
   theRecordedTracks: 'Die aufgezeichneten Bewegungen, gestrichelt',
   centreLines: 'Mittellinien der Spuren',
   namesOfThe: 'Namen der Verkehrsteilnehmer',
-  signalStates: 'Farben der Ampeln an den Haltlinien, zur Zeit der Abspielmarke',
+  signalStates: 'Ampelphasen an den Haltlinien, zur Zeit der Abspielmarke',
   speedLimitsOfTheLanes: 'Tempolimits der Spuren',
   whereTheSelected: 'Wo der ausgewählte Verkehrsteilnehmer zur Zeit am Ziel auf den Spuren sein kann',
   whereWaysCross: 'Wo sich Wege binnen 3 s kreuzen; dunkler heißt kürzere Zeitlücke',
@@ -105,8 +105,8 @@ export const german: Said<typeof HELPS> = {
     'Zukünfte eines Verkehrsteilnehmers oder der ganzen Szene behalten und verwerfen; die nächsten folgen den Antworten',
   withoutReactions: 'Zukünfte eines Verkehrsteilnehmers, ohne Reaktionen anderer',
   eachCardIs: 'Jeder Vorschlag ist eine gemeinsame Zukunft aller',
-  theNextRound: 'Die nächste Runde baut darauf auf; noch einmal: offen',
-  similarDoNotComeAgain: 'Ähnliche Zukünfte kommen nicht wieder; noch einmal: offen',
+  theNextRound: 'Die nächste Runde baut darauf auf; noch einmal drücken hebt es auf',
+  similarDoNotComeAgain: 'Ähnliche Zukünfte kommen nicht wieder; noch einmal drücken hebt es auf',
   moreCards: 'Weitere Vorschläge nach den Antworten',
   usesItInTheScene: 'Übernimmt ihn in die Szene; bei einem einzelnen Verkehrsteilnehmer reagieren andere',
   closesTheRounds: 'Schließt die Runden; die Antworten bleiben',
@@ -149,11 +149,11 @@ export const german: Said<typeof HELPS> = {
   newOnesFrom: 'Neue Varianten aus Startwert und Vielfalt; behaltene und markierte bleiben',
   keepsTheVariant: 'Behält die Variante, wenn neue entstehen; ohne Auswahl die Szene, wie sie ist',
   starredComeFirst: 'Markierte Varianten kommen zuerst und bleiben',
-  aNameOfYour: 'Ein eigener Name; leer: benannt nach den Unterschieden',
+  aNameOfYour: 'Ein eigener Name; ohne Eingabe nach den Unterschieden benannt',
   removesItFromTheStrip: 'Entfernt sie aus der Leiste; lässt sich rückgängig machen',
   pressItOnTwo:
-    'Die beiden behaltenen Varianten, sonst auf zwei drücken: beide in einer Ansicht, mit ihren Unterschieden',
-  aFileEachThose: 'Je eine Datei: die behaltenen Varianten oder alle',
+    'Zeigt zwei Varianten in einer Ansicht mit ihren Unterschieden: die beiden behaltenen, sonst auf zwei Varianten drücken',
+  aFileEachThose: 'Eine Datei je Variante: die behaltenen oder alle',
   movesTheRightToTheLeft: 'Bringt die rechte Variante nach links',
   goesThroughTheDifferences: 'Geht durch die aufgeführten Unterschiede',
   drawRoundA: 'Eine Fläche umfahren und den Verkehr in der Vorschau sehen, bevor er eingesetzt wird.',

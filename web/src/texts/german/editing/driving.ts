@@ -14,7 +14,7 @@ export const german: Said<typeof TEXTS> = {
   cancel: 'Abbrechen',
   controls: 'Steuerung mit der Tastatur',
   reacts: (name) => `${name} reagiert`,
-  hits: (name, other) => `${name} stößt mit ${other} zusammen`,
+  hits: (name, other) => `${name} kollidiert mit ${other}`,
   cancelled: 'Fahrt abgebrochen. Die Szene ist unverändert.',
   didNotStart: (why) => `Die Fahrt hat nicht begonnen. ${why}`,
 };

@@ -2,9 +2,9 @@ import type { TEXTS } from '../../editing/picture';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  furtherOn: 'weiter vorn',
-  short: 'davor',
-  aside: 'daneben',
+  pastTheGoal: 'hinter dem Ziel',
+  beforeTheGoal: 'vor dem Ziel',
+  besideTheGoal: 'neben dem Ziel',
   byRoad: (distance: string, where: string) => `Auf der Straße: ${distance} ${where}`,
   armComes: (arm, rate, now, later) => `${arm} ${rate}/h · ${now} jetzt${later ? `, ${later} später` : ''}`,
   thePreviewDid: 'Die Vorschau wurde nicht geladen. Noch einmal versuchen, sobald das Netz wieder da ist.',

@@ -107,11 +107,11 @@ export const german: Said<typeof SENTENCES> = {
     'headings-along-radians': (v: Values) =>
       `Richtungen stehen in Radiant, wo Grad üblich sind: ${v.agree} von ${v.moving} bewegten Verkehrsteilnehmern folgen ihnen`,
     'headings-in-degrees': (v: Values) =>
-      `Richtungen stehen in Grad und wurden in Radiant umgerechnet: Die von ${v.outside} von ${v.found} Verkehrsteilnehmern liegen in Radiant außerhalb einer Umdrehung, oder das Format hat Grad`,
+      `Richtungen stehen in Grad und wurden in Radiant umgerechnet: Die von ${v.outside} von ${v.found} Verkehrsteilnehmern überschreiten in Radiant eine volle Umdrehung, oder das Format verwendet Grad`,
     'headings-wrapped': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Richtung liegt außerhalb einer Umdrehung und wurde umgerechnet`,
-        other: `${v.count} Richtungen liegen außerhalb einer Umdrehung und wurden umgerechnet`,
+        one: `${v.count} Richtung überschreitet eine volle Umdrehung und wurde umgerechnet`,
+        other: `${v.count} Richtungen überschreiten eine volle Umdrehung und wurden umgerechnet`,
       }),
     'ids-renumbered': 'Spuren und Kreuzungen haben Nummern statt der Kennungen von SUMO',
     'ids-replaced': (v: Values) =>
@@ -131,18 +131,18 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'identities-joined': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und ist vereint: ${v.pairs} (und ${v.more} weitere)`,
-        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs} (und ${v.more} weitere)`,
+        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und wurde zusammengeführt: ${v.pairs} (und ${v.more} weitere)`,
+        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und wurden zusammengeführt: ${v.pairs} (und ${v.more} weitere)`,
       }),
     'identities-joined-all': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und ist vereint: ${v.pairs}`,
-        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und sind vereint: ${v.pairs}`,
+        one: `${v.count} Verkehrsteilnehmer hatte eine zweite Kennung und wurde zusammengeführt: ${v.pairs}`,
+        other: `${v.count} Verkehrsteilnehmer hatten eine zweite Kennung und wurden zusammengeführt: ${v.pairs}`,
       }),
     jumps: (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücke bleibt`,
-        other: `${v.count}-mal wurde ein Verkehrsteilnehmer versetzt; diese Lücken bleiben`,
+        one: `${v.count}-mal wurde ein Verkehrsteilnehmer teleportiert; diese Lücke bleibt`,
+        other: `${v.count}-mal wurde ein Verkehrsteilnehmer teleportiert; diese Lücken bleiben`,
       }),
     'json-array': 'Die Datei ist eine JSON-Liste; eine Szene ist ein JSON-Objekt mit dem Format dragtraffic.scene',
     'lanelets-unusable': (v: Values) =>
@@ -183,8 +183,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'lanes-without-line': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Spur ohne Mittellinie fehlt`,
-        other: `${v.count} Spuren ohne Mittellinie fehlen`,
+        one: `${v.count} Spur ohne Mittellinie entfällt`,
+        other: `${v.count} Spuren ohne Mittellinie entfallen`,
       }),
     'left-hand': 'Es herrscht Linksverkehr, wie in dieser Gegend üblich',
     'left-hand-network': 'Es herrscht Linksverkehr, wie das Netz angibt',
@@ -210,8 +210,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'loss-lane-lines': (v: Values) =>
       plural(Number(v.count), {
-        one: `Spuren sind Linien auf ${v.off_mm} mm genau, und ${v.count} beginnt mit einem Weg hinein`,
-        other: `Spuren sind Linien auf ${v.off_mm} mm genau, und ${v.count} beginnen mit einem Weg hinein`,
+        one: `Spuren sind Polylinien auf ${v.off_mm} mm genau, und der Anfang von ${v.count} ist eine Verbindungsstraße`,
+        other: `Spuren sind Polylinien auf ${v.off_mm} mm genau, und die Anfänge von ${v.count} sind Verbindungsstraßen`,
       }),
     'loss-lane-points': (v: Values) =>
       `Spuren liegen auf ${v.off_mm} mm genau an ihren Linien, wenn ihre Punkte neu gesetzt werden; Haltlinien und Stoppschilder stehen am Anfang und Ende von Spuren`,
@@ -255,17 +255,16 @@ export const german: Said<typeof SENTENCES> = {
     'map-lacks-lanelets': 'Die Datei hat keine Lanelets: Die Szene hat keine Karte',
     'map-missing': 'Zum Szenario fehlt die Karte (log_map_archive_*.json): Die Szene hat keine Spuren',
     'map-elsewhere': (v: Values) =>
-      `Die Karte liegt unter den Verkehrsteilnehmern, aber nur ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren: Sie gehört zu einem anderen Ort oder Bezugssystem`,
-    'map-laid': (v: Values) =>
-      `Die Karte liegt unter den Verkehrsteilnehmern: ${v.percent} % der Orte von Fahrzeugen sind auf ihren Spuren`,
+      `Nur ${v.percent} % der Fahrzeugpositionen liegen auf Spuren der Karte: Sie gehört zu einem anderen Ort oder Bezugssystem`,
+    'map-laid': (v: Values) => `${v.percent} % der Fahrzeugpositionen liegen auf Spuren der Karte`,
     'moved-by-metadrive': 'MetaDrive hat die Datei verschoben und gedreht; der Ort der Aufzeichnung ist unbekannt',
     'network-missing': 'Zur Aufzeichnung fehlt das Netz: Die Szene hat weder Spuren noch Ampeln',
     'not-a-known-format': (v: Values) => `Keine Datei eines bekannten Formats (${v.formats}).`,
     'now-step-moved': (v: Values) => `Der aktuelle Schritt ist ${v.now} von ${v.steps}: Genommen wird der letzte`,
     'obstacles-absent': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Hindernis ist in keinem behaltenen Schritt da`,
-        other: `${v.count} Hindernisse sind in keinem behaltenen Schritt da`,
+        one: `${v.count} Hindernis kommt in keinem behaltenen Schritt vor`,
+        other: `${v.count} Hindernisse kommen in keinem behaltenen Schritt vor`,
       }),
     'obstacles-are-sets': (v: Values) =>
       plural(Number(v.count), {
@@ -369,8 +368,8 @@ export const german: Said<typeof SENTENCES> = {
     'steps-beyond-limit': (v: Values) =>
       `Die Datei dauert ${v.length_s}; die ersten ${v.kept} Schritte von 0,1 s bleiben`,
     'steps-coarse': (v: Values) =>
-      `Die Zeitschritte liegen ${v.apart_s} auseinander; Lücken über ${v.filled_s} bleiben Lücken`,
-    'stop-points-vary': 'Eine Ampel hat mehrere Haltepunkte; ihr erster bleibt',
+      `Die Zeitschritte liegen ${v.apart_s} auseinander; Lücken über ${v.filled_s} bleiben`,
+    'stop-points-vary': 'Eine Ampel hat mehrere Haltepunkte; der erste bleibt',
     'time-resampled': (v: Values) =>
       `Die Zeilen liegen ${v.apart_s} auseinander; Zustände werden alle ${v.step_s} berechnet`,
     'time-interpolated': (v: Values) =>
@@ -382,8 +381,8 @@ export const german: Said<typeof SENTENCES> = {
     'types-assumed': 'Die Tabelle nennt keine Arten; alle Verkehrsteilnehmer gelten als Fahrzeuge',
     'types-unknown': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Verkehrsteilnehmer ist von unbekannter Art; er wird gezeigt und nie erzeugt`,
-        other: `${v.count} Verkehrsteilnehmer sind von unbekannter Art; sie werden gezeigt und nie erzeugt`,
+        one: `${v.count} Verkehrsteilnehmer ist von unbekannter Art; er wird gezeigt, aber nicht neu berechnet`,
+        other: `${v.count} Verkehrsteilnehmer sind von unbekannter Art; sie werden gezeigt, aber nicht neu berechnet`,
       }),
     'velocities-derived': 'Geschwindigkeiten sind aus Orten und Zeiten bestimmt',
   },

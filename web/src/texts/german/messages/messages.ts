@@ -30,7 +30,7 @@ export const german: Said<typeof SENTENCES> = {
     },
     'goal-too-tight': {
       title: () => 'Zu eng bei diesem Tempo',
-      rest: (v: Values) => (v.need_mps2 ? `Nötig wären quer ${v.need_mps2}.` : ''),
+      rest: (v: Values) => (v.need_mps2 ? `Nötige Querbeschleunigung: ${v.need_mps2}.` : ''),
     },
     'goal-turn-too-tight': { title: (v: Values) => `Die Kurve ist für ${v.kind} zu eng`, rest: '' },
     'goal-blocked': {
@@ -43,11 +43,11 @@ export const german: Said<typeof SENTENCES> = {
     },
     'goal-off-road': { title: (v: Values) => `Im Umkreis von ${v.within_m} um das Ziel ist keine Spur`, rest: '' },
     'goal-beyond-top-speed': {
-      title: (v: Values) => `${v.goal_m} in ${v.time_s} ist mehr als mit Höchstgeschwindigkeit möglich`,
+      title: (v: Values) => `${v.goal_m} in ${v.time_s} sind auch mit Höchstgeschwindigkeit nicht möglich`,
       rest: '',
     },
     'relation-gone': {
-      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist bei ${v.time_s} nicht da`,
+      title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist bei ${v.time_s} nicht in der Szene`,
       rest: 'Das Ziel bezieht sich auf ihn.',
     },
     'relation-lane-ends': {
@@ -64,7 +64,7 @@ export const german: Said<typeof SENTENCES> = {
     },
     'relation-not-passed': {
       title: (v: Values) => `Verkehrsteilnehmer ${v.agent} passiert das Ziel nicht`,
-      rest: (v: Values) => `Er kommt ihm nicht auf ${v.within_m} nahe.`,
+      rest: (v: Values) => `Er kommt nicht näher als ${v.within_m} heran.`,
     },
     'relation-off-lanes': {
       title: (v: Values) => `Verkehrsteilnehmer ${v.agent} ist bei ${v.time_s} auf keiner Spur`,
@@ -80,7 +80,7 @@ export const german: Said<typeof SENTENCES> = {
       rest: 'Eine Zeitlücke braucht ein Tempo; ein Abstand in Metern ist möglich.',
     },
     'relation-too-slow': {
-      title: (v: Values) => `${v.slower_mps} langsamer liegt unter null`,
+      title: (v: Values) => `${v.slower_mps} langsamer ergäbe ein Tempo unter null`,
       rest: (v: Values) => `Verkehrsteilnehmer ${v.agent} fährt bei ${v.time_s} mit ${v.other_mps}.`,
     },
     'start-off-road': (v: Values) => `Im Umkreis von ${v.within_m} um den Start ist keine Spur.`,

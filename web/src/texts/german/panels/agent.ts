@@ -20,7 +20,7 @@ export const german: Said<typeof TEXTS> = {
   moreFields: 'Weitere Felder',
   fewerFields: 'Weniger Felder',
   partlyFree: 'teils frei',
-  freeTheGenerator: 'frei: der Generator entscheidet',
+  freeTheGenerator: 'vom Generator gewählt',
   goal: 'Ziel',
   ofTheGoal: 'Ziel: ',
   time: 'Zeit',
@@ -29,12 +29,12 @@ export const german: Said<typeof TEXTS> = {
   position: 'Ort',
   positionWithin: 'Ort',
   fixed: (word: string, label: string) => `${word}, ${label} fest`,
-  fixedYouDecide: 'Fest: wie angegeben. Ein Klick überlässt es dem Generator',
-  freeTheGeneratorDecides: 'Frei: der Generator entscheidet. Ein Klick legt es hier fest',
+  fixedYouDecide: 'Fester Wert. Nach einem Klick wählt ihn der Generator',
+  freeTheGeneratorDecides: 'Vom Generator gewählt. Ein Klick legt diesen Wert fest',
   isFixed: 'Fest',
   free: 'Frei',
   isRelative: 'Relativ',
-  relativeToAnother: 'Relativ zu einem anderen Verkehrsteilnehmer. Ein Klick legt es hier fest',
+  relativeToAnother: 'Relativ zu einem anderen Verkehrsteilnehmer. Ein Klick legt diesen Wert fest',
   inMetres: (word: string, name: string) => `${word}, ${name} in Metern`,
   heading: 'Richtung',
   headingWithin: 'Richtung',
@@ -95,7 +95,10 @@ export const german: Said<typeof TEXTS> = {
   theClosestEnds: (letter: string, d: string) => `${letter} kommt am nächsten und verfehlt das Ziel um ${d}.`,
   noFutureReaches: 'Keine Zukunft erreicht das Ziel',
   allWithinAt: (count, furthest, time) =>
-    plural(count, { one: `Bis auf ${furthest} bei ${time}.`, other: `Alle bis auf ${furthest} bei ${time}.` }),
+    plural(count, {
+      one: `Höchstens ${furthest} vom Ziel entfernt bei ${time}.`,
+      other: `Alle höchstens ${furthest} vom Ziel entfernt bei ${time}.`,
+    }),
   endUpToAway: (count, letter, furthest, letters) =>
     plural(count, {
       one: `${letter} verfehlt das Ziel um ${furthest}.`,

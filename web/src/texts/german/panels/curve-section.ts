@@ -7,7 +7,7 @@ export const german: Said<typeof TEXTS> = {
   points: (count) => plural(count, { one: `${count} Punkt`, other: `${count} Punkte` }),
   at: (time) => `bei ${time}`,
   for: (time) => `, ${time} lang`,
-  kinds: { start: 'Start', end: 'Ende', hold: 'Halten', stop: 'Halt' },
+  kinds: { start: 'Start', end: 'Ende', hold: 'Konstant', stop: 'Halt' },
   actual: (speed: string) => `Ist: ${speed}`,
   point: 'Punkt',
   stop: 'Halt',

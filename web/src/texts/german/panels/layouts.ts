@@ -55,7 +55,7 @@ export const german: Said<typeof TEXTS> = {
   turns: { left: 'links', straight: 'geradeaus', right: 'rechts' },
   signals: 'Ampel',
   priority: 'Vorfahrt',
-  equal: 'Gleichrangig',
+  equal: 'Ungeregelt',
   rightHand: 'Rechts',
   leftHand: 'Links',
   junction: 'Kreuzung',

@@ -2,7 +2,7 @@ import type { TEXTS } from '../../panels/place-panel';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  one: 'Einer',
+  one: 'Einzeln',
   clickTheStartPosition: 'Auf den Startort klicken, ziehen zum Drehen',
   alongALine: 'Linie',
   dragALine: 'Eine Linie ziehen setzt eine Reihe ein',

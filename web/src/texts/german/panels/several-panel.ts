@@ -4,7 +4,7 @@ import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
   onFoot: 'Zu Fuß',
-  cycling: 'Mit Rad',
+  cycling: 'Rad',
   driving: 'Kfz',
   allSelected: 'Alle ausgewählten',
   editsApplyToAll: 'gilt für alle, +5 addiert 5',
@@ -18,7 +18,7 @@ export const german: Said<typeof TEXTS> = {
   all: 'Alle',
   goalFixedFor: (field, fixed, all) => `${field} am Ziel fest bei ${fixed} von ${all}`,
   startFixedFor: (field, fixed, all) => `${field} am Start fest bei ${fixed} von ${all}`,
-  fixedForAllClick: 'Bei allen fest. Ein Klick überlässt es dem Generator',
+  fixedForAllClick: 'Bei allen fest. Nach einem Klick wählt der Generator',
   clickToFixIt: 'Ein Klick legt es bei allen fest, jeweils mit dem eigenen Wert',
   fixed: 'Fest',
   of: (fixed, all) => `${fixed}/${all}`,

@@ -11,6 +11,6 @@ export const german: Said<typeof TEXTS> = {
   steering: 'Starkes Lenken über',
   defaultIs: (value) => `Standard ${value}`,
   whatANearMissIs:
-    'Ein Beinahe-Unfall braucht zwei Verkehrsteilnehmer, die sich nähern und bei gleichem Tempo und gleicher Drehrate zusammenstießen. Zwei Fußgänger zählen nie.',
-  resetToDefault: 'Auf Standard setzen',
+    'Ein Beinahe-Unfall braucht zwei Verkehrsteilnehmer, die sich einander nähern und bei gleichem Tempo und gleicher Drehrate zusammenstoßen würden. Zwei Fußgänger zählen nie.',
+  resetToDefault: 'Auf Standard zurücksetzen',
 };

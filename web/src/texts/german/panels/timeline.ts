@@ -18,7 +18,7 @@ export const german: Said<typeof TEXTS> = {
   seconds: (now: string) => `${now} Sekunden`,
   speedOverTime: 'Tempo über der Zeit',
   pointsOfTheSpeed: 'Punkte der Tempokurve',
-  holdsS: (hold) => `hält ${hold} s`,
+  holdsS: (hold) => `${hold} s konstant`,
   speedAtTheEnd: 'Tempo am Ende',
   speedPoint: (i) => `Tempopunkt ${i}`,
   speedAtTheStart: 'Tempo am Start',

@@ -27,6 +27,6 @@ export const german: Said<typeof TEXTS> = {
   aSlowWalk: ', langsames Gehen.',
   aNormalWalk: ', normales Gehen.',
   aBriskWalk: ', zügiges Gehen.',
-  running: ', Laufen.',
+  running: ', Rennen.',
   thisRoadUser: 'dieser Verkehrsteilnehmer',
 };

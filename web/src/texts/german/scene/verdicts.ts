@@ -2,7 +2,7 @@ import type { TEXTS } from '../../scene/verdicts';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  hits: (who: string) => `trifft ${who}`,
+  hits: (who: string) => `kollidiert mit ${who}`,
   redLight: 'Rotlicht',
   wrongWay: 'falsche Richtung',
   overTheMedian: 'über den Mittelstreifen',
@@ -15,10 +15,10 @@ export const german: Said<typeof TEXTS> = {
   runsAt: (extent: string) => `rennt mit ${extent}`,
   askew: 'endet schräg zur Spur',
   askewBy: (extent: string) => `endet ${extent} schräg zur Spur`,
-  touchingly: (who: string) => `weniger als 0,1 m zu ${who}`,
+  touchingly: (who: string) => `unter 0,1 m Abstand zu ${who}`,
   nearMissWith: (who: string) => `knapp an ${who} vorbei`,
-  to: (extent: string, who: string) => `${extent} zu ${who}`,
-  short: (extent) => `${extent} zu kurz`,
+  to: (extent: string, who: string) => `${extent} Abstand zu ${who}`,
+  short: (extent) => `${extent} fehlen`,
   at: (time: string) => ` bei ${time}`,
   ofTheGoal: (upper) => `Ziel nicht erreicht: ${upper}`,
   onlyBy: {
@@ -40,7 +40,7 @@ export const german: Said<typeof TEXTS> = {
   reachesByRoad: 'erreicht das Ziel auf der Straße',
   reach: 'erreichen das Ziel',
   reaches: 'erreicht das Ziel',
-  hit: (whom) => `treffen ${whom}`,
+  hit: (whom) => `kollidieren mit ${whom}`,
   runARedLight: 'missachten das Rotlicht',
   runsARedLight: 'missachtet das Rotlicht',
   goTheWrongWay: 'sind in falscher Richtung unterwegs',
@@ -66,8 +66,8 @@ export const german: Said<typeof TEXTS> = {
   forceBraking: (whom) => `zwingen ${whom} zu starkem Bremsen`,
   forcesBraking: (whom) => `zwingt ${whom} zu starkem Bremsen`,
   forcesBrakingOf: (whom, extent) => `zwingt ${whom}, mit ${extent} zu bremsen`,
-  nearlyHit: (whom) => `treffen beinahe ${whom}`,
-  nearlyHits: (whom) => `trifft beinahe ${whom}`,
+  nearlyHit: (whom) => `kollidieren beinahe mit ${whom}`,
+  nearlyHits: (whom) => `kollidiert beinahe mit ${whom}`,
   missTheGoal: 'verfehlen das Ziel',
   missesTheGoal: 'verfehlt das Ziel',
   thisMedian: {
@@ -93,7 +93,7 @@ export const german: Said<typeof TEXTS> = {
   steers: (extent) => `weicht stark aus (${extent})`,
   stopShort: 'halten vor dem Ziel',
   stopsShort: 'hält vor dem Ziel',
-  shortWord: 'zu kurz',
+  shortWord: 'nicht erreicht',
   one: 'einer',
   two: 'zwei',
   three: 'drei',
