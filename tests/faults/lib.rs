@@ -2,14 +2,17 @@
 //! files, and has some of them fail as the plan says. Only files below one folder are concerned.
 //!
 //! The plan is a small file that this process and the one that makes the plans share in memory; its words are
-//! described in `dragtraffic_tests::faults`.
+//! described in `dragtraffic_tests::faults`. Where `FAULTS_JOURNAL` names a file, every change is written down there,
+//! and the process ends in the middle of its work when the plan says so ([`journal`]).
 
 #![cfg(target_os = "linux")]
 #![allow(unsafe_code, reason = "it takes the place of C functions, and speaks to the kernel in their stead")]
 #![allow(missing_docs, reason = "they are the C library's functions")]
 #![allow(clippy::missing_safety_doc, reason = "as the C library's own")]
 
-use libc::{c_char, c_int, c_long, c_void, off_t, size_t, ssize_t};
+mod journal;
+
+use libc::{c_char, c_int, c_long, c_uint, c_void, mode_t, off_t, size_t, ssize_t};
 use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
 
 /// The words of the plan, in their order in the file.
@@ -27,6 +30,10 @@ struct Plan {
     failing: AtomicU64,
     /// Number of failed calls since the start.
     failed: AtomicU64,
+    /// Changes until the power goes; 0 when it is gone.
+    power: AtomicU64,
+    /// Not 0: the disk says that it has synced, and has not.
+    lies: AtomicU64,
 }
 
 const WRITE: u64 = 1;
@@ -36,6 +43,15 @@ const TRUNCATE: u64 = 8;
 const READ: u64 = 16;
 
 static PLAN: AtomicPtr<Plan> = AtomicPtr::new(std::ptr::null_mut());
+
+/// A file opened by the kernel itself, not by the functions below.
+///
+/// # Safety
+/// The path ends with zero.
+unsafe fn open_plainly(path: *const c_char, flags: c_int) -> c_int {
+    // SAFETY: the caller's promise.
+    unsafe { libc::syscall(libc::SYS_openat, libc::AT_FDCWD, path, flags | libc::O_CLOEXEC, 0) as c_int }
+}
 
 /// The plan in memory, mapped at the first call.
 fn plan() -> Option<&'static Plan> {
@@ -50,7 +66,7 @@ fn plan() -> Option<&'static Plan> {
         if path.is_null() {
             return None;
         }
-        let file = libc::open(path, libc::O_RDWR | libc::O_CLOEXEC);
+        let file = open_plainly(path, libc::O_RDWR);
         if file < 0 {
             return None;
         }
@@ -107,13 +123,13 @@ fn is_below(path: &[u8]) -> bool {
     path.starts_with(folder)
 }
 
-/// The same of an open file.
-fn is_concerned(file: c_int) -> bool {
+/// The path of an open file, in this buffer.
+fn path_of(file: c_int, path: &mut [u8; 4096]) -> Option<&[u8]> {
     let mut link = *b"/proc/self/fd/0000000000\0";
     let digits = link.len() - 1;
     let mut rest = file;
     if rest < 0 {
-        return false;
+        return None;
     }
     // Leading zeros are not understood there: the digits are put to the front afterwards.
     let mut at = digits;
@@ -127,15 +143,24 @@ fn is_concerned(file: c_int) -> bool {
     }
     let first = b"/proc/self/fd/".len();
     link.copy_within(at..=digits, first);
-    let mut path = [0_u8; 4096];
     // SAFETY: both buffers are valid for their whole lengths.
     let length = unsafe { libc::readlink(link.as_ptr().cast(), path.as_mut_ptr().cast(), path.len()) };
-    usize::try_from(length).is_ok_and(|length| is_below(&path[..length]))
+    usize::try_from(length).ok().map(|length| &path[..length])
+}
+
+/// The same of an open file.
+fn is_concerned(file: c_int) -> bool {
+    path_of(file, &mut [0; 4096]).is_some_and(is_below)
+}
+
+/// The bytes of a path.
+fn named<'a>(path: *const c_char) -> &'a [u8] {
+    // SAFETY: callers hand in a string that ends with zero, as they do to the C library.
+    unsafe { std::slice::from_raw_parts(path.cast::<u8>(), libc::strlen(path)) }
 }
 
 fn is_named(path: *const c_char) -> bool {
-    // SAFETY: callers hand in a string that ends with zero, as they do to the C library.
-    is_below(unsafe { std::slice::from_raw_parts(path.cast::<u8>(), libc::strlen(path)) })
+    is_below(named(path))
 }
 
 #[unsafe(no_mangle)]
@@ -146,7 +171,9 @@ pub unsafe extern "C" fn write(file: c_int, bytes: *const c_void, count: size_t)
         Fate::Fails => return -1,
     };
     // SAFETY: what the caller promises to the C library.
-    unsafe { libc::syscall(libc::SYS_write, file, bytes, count) as ssize_t }
+    journal::written(file, bytes, None, || unsafe {
+        libc::syscall(libc::SYS_write, file, bytes, count) as ssize_t
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -157,7 +184,9 @@ pub unsafe extern "C" fn pwrite64(file: c_int, bytes: *const c_void, count: size
         Fate::Fails => return -1,
     };
     // SAFETY: what the caller promises to the C library.
-    unsafe { libc::syscall(libc::SYS_pwrite64, file, bytes, count, at) as ssize_t }
+    journal::written(file, bytes, Some(at), || unsafe {
+        libc::syscall(libc::SYS_pwrite64, file, bytes, count, at) as ssize_t
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -190,33 +219,39 @@ pub unsafe extern "C" fn pread(file: c_int, bytes: *mut c_void, count: size_t, a
     unsafe { pread64(file, bytes, count, at) }
 }
 
-/// The kernel's answer to a call that takes one file and perhaps a length.
-fn done(call: u64, number: c_long, file: c_int, length: off_t) -> c_int {
-    match fate(call, || is_concerned(file)) {
+/// Puts a file, or the names in a folder, on the disk.
+fn synced(number: c_long, file: c_int) -> c_int {
+    match fate(SYNC, || is_concerned(file)) {
         Fate::Fails => -1,
-        // SAFETY: the call takes plain numbers.
-        _ => unsafe { libc::syscall(number, file, length) as c_int },
+        // SAFETY: the call takes a plain number.
+        _ => journal::synced(file, || unsafe { libc::syscall(number, file) as c_int }),
     }
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn fsync(file: c_int) -> c_int {
-    done(SYNC, libc::SYS_fsync, file, 0)
+    synced(libc::SYS_fsync, file)
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn fdatasync(file: c_int) -> c_int {
-    done(SYNC, libc::SYS_fdatasync, file, 0)
+    synced(libc::SYS_fdatasync, file)
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn ftruncate(file: c_int, length: off_t) -> c_int {
-    done(TRUNCATE, libc::SYS_ftruncate, file, length)
+    match fate(TRUNCATE, || is_concerned(file)) {
+        Fate::Fails => -1,
+        // SAFETY: the call takes plain numbers.
+        _ => journal::resized(file, length, || unsafe {
+            libc::syscall(libc::SYS_ftruncate, file, length) as c_int
+        }),
+    }
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn ftruncate64(file: c_int, length: off_t) -> c_int {
-    done(TRUNCATE, libc::SYS_ftruncate, file, length)
+    ftruncate(file, length)
 }
 
 #[unsafe(no_mangle)]
@@ -224,8 +259,43 @@ pub unsafe extern "C" fn rename(from: *const c_char, to: *const c_char) -> c_int
     match fate(RENAME, || is_named(to)) {
         Fate::Fails => -1,
         // SAFETY: what the caller promises to the C library.
-        _ => unsafe {
+        _ => journal::renamed(named(from), named(to), || unsafe {
             libc::syscall(libc::SYS_renameat2, libc::AT_FDCWD, from, libc::AT_FDCWD, to, 0) as c_int
-        },
+        }),
     }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn unlink(path: *const c_char) -> c_int {
+    // SAFETY: what the caller promises to the C library.
+    journal::removed(named(path), || unsafe {
+        libc::syscall(libc::SYS_unlinkat, libc::AT_FDCWD, path, 0) as c_int
+    })
+}
+
+/// The mode is there or not in C; its register can be read in any case on the machines that this runs on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn openat(folder: c_int, path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
+    // SAFETY: what the caller promises to the C library.
+    journal::opened(flags, || unsafe {
+        libc::syscall(libc::SYS_openat, folder, path, flags, c_uint::from(mode)) as c_int
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn openat64(folder: c_int, path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
+    // SAFETY: as the caller's.
+    unsafe { openat(folder, path, flags, mode) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn open(path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
+    // SAFETY: as the caller's.
+    unsafe { openat(libc::AT_FDCWD, path, flags, mode) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn open64(path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
+    // SAFETY: as the caller's.
+    unsafe { openat(libc::AT_FDCWD, path, flags, mode) }
 }

@@ -92,6 +92,8 @@ pub struct Disk {
     folder: PathBuf,
     plan: PathBuf,
     file: File,
+    /// Changes are written down there, if anywhere.
+    journal: Option<PathBuf>,
     own: TempDir,
 }
 
@@ -102,7 +104,9 @@ const SHORT: u64 = 2;
 const BEFORE: u64 = 3;
 const FAILING: u64 = 4;
 const FAILED: u64 = 5;
-const WORDS: u64 = 6;
+const POWER: u64 = 6;
+const LIES: u64 = 7;
+const WORDS: u64 = 8;
 
 impl Disk {
     /// A disk that is well.
@@ -115,7 +119,60 @@ impl Disk {
         let plan = own.path().join("plan");
         let file = File::options().read(true).write(true).create_new(true).open(&plan)?;
         file.set_len(WORDS * 8)?;
-        Ok(Self { folder: folder.canonicalize()?, plan, file, own })
+        Ok(Self { folder: folder.canonicalize()?, plan, file, journal: None, own })
+    }
+
+    /// A disk that is well, and whose every change is written down ([`crate::power`]).
+    ///
+    /// # Errors
+    /// As [`Disk::of`].
+    pub fn with_journal(folder: &Path) -> anyhow::Result<Self> {
+        let disk = Self::of(folder)?;
+        let journal = disk.own.path().join("journal");
+        File::create(&journal)?;
+        disk.power_goes(u64::MAX)?;
+        Ok(Self { journal: Some(journal), ..disk })
+    }
+
+    /// The changes since the journal was begun.
+    ///
+    /// # Errors
+    /// When none is kept.
+    pub fn journal(&self) -> anyhow::Result<&Path> {
+        self.journal.as_deref().context("a disk without a journal")
+    }
+
+    /// Begins a new journal. No program may use the disk.
+    ///
+    /// # Errors
+    /// When none is kept.
+    pub fn begin_journal(&self) -> anyhow::Result<()> {
+        Ok(drop(File::create(self.journal()?)?))
+    }
+
+    /// Lets the power go in the middle of the work, with the last of so many changes from now on: programs that make
+    /// it, or try to make another one, are killed.
+    ///
+    /// # Errors
+    /// When the plan cannot be written.
+    pub fn power_goes(&self, after: u64) -> anyhow::Result<()> {
+        self.set(POWER, after)
+    }
+
+    /// True when the power has gone.
+    ///
+    /// # Errors
+    /// When the plan cannot be read.
+    pub fn is_without_power(&self) -> anyhow::Result<bool> {
+        Ok(self.word(POWER)? == 0)
+    }
+
+    /// The disk says that it has synced, and has not, as cheap ones do.
+    ///
+    /// # Errors
+    /// When the plan cannot be written.
+    pub fn lies(&self) -> anyhow::Result<()> {
+        self.set(LIES, 1)
     }
 
     /// Lets a program use this disk.
@@ -125,6 +182,9 @@ impl Disk {
     pub fn put_under(&self, program: &mut Command) -> anyhow::Result<()> {
         program.env("LD_PRELOAD", library()?);
         program.env("FAULTS_PLAN", &self.plan).env("FAULTS_FOLDER", &self.folder);
+        if let Some(journal) = &self.journal {
+            program.env("FAULTS_JOURNAL", journal);
+        }
         Ok(())
     }
 
@@ -176,15 +236,19 @@ impl Disk {
     /// # Errors
     /// When the plan cannot be read.
     pub fn failed(&self) -> anyhow::Result<u64> {
-        let mut word = [0; 8];
-        self.file.read_exact_at(&mut word, FAILED * 8)?;
-        Ok(u64::from_ne_bytes(word))
+        self.word(FAILED)
+    }
+
+    fn word(&self, word: u64) -> anyhow::Result<u64> {
+        let mut bytes = [0; 8];
+        self.file.read_exact_at(&mut bytes, word * 8)?;
+        Ok(u64::from_ne_bytes(bytes))
     }
 }
 
 /// The library, built now unless it is newer than its source.
 fn library() -> anyhow::Result<PathBuf> {
-    let source = root().join("tests/faults/lib.rs");
+    let source = root().join("tests/faults");
     let name = format!("examples/libfaults{}", std::env::consts::DLL_SUFFIX);
     let path = built(&name, &[&source]).map_or_else(|| build(&name), Ok)?;
     path.canonicalize().with_context(|| path.display().to_string())

@@ -6,6 +6,8 @@ pub mod faults;
 pub mod http;
 pub mod markdown;
 pub mod mutation;
+#[cfg(target_os = "linux")]
+pub mod power;
 pub mod program;
 pub mod random;
 pub mod requests;

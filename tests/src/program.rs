@@ -10,6 +10,9 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant, SystemTime};
 use tempfile::TempDir;
 
+/// Ticks a second in which Linux counts core time.
+const TICKS: f64 = 100.0;
+
 /// The repository's root.
 pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
@@ -237,6 +240,18 @@ impl Server {
         let line = status.lines().find_map(|line| line.strip_prefix(name)).context("no such size")?;
         let kib: u64 = line.trim().trim_end_matches(" kB").parse()?;
         Ok(kib << 10)
+    }
+
+    /// Core time that it has used, seconds (Linux): other work on the machine does not matter.
+    ///
+    /// # Errors
+    /// If it has ended, or the system does not report it.
+    pub fn core_s(&self) -> anyhow::Result<f64> {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.pid()))?;
+        let (_, fields) = stat.rsplit_once(')').context("no fields")?;
+        let mut fields = fields.split_whitespace().skip(11).map(str::parse::<f64>);
+        let mut next = || fields.next().context("no field")?.context("no number");
+        Ok((next()? + next()?) / TICKS)
     }
 
     /// True while it runs.

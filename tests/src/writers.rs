@@ -68,6 +68,7 @@ impl std::ops::AddAssign for Tally {
 }
 
 /// One writer.
+#[derive(Clone)]
 pub struct Writer {
     name: String,
     random: Random,

@@ -4,8 +4,10 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed test panics")]
 
 use dragtraffic_tests::faults::{Disk, Fault, How};
+use dragtraffic_tests::power::{DiskModel, Unsynced};
+use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::street;
-use dragtraffic_tests::soak::{clients, faults, kills, schedule};
+use dragtraffic_tests::soak::{clients, faults, kills, power, schedule};
 use dragtraffic_tests::{Request, Server};
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -16,8 +18,82 @@ fn tell(line: &str) {
 
 #[test]
 fn nothing_that_was_answered_is_lost_by_kills() {
-    let tally = kills::kills(5, 11, &tell).unwrap();
-    assert!(tally.kept > 0 && tally.refused == 0, "{tally:?}");
+    // A write is refused by a failing disk alone.
+    let report = kills::kills(8, 11, &tell).unwrap();
+    assert!(report.writes.kept > 0 && report.kills == 8 && report.on_a_failing_disk > 0, "{report:?}");
+}
+
+#[test]
+fn nothing_that_was_answered_is_lost_by_power_cuts() {
+    let report = power::power(12, 3, false, &tell).unwrap();
+    assert!(report.cuts == 12 && report.writes.kept > 0 && report.writes.refused == 0, "{report:?}");
+    assert!(report.at_the_start.min(report.at_a_copy).min(report.at_a_return) > 0, "{report:?}");
+}
+
+/// What the trial above would find.
+#[test]
+fn a_disk_that_only_says_that_it_syncs_loses_what_was_answered() {
+    let lost = power::power(12, 3, true, &tell).unwrap_err();
+    let lost = format!("{lost:#}");
+    let told = ["was answered", "a copy that was reported", "the store cannot be opened", "malformed"];
+    assert!(told.iter().any(|words| lost.contains(words)), "{lost}");
+}
+
+#[test]
+fn a_disk_without_power_has_what_was_synced_under_names_that_were_synced() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = Disk::with_journal(folder.path()).unwrap();
+    let mut model = DiskModel::of(folder.path()).unwrap();
+    let mut random = Random::new(1);
+    let run = |command: &str| {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", command]).current_dir(folder.path());
+        disk.put_under(&mut shell).unwrap();
+        assert!(shell.output().unwrap().status.success(), "{command}");
+    };
+    let write = |letter: &str, name: &str, how: &str| {
+        run(&format!("head -c 2000 /dev/zero | tr '\\0' {letter} | dd of={name} bs=2000 {how}"));
+    };
+    let mut cut = |unsynced| {
+        model.replay(disk.journal().unwrap()).unwrap();
+        model.agrees(folder.path()).unwrap();
+        model.cut(unsynced, &mut random);
+        model.rebuild(folder.path()).unwrap();
+        model = DiskModel::of(folder.path()).unwrap();
+        disk.begin_journal().unwrap();
+        let file = |entry: std::io::Result<std::fs::DirEntry>| {
+            let path = entry.unwrap().path();
+            (path.file_name().unwrap().to_str().unwrap().to_owned(), std::fs::read(path).unwrap())
+        };
+        std::fs::read_dir(folder.path()).unwrap().map(file).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    write("a", "nameless", "conv=fsync");
+    assert!(cut(Unsynced::Lost).is_empty(), "a name that was not synced");
+    write("a", "empty", "");
+    run("sync .");
+    assert_eq!(cut(Unsynced::Lost)["empty"], b"", "bytes that were not synced");
+    write("a", "whole", "conv=fsync");
+    run("sync .");
+    write("b", "whole", "conv=notrunc");
+    let left = cut(Unsynced::Lost);
+    assert_eq!(left["whole"], [b'a'; 2000], "later bytes are lost alone");
+    write("b", "whole", "conv=notrunc");
+    run(&format!("unlink {}/empty", folder.path().canonicalize().unwrap().display()));
+    let left = cut(Unsynced::Kept);
+    assert_eq!((left.len(), &left["whole"]), (1, &vec![b'b'; 2000]));
+    // Sectors are whole, and any of them may be there.
+    let seen: BTreeSet<Vec<u8>> = (0..40)
+        .map(|_| {
+            write("c", "whole", "conv=notrunc");
+            let left = cut(Unsynced::Drawn)["whole"].clone();
+            assert_eq!(left.len(), 2000);
+            assert!(left.chunks(512).all(|sector| sector.iter().all(|byte| *byte == sector[0])));
+            write("b", "whole", "conv=notrunc,fsync");
+            cut(Unsynced::Lost);
+            left
+        })
+        .collect();
+    assert!(seen.len() > 4, "{} ways", seen.len());
 }
 
 #[test]

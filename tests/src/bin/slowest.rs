@@ -7,7 +7,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::{car, street};
 use dragtraffic_tests::{Request, Server};
@@ -19,8 +19,6 @@ use std::time::{Duration, Instant};
 const MOST_S: f64 = 10.0;
 /// Most time of 19 of 20 drags beside it, milliseconds, on a quiet machine.
 const DRAG_MS: f64 = 100.0;
-/// Ticks a second in which Linux counts core time.
-const TICKS: f64 = 100.0;
 /// Time between two drags: those of a hand.
 const PAUSE: Duration = Duration::from_millis(16);
 
@@ -259,15 +257,6 @@ impl Tried {
     }
 }
 
-/// Core time of a process, seconds.
-fn core_s(pid: u32) -> anyhow::Result<f64> {
-    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat"))?;
-    let (_, fields) = stat.rsplit_once(')').context("no fields")?;
-    let mut fields = fields.split_whitespace().skip(11).map(str::parse::<f64>);
-    let mut next = || fields.next().context("no field")?.context("no number");
-    Ok((next()? + next()?) / TICKS)
-}
-
 fn main() -> ExitCode {
     match run() {
         Ok(true) => ExitCode::SUCCESS,
@@ -331,7 +320,7 @@ fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Trie
     let request = Request::new("POST", of_kind.path).header("content-type", "application/json").body(body);
     let drag = Request::new("POST", "/v1/generate")
         .json(&json!({"scene_id": "demo-crossing", "agents": ["5"], "score": false, "futures": "compact"}));
-    let (address, before, began) = (server.address, core_s(server.pid())?, Instant::now());
+    let (address, before, began) = (server.address, server.core_s()?, Instant::now());
     let asked = std::thread::spawn(move || request.send(address));
     let (mut drags_ms, mut of_drags) = (Vec::new(), 0);
     while !asked.is_finished() {
@@ -345,12 +334,12 @@ fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Trie
     }
     let seconds = began.elapsed().as_secs_f64();
     let reply = asked.join().map_err(|_| anyhow::anyhow!("the request broke off"))??;
-    let busy_s = core_s(server.pid())? - before;
+    let busy_s = server.core_s()? - before;
     // Drags beside it take core time too: that of as many alone.
-    let before = core_s(server.pid())?;
+    let before = server.core_s()?;
     let alone = of_drags.min(20);
     (0..alone).try_for_each(|_| server.send(&drag).map(drop))?;
-    let each_s = (core_s(server.pid())? - before) / f64::from(alone.max(1));
+    let each_s = (server.core_s()? - before) / f64::from(alone.max(1));
     let core_s = (busy_s - each_s * f64::from(of_drags)).max(0.0);
     let code = if reply.status == 200 { String::new() } else { reply.code() };
     let tried = Tried {

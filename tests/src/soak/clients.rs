@@ -73,11 +73,7 @@ pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Repo
     let server = Server::with_demos()?;
     server.wait_ready()?;
     let mut crowd = Writer::crowd(2, seed);
-    let mut tasks: Vec<ClientTask<'_>> = Vec::new();
-    for (number, (name, client)) in CLIENTS.iter().enumerate() {
-        let random = Random::of_part(seed, number as u64);
-        tasks.push(Box::new(move |common: &Common| common.lead(name, *client, random)));
-    }
+    let mut tasks = all_sorts(seed);
     let writing = &mut crowd;
     tasks.push(Box::new(move |common: &Common| common.write(writing)));
     let mut report = Common::of(server.address).work(&server, time, tell, tasks)?;
@@ -85,6 +81,15 @@ pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Repo
     let written = writers::tally(&crowd);
     report.replies.insert(("write", 200, String::new()), written.kept);
     Ok(report)
+}
+
+/// Work of all clients that only read.
+pub(super) fn all_sorts<'a>(seed: u64) -> Vec<ClientTask<'a>> {
+    let task = |(number, (name, client)): (usize, &'static Client)| -> ClientTask<'a> {
+        let random = Random::of_part(seed, number as u64);
+        Box::new(move |common: &Common| common.lead(name, *client, random))
+    };
+    CLIENTS.iter().enumerate().map(task).collect()
 }
 
 /// Work of one client until the trial is over.
@@ -160,6 +165,17 @@ impl Common {
         self.over.store(true, Ordering::Relaxed);
         ensure!(writers::tally(crowd).lost == 0, "a writer got no answer");
         done
+    }
+
+    /// The server's.
+    pub(super) fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Notes what came of a request that somebody else has sent.
+    pub(super) fn note(&self, name: &'static str, status: u16, code: &str) {
+        let mut report = self.report.lock().unwrap_or_else(PoisonError::into_inner);
+        *report.replies.entry((name, status, code.to_owned())).or_default() += 1;
     }
 
     /// Sends a request and notes what came of it; the reply when it is one of success.
@@ -382,7 +398,8 @@ fn allowed_rise(half: &[f64]) -> f64 {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let good: u64 = self.replies.iter().filter(|(key, _)| key.1 < 300).map(|(_, count)| count).sum();
+        let is_good = |key: &(&str, u16, String)| (200..300).contains(&key.1);
+        let good: u64 = self.replies.iter().filter(|(key, _)| is_good(key)).map(|(_, count)| count).sum();
         writeln!(
             f,
             "{:.0} s, {good} answered with success, {:.1} a second",

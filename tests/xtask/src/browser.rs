@@ -1,6 +1,6 @@
 //! `browser`: the journeys through the editor, in real browsers. `web-test`: the tests of the editor, in part in one.
 
-use crate::system::SystemProgram;
+use crate::system::{NGINX, SystemProgram};
 use crate::{Outcome, npm_packages, program, root, run};
 use std::process::Command;
 
@@ -32,6 +32,8 @@ pub fn check() -> anyhow::Result<Outcome> {
     e2e.args(["run", "e2e"]).current_dir(root().join(folder));
     let firefox = FIREFOX.find()?;
     e2e.envs(firefox.as_ref().map(|path| ("FIREFOX", path)));
+    // Without it one journey is left out, and says so.
+    e2e.envs(NGINX.find()?.map(|path| (NGINX.variable, path)));
     let outcome = run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))?;
     Ok(match (outcome, firefox) {
         (Outcome::Passed, None) => {

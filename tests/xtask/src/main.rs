@@ -5,6 +5,7 @@
 //! `cargo xtask fuzz`: readers and requests, with unexpected inputs.
 //! `cargo xtask imports`: how long readers take, and how much memory.
 //! `cargo xtask slowest`: the slowest valid request, and a drag beside it.
+//! `cargo xtask doubling`: how the time of each operation grows with a map.
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
 //! `cargo xtask quick`: checks of what changed, in two minutes.
@@ -111,18 +112,19 @@ fn main() -> ExitCode {
         Some((command, rest)) if command == "fuzz" || command == "imports" => {
             alone(fuzzing::command(command, rest))
         }
-        Some((command, rest)) if command == "slowest" => alone(slowest::command(rest)),
+        Some((command, [])) if command == "doubling" => alone(slowest::command(command, &[])),
+        Some((command, rest)) if command == "slowest" => alone(slowest::command(command, rest)),
         Some((command, rest)) if command == "schemathesis" => alone(schemathesis::command(rest)),
         _ => {
             let names: Vec<&str> = checks().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
                 "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask quick\n       cargo xtask advisories\n       cargo xtask golden [--accept]\n       \
-                 cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\n       \
+                 cargo xtask soak attacks|clients|faults|goodput|kills|live|power|schedule [--minutes N | --count N] [--seed S]\n       \
                  cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
                  cargo xtask fuzz --guided [READER…] [--seconds N]\n       \
                  cargo xtask imports [FORMAT…] [--megabytes N]\n       \
-                 cargo xtask slowest [--tries N] [--seed S]\n       \
+                 cargo xtask slowest [--tries N] [--seed S]\n       cargo xtask doubling\n       \
                  cargo xtask schemathesis [--examples N] [--seed S]\nchecks: {names}"
             );
             ExitCode::from(2)

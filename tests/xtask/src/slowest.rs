@@ -1,13 +1,14 @@
-//! The slowest valid request, and what a drag takes beside it (`tests/src/bin/slowest.rs`). The figures are those of a
-//! release build: `DRAGTRAFFIC_BIN` names another one.
+//! The slowest valid request, and what a drag takes beside it (`tests/src/bin/slowest.rs`); how the time of each
+//! operation grows with a map (`doubling.rs`). The figures are those of a release build: `DRAGTRAFFIC_BIN` names another
+//! one.
 
 use super::{Outcome, built, cargo_command, root, run, target};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Searches, prints the table, and fails where a bound is not kept.
-pub fn command(arguments: &[String]) -> anyhow::Result<Outcome> {
-    let search = built("slowest")?;
+/// Measures by the program of this name, which prints its table, and fails where a bound is not kept.
+pub fn command(name: &str, arguments: &[String]) -> anyhow::Result<Outcome> {
+    let search = built(name)?;
     let program = match std::env::var_os("DRAGTRAFFIC_BIN") {
         Some(given) => PathBuf::from(given),
         None => {

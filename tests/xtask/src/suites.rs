@@ -1,16 +1,12 @@
 //! `test`: everything that `cargo test --workspace` runs, by `cargo nextest` where it can be had: it runs as many tests
 //! at a time as there are cores, whatever program they are in. `.config/nextest.toml` says in which order.
 
-use crate::system::SystemProgram;
+use crate::system::NGINX;
 use crate::{Outcome, WHOLE, cargo_command, run, tools, whole_test};
 use std::process::Command;
 
 /// Packages without a library.
 const WITHOUT_LIBRARY: &[&str] = &["dragtraffic", "xtask"];
-
-/// The proxy of the test of `docs/hosting.md`.
-const NGINX: SystemProgram =
-    SystemProgram { variable: "NGINX", names: &["nginx"], package: Some("nginx-light") };
 
 /// Runs all tests, and the documentation's examples.
 pub fn check() -> anyhow::Result<Outcome> {

@@ -21,6 +21,10 @@ pub struct SystemProgram {
     pub package: Option<&'static str>,
 }
 
+/// The proxy of `docs/hosting.md`: for its test, and for a journey.
+pub const NGINX: SystemProgram =
+    SystemProgram { variable: "NGINX", names: &["nginx"], package: Some("nginx-light") };
+
 impl SystemProgram {
     /// The one that its variable names, one on the path, or one installed now where that is allowed.
     pub fn find(&self) -> anyhow::Result<Option<String>> {

@@ -1,0 +1,172 @@
+//! `doubling`: core time of every operation on a map, for towns of twice the size each time.
+//! `cargo xtask doubling` builds it and runs it.
+//!
+//! Each operation is near linear in the points of the map: from half of the largest town to all of it, its time rises by
+//! less than [`MOST_RISE`]. Each request has a map of its own, since maps are remembered.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
+
+use anyhow::{Context, ensure};
+use dragtraffic_tests::random::Random;
+use dragtraffic_tests::scenes::street;
+use dragtraffic_tests::{Reply, Request, Server};
+use serde_json::{Value, json};
+use std::process::ExitCode;
+
+/// Lanes of a town, each of 41 points.
+const SIZES: [usize; 4] = [500, 1_000, 2_000, 4_000];
+/// Most rise of the time with the last doubling: linear is 2, and sorting a little more.
+const MOST_RISE: f64 = 2.6;
+/// Times below this are those of the clock's ticks, seconds.
+const LEAST_S: f64 = 0.1;
+/// Measurements of each, of which the shortest counts.
+const REPEATS: u64 = 2;
+
+/// Formats that are written, and read again where they have maps.
+const FORMATS: &[&str] = &[
+    "dragtraffic",
+    "womd",
+    "opendrive",
+    "openscenario",
+    "sumo",
+    "commonroad",
+    "geojson",
+    "gpudrive",
+    "scenarionet",
+    "mcap",
+    "csv",
+];
+
+/// Streets of 200 m with a bend every 5 m, in blocks of 100 m x 100 m, four of them a block; other ones for each seed.
+fn town(lanes: usize, seed: u64) -> Value {
+    let mut random = Random::new(seed);
+    let mut part = || random.below(1 << 20) as f64 / f64::from(1 << 20);
+    let side = (lanes as f64 / 4.0).sqrt().ceil() as usize;
+    let mut lane = |i: usize| {
+        let (block, mut way) = (i / 4, part() * std::f64::consts::TAU);
+        let centre = side as f64 / 2.0;
+        let (mut x, mut y) =
+            (((block % side) as f64 - centre) * 100.0, ((block / side) as f64 - centre) * 100.0);
+        let mut points = vec![[x, y]];
+        for _ in 0..40 {
+            way += (part() - 0.5) * 0.6;
+            (x, y) = (x + 5.0 * way.cos(), y + 5.0 * way.sin());
+            points.push([x, y]);
+        }
+        json!({"id": format!("s{i}"), "type": "surface_street", "points_m": points})
+    };
+    let mut scene = street(2, 20);
+    let streets: Vec<Value> = (0..lanes).map(&mut lane).collect();
+    if let Some(all) = scene["map"]["lanes"].as_array_mut() {
+        all.extend(streets);
+    }
+    scene
+}
+
+/// One operation: its requests for a scene, of which the last one is measured.
+struct Operation {
+    name: String,
+    ask: Box<dyn Fn(&Server, &Value) -> anyhow::Result<Request>>,
+}
+
+impl Operation {
+    fn of(name: &str, ask: impl Fn(&Value) -> Request + 'static) -> Self {
+        Self { name: name.to_owned(), ask: Box::new(move |_, scene| Ok(ask(scene))) }
+    }
+}
+
+fn post(path: &str, body: &Value) -> Request {
+    Request::new("POST", path).json(body)
+}
+
+fn answered(server: &Server, request: &Request) -> anyhow::Result<Reply> {
+    let reply = server.send(request)?;
+    ensure!(reply.status < 300, "{} {}", reply.status, reply.text());
+    Ok(reply)
+}
+
+fn operations() -> Vec<Operation> {
+    let mut all = vec![
+        Operation::of("generate", |scene| post("/v1/generate", &json!({"scene": scene, "agents": ["0"]}))),
+        Operation::of("place", |scene| post("/v1/place", &json!({"scene": scene, "density": {"count": 20}}))),
+        Operation::of("score", |scene| post("/v1/score", &json!({"scene": scene}))),
+        Operation::of("run", |scene| post("/v1/runs", &json!({"scene": scene, "egos": ["0"]}))),
+        Operation::of("save", |scene| post("/v1/scenes", scene)),
+        Operation {
+            name: "preview".to_owned(),
+            ask: Box::new(|server, scene| {
+                let made = answered(server, &post("/v1/scenes", scene))?.json();
+                let id = made["id"].as_str().context("no id")?;
+                Ok(Request::new("GET", &format!("/v1/scenes/{id}/preview")))
+            }),
+        },
+    ];
+    for format in FORMATS {
+        all.push(Operation::of(&format!("export {format}"), move |scene| {
+            post(&format!("/v1/export?format={format}"), scene)
+        }));
+        all.push(Operation {
+            name: format!("import {format}"),
+            ask: Box::new(move |server, scene| {
+                let file = answered(server, &post(&format!("/v1/export?format={format}"), scene))?;
+                let request = Request::new("POST", "/v1/import?dry_run=true");
+                Ok(request.header("content-type", "application/octet-stream").body(file.body))
+            }),
+        });
+    }
+    all
+}
+
+/// Core time of an operation on a town, seconds; the reason where there is none.
+fn measure(operation: &Operation, lanes: usize, server: &Server, seed: &mut u64) -> anyhow::Result<f64> {
+    let mut shortest = f64::INFINITY;
+    for _ in 0..REPEATS {
+        *seed += 1;
+        let request = (operation.ask)(server, &town(lanes, *seed))?;
+        let before = server.core_s()?;
+        answered(server, &request)?;
+        shortest = shortest.min(server.core_s()? - before);
+    }
+    Ok(shortest)
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("{error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether no operation rises by more than it may.
+fn run() -> anyhow::Result<bool> {
+    let server = Server::start(&[])?;
+    server.wait_ready()?;
+    let (mut seed, mut is_linear) = (0, true);
+    println!("{:<20} {} rise", "core s of lanes", SIZES.map(|lanes| format!("{lanes:>7}")).concat());
+    for operation in operations() {
+        let mut times = Vec::new();
+        let measured: anyhow::Result<()> = SIZES.iter().try_for_each(|lanes| {
+            times.push(measure(&operation, *lanes, &server, &mut seed)?);
+            Ok(())
+        });
+        let cells: String = times.iter().map(|time| format!("{time:>7.2}")).collect();
+        let told = match (measured, times.as_slice()) {
+            (Ok(()), [.., half, whole]) => {
+                let rise = whole.max(LEAST_S) / half.max(LEAST_S);
+                is_linear &= rise < MOST_RISE;
+                format!("{rise:.2}{}", if rise < MOST_RISE { "" } else { " TOO MUCH" })
+            }
+            (Err(why), _) => {
+                let why: String = format!("{why:#}").chars().take(200).collect();
+                format!(" {why}")
+            }
+            _ => String::new(),
+        };
+        println!("{:<20} {cells} {told}", operation.name);
+    }
+    Ok(is_linear)
+}
