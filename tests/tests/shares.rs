@@ -74,7 +74,7 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
     let pipelined =
         Request::new("POST", "/v1/generate").keep().json(&small("5")).bytes(server.address).repeat(20);
     let over = AtomicBool::new(false);
-    let answers = std::thread::scope(|scope| {
+    let statuses = std::thread::scope(|scope| {
         for _ in 0..60 {
             scope.spawn(|| {
                 while !over.load(Ordering::Relaxed) {
@@ -97,23 +97,15 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
             Request::new("GET", "/v1/info"),
             Request::new("POST", "/v1/generate").json(&small("6")),
         ];
-        let ask = |k: usize| {
-            let began = Instant::now();
-            server.send(&asked[k % 3]).map(|reply| (reply.status, began.elapsed()))
-        };
-        let answers: Vec<_> = (0..32).map(ask).collect();
+        let statuses: Vec<_> =
+            (0..32).map(|k| server.send(&asked[k % 3]).map(|reply| reply.status)).collect();
         over.store(true, Ordering::Relaxed);
-        answers
+        statuses
     });
-    let mut times = Vec::new();
-    for (k, answer) in answers.into_iter().enumerate() {
-        let (status, took) = answer.unwrap();
+    for (k, status) in statuses.into_iter().enumerate() {
+        let status = status.unwrap();
         assert!(status == 200 || (k % 3 > 0 && status == 503), "{k}: {status}");
-        times.push(took);
     }
-    times.sort();
-    // A quarter of them, since the 600 clients and other work are on the same machine.
-    assert!(times[7] < Duration::from_secs(1), "{times:?}");
 }
 
 /// Waits as long as a refusal says.
