@@ -1,9 +1,10 @@
 //! Who comes in, and who leaves.
 
 use crate::tuning::fixed::run::{ARRIVED_M, ENTRY_GAP_M, ENTRY_HEADWAY_S, OFF_MAP_M, OUTSIDE_M};
+use scene::geometry::Extent;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::routes::LaneGraph;
-use scene::{Agent, AgentType, LaneMap, STEP_S, Size, State, Vec2};
+use scene::{Agent, AgentType, LaneMap, STEP_S, Size, State};
 
 /// Why a road user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,12 +15,9 @@ pub enum DepartureReason {
     Arrived,
 }
 
-/// The corners of a map's box; `None` of a map without lines.
-pub(super) fn bounds(map: &LaneMap) -> Option<(Vec2, Vec2)> {
-    let points = map.outlines().flat_map(|(points, _)| points.iter().copied());
-    points.fold(None, |known: Option<(Vec2, Vec2)>, p| {
-        Some(known.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))))
-    })
+/// The upright rectangle that holds all lines of a map; `None` of a map without lines.
+pub(super) fn extent(map: &LaneMap) -> Option<Extent> {
+    Extent::about(map.outlines().flat_map(|(points, _)| points.iter().copied()))
 }
 
 /// Whether a road user with this state has left, and why.
@@ -28,7 +26,7 @@ pub(super) fn departure(
     state: &State,
     scene_step: usize,
     graph: &LaneGraph,
-    bounds: Option<(Vec2, Vec2)>,
+    extent: Option<Extent>,
 ) -> Option<DepartureReason> {
     let at = state.position();
     let goal = &agent.conditions.goal;
@@ -39,10 +37,7 @@ pub(super) fn departure(
     {
         return Some(DepartureReason::Arrived);
     }
-    let outside = bounds.is_some_and(|(low, high)| {
-        let beyond = (low - at).sup(&(at - high));
-        beyond.x.max(beyond.y) > OUTSIDE_M
-    });
+    let outside = extent.is_some_and(|extent| extent.outside_m(at) > OUTSIDE_M);
     let rides = matches!(agent.kind(), AgentType::Vehicle | AgentType::Cyclist);
     let off = rides && graph.ground().off_map_m(at, OFF_MAP_M).is_some();
     (outside || off).then_some(DepartureReason::LeftTheMap)
@@ -67,8 +62,8 @@ pub(super) fn has_room(state: &State, size: &Size, there: &[(State, Size)]) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::Subtype;
     use scene::map::Lane;
+    use scene::{Subtype, Vec2};
 
     #[test]
     fn who_comes_in_needs_room_before_and_behind() {
@@ -89,7 +84,7 @@ mod tests {
         let graph = LaneGraph::new(&map);
         let mut car = Agent::bare("a", AgentType::Vehicle, Subtype::Car, Vec::new());
         let gone = |car: &Agent, x_m: f64, step: usize| {
-            departure(car, &State { x_m, ..State::default() }, step, &graph, bounds(&map))
+            departure(car, &State { x_m, ..State::default() }, step, &graph, extent(&map))
         };
         assert_eq!(gone(&car, 99.0, 10), None);
         assert_eq!(gone(&car, 106.0, 10), Some(DepartureReason::LeftTheMap));

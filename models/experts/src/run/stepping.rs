@@ -1,7 +1,7 @@
 //! From one moment of a run to the next: everybody moves, some come and go, some plan anew, the rest react.
 
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
-use super::borders::{bounds, departure, has_room};
+use super::borders::{departure, extent, has_room};
 use super::contacts::{RunFault, Stepped, faults};
 use super::error::RunError;
 use super::moment::RunMoment;
@@ -95,11 +95,11 @@ impl Run {
 
     /// Those who are driven and leave in this step.
     fn see_off(&mut self, graph: &LaneGraph) -> Vec<RunDeparture> {
-        let (step, now_ms, bounds) = (self.scene_step(), self.elapsed_ms, bounds(&self.scene.map));
+        let (step, now_ms, extent) = (self.scene_step(), self.elapsed_ms, extent(&self.scene.map));
         let mut left = Vec::new();
         for (own, agent) in self.agents.iter_mut().zip(&self.scene.agents) {
             let Presence::Driven(plan) = &own.presence else { continue };
-            if let Some(reason) = departure(agent, &plan.at(now_ms), step, graph, bounds) {
+            if let Some(reason) = departure(agent, &plan.at(now_ms), step, graph, extent) {
                 own.presence = Presence::Gone;
                 left.push(RunDeparture { agent: agent.id.clone(), reason });
             }
