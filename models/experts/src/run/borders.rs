@@ -4,7 +4,7 @@ use crate::tuning::fixed::run::{ARRIVED_M, ENTRY_GAP_M, ENTRY_HEADWAY_S, OFF_MAP
 use scene::geometry::Extent;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::routes::LaneGraph;
-use scene::{Agent, AgentType, LaneMap, STEP_S, Size, State};
+use scene::{Agent, AgentType, STEP_S, Size, State};
 
 /// Why a road user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,12 +15,7 @@ pub enum DepartureReason {
     Arrived,
 }
 
-/// The upright rectangle that holds all lines of a map; `None` of a map without lines.
-pub(super) fn extent(map: &LaneMap) -> Option<Extent> {
-    Extent::about(map.outlines().flat_map(|(points, _)| points.iter().copied()))
-}
-
-/// Whether a road user with this state has left, and why.
+/// Whether a road user with this state has left, and why. `extent` is that of the map's lines.
 pub(super) fn departure(
     agent: &Agent,
     state: &State,
@@ -62,7 +57,7 @@ pub(super) fn has_room(state: &State, size: &Size, there: &[(State, Size)]) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::map::Lane;
+    use scene::map::{Lane, LaneMap};
     use scene::{Subtype, Vec2};
 
     #[test]
@@ -79,12 +74,12 @@ mod tests {
 
     #[test]
     fn where_the_road_ends_a_car_leaves_and_a_goal_is_left_at_its_time() {
-        let points = vec![Vec2::new(0.0, 0.0), Vec2::new(100.0, 0.0)];
-        let map = LaneMap { lanes: vec![Lane::street("a", points)], ..LaneMap::default() };
+        let ends = [Vec2::new(0.0, 0.0), Vec2::new(100.0, 0.0)];
+        let map = LaneMap { lanes: vec![Lane::street("a", ends.to_vec())], ..LaneMap::default() };
         let graph = LaneGraph::new(&map);
         let mut car = Agent::bare("a", AgentType::Vehicle, Subtype::Car, Vec::new());
         let gone = |car: &Agent, x_m: f64, step: usize| {
-            departure(car, &State { x_m, ..State::default() }, step, &graph, extent(&map))
+            departure(car, &State { x_m, ..State::default() }, step, &graph, Extent::about(ends))
         };
         assert_eq!(gone(&car, 99.0, 10), None);
         assert_eq!(gone(&car, 106.0, 10), Some(DepartureReason::LeftTheMap));
