@@ -80,8 +80,8 @@ class Run:
     """Traffic that is stepped beside road users that you drive, the *egos*. The others react to them in the same step.
 
     ``egos``: ids of the scene. ``step_s`` 0.05 to 0.5; each of the others plans anew after ``plan_interval_s``, 0.2 to
-    5; ``start_s`` is the scene time of the start; ``steps`` are refinement steps of each plan. Equal egos and seeds
-    give equal steps.
+    5; ``start_s`` is the scene time of the start; ``steps`` are refinement steps of each plan, 1 by default. Equal egos
+    and seeds give equal steps.
 
     Raises:
         DragTrafficError: an ego is unknown or absent at the start, or a number is out of its range.

@@ -2,6 +2,7 @@
 
 use lru::LruCache;
 use scene::Cancel;
+use scene::geometry::Extent;
 use scene::geometry::crowding::Crowding;
 use scene::routes::LaneGraph;
 use scene::score::Drivable;
@@ -26,6 +27,8 @@ pub(crate) struct KnownMap {
     pub(crate) graph: Arc<LaneGraph>,
     /// Where vehicles may drive.
     pub(crate) drivable: Arc<Drivable>,
+    /// Of all its lines; `None` without any.
+    pub(crate) extent: Option<Extent>,
 }
 
 impl KnownMap {
@@ -35,7 +38,8 @@ impl KnownMap {
 
     fn of(map: &LaneMap, graph: LaneGraph) -> Self {
         let crowding = Crowding::of(map.outlines());
-        Self { crowding, drivable: graph.ground().clone(), graph: Arc::new(graph) }
+        let extent = Extent::about(map.outlines().flat_map(|(points, _)| points.iter().copied()));
+        Self { crowding, drivable: graph.ground().clone(), graph: Arc::new(graph), extent }
     }
 }
 

@@ -7,6 +7,7 @@ pub(crate) use build::{RecordedFuture, Recording, Said};
 
 use crate::format::EGO;
 use crate::limits::MAX_GOAL_DISTANCE_M;
+use scene::geometry::Extent;
 use scene::{AgentType, STEP_S, Signal, SignalState, Size, Subtype, Vec2};
 use std::collections::BTreeSet;
 
@@ -113,12 +114,9 @@ pub(crate) fn reach(users: &[RecordedAgent]) -> Option<(Vec2, f64)> {
     let reached: Vec<&RecordedAgent> =
         if ego().next().is_some() { ego().collect() } else { users.iter().collect() };
     let seen = reached.iter().flat_map(|user| &user.samples).filter(|sample| sample.is_seen());
-    let (low, high) = seen.map(|sample| sample.at).fold(None, |corners, at| {
-        let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
-        Some((low.inf(&at), high.sup(&at)))
-    })?;
-    let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
-    Some((((low + high) / 2.0).map(f64::round), radius_m))
+    let extent = Extent::about(seen.map(|sample| sample.at))?;
+    let radius_m = (extent.size().norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
+    Some((extent.middle().map(f64::round), radius_m))
 }
 
 /// The median of each coordinate: a few stragglers do not move it.

@@ -6,7 +6,7 @@ use crate::limits::MAX_AGENTS;
 use crate::problem::{ImportWarning, Imported, ReadError};
 use crate::repairs::{self, checked};
 use crate::sentences;
-use scene::geometry::rotate;
+use scene::geometry::{Extent, rotate};
 use scene::map::{LaneMap, Points};
 use scene::message::Word;
 use scene::{Agent, Scene, State, Vec2};
@@ -82,11 +82,8 @@ fn origin(scene: &Scene, map: &LaneMap) -> Vec2 {
     let lines = lines.chain(map.road_lines.iter().chain(&map.road_edges).map(|line| &line.points));
     let areas = map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways).map(|area| &area.polygon);
     let lines = lines.chain(areas);
-    let mut bounds: Option<(Vec2, Vec2)> = None;
-    for p in states.chain(lines.flat_map(|line| line.xy.iter().copied())).filter(|p| finite(*p) == *p) {
-        bounds = Some(bounds.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))));
-    }
-    bounds.map_or(Vec2::zeros(), |(low, high)| finite(((low + high) / 2.0).map(f64::round)))
+    let places = states.chain(lines.flat_map(|line| line.xy.iter().copied())).filter(|p| finite(*p) == *p);
+    Extent::about(places).map_or(Vec2::zeros(), |extent| finite(extent.middle().map(f64::round)))
 }
 
 fn finite(p: Vec2) -> Vec2 {

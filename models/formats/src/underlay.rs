@@ -10,6 +10,7 @@ use crate::projection::TransverseMercator;
 use crate::repairs::checked;
 use crate::sentences;
 use crate::settle::place;
+use scene::geometry::Extent;
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::map::{Lane, LaneMap};
 use scene::{AgentType, Scene, Shared, Vec2};
@@ -58,13 +59,10 @@ pub(crate) fn lay(
 ) -> Result<Imported, ReadError> {
     warnings.extend(ground.warnings.iter().cloned());
     let states = scene.agents.iter().flat_map(|agent| agent.track.states.iter().flatten());
-    let corners = states.map(|state| state.position()).fold(None, |corners, at| {
-        let (low, high): (Vec2, Vec2) = corners.unwrap_or((at, at));
-        Some((low.inf(&at), high.sup(&at)))
-    });
-    let (Some((low, high)), false) = (corners, ground.maps.is_empty()) else { return Ok((scene, warnings)) };
-    let middle = (low + high) / 2.0;
-    let radius_m = ((high - low).norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
+    let extent = Extent::about(states.map(|state| state.position()));
+    let (Some(extent), false) = (extent, ground.maps.is_empty()) else { return Ok((scene, warnings)) };
+    let middle = extent.middle();
+    let radius_m = (extent.size().norm() / 2.0 + BESIDE_M).min(MAX_GOAL_DISTANCE_M);
     let file = Frame::of(&scene.meta.origin).place(middle).map(f64::round);
     let part = MapPart { middle, ..MapPart::about(file, radius_m) };
     let laid = |from, shift| {

@@ -1,5 +1,6 @@
 //! The part of a scene that a picture shows.
 
+use scene::geometry::Extent;
 use scene::{Scene, Vec2};
 
 /// Narrowest and widest square that a picture shows, metres.
@@ -43,22 +44,12 @@ impl SceneView {
     /// True if a line can be seen in the square: their boxes overlap.
     pub fn shows(&self, points: &[Vec2], beside_m: f64) -> bool {
         let half = 0.5 * self.width_m + beside_m;
-        let Some((least, most)) = bounds(points.iter().copied()) else { return false };
-        let (least, most) = (least - self.centre, most - self.centre);
-        least.x <= half && least.y <= half && most.x >= -half && most.y >= -half
+        Extent::of(points.iter().copied()).touches(&Extent::of([self.centre]).grown(half))
     }
-}
-
-/// Least and greatest coordinates.
-fn bounds(points: impl Iterator<Item = Vec2>) -> Option<(Vec2, Vec2)> {
-    points.fold(None, |known: Option<(Vec2, Vec2)>, point| {
-        let (least, most) = known.unwrap_or((point, point));
-        Some((least.inf(&point), most.sup(&point)))
-    })
 }
 
 /// Middle and side of the least square around points.
 fn square(points: impl Iterator<Item = Vec2>) -> Option<(Vec2, f64)> {
-    let (least, most) = bounds(points)?;
-    Some((0.5 * (least + most), (most.x - least.x).max(most.y - least.y)))
+    let extent = Extent::about(points)?;
+    Some((extent.middle(), extent.size().max()))
 }

@@ -105,6 +105,8 @@ pub(super) struct Material<'a> {
     pub(super) shown: Option<&'a ShownLast>,
     /// The actor is driving that future.
     pub(super) under_way: bool,
+    /// So many alternatives are weighed, the likeliest.
+    pub(super) weighed: usize,
 }
 
 impl Material<'_> {
@@ -118,7 +120,7 @@ impl Material<'_> {
         }
         let mut out: Vec<MotionCandidate> =
             kept.iter().map(|kept| given(CandidateOrigin::Kept, kept)).collect();
-        let alternatives = self.alternatives(MODES);
+        let alternatives = self.alternatives(self.weighed);
         let means = self.path_means(&alternatives);
         let missed = alternatives.iter().all(|c| !c.motion.reach.is_reached());
         let missed = alternatives.first().filter(|_| missed).map(|c| c.motion.reach);

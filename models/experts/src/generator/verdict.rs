@@ -2,6 +2,7 @@
 
 use super::window_setting::WindowSetting;
 use crate::request::Request;
+use scene::geometry::Extent;
 use scene::judge::{Change, Fault, Judge, Other};
 use scene::motion::Trajectory;
 use scene::score::Actor;
@@ -87,26 +88,16 @@ pub(super) fn change<'a>(request: &'a Request, agent: &'a Agent, now: &'a Future
 }
 
 /// Upright rectangle about motions, with room for the agents that can meet them.
-pub(super) struct MotionExtent {
-    low: Vec2,
-    high: Vec2,
-}
+pub(super) struct MotionExtent(Extent);
 
 impl MotionExtent {
     /// About these places.
     pub(super) fn about(places: impl Iterator<Item = Vec2>) -> Self {
-        let nothing = Self { low: Vec2::repeat(f64::INFINITY), high: Vec2::repeat(f64::NEG_INFINITY) };
-        let ground = places.fold(nothing, |ground, place| Self {
-            low: ground.low.inf(&place),
-            high: ground.high.sup(&place),
-        });
-        let away = Vec2::repeat(AWAY_M);
-        Self { low: ground.low - away, high: ground.high + away }
+        Self(Extent::of(places))
     }
 
     /// An agent at this place may meet one of the motions.
     pub(super) fn holds(&self, place: Vec2) -> bool {
-        let (low, high) = (self.low, self.high);
-        (low.x..=high.x).contains(&place.x) && (low.y..=high.y).contains(&place.y)
+        self.0.outside_m(place) <= AWAY_M
     }
 }

@@ -32,7 +32,7 @@ pub use driving::SpeedRange;
 pub use model::{PlacementInfo, PlacementModel};
 pub use place::place;
 pub use placer::Placer;
-pub use region::{Region, map_bounds, ring_area_m2};
+pub use region::{Region, map_extent, ring_area_m2};
 pub use request::{
     Amount, ArmTraffic, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
     MAX_SPEED_MPS, Parked, PlaceRequest, Placement, PlacementMethod,

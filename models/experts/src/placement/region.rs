@@ -1,5 +1,6 @@
 //! The part of a map where road users are placed.
 
+use scene::geometry::Extent;
 use scene::{LaneMap, Vec2};
 
 /// The region in which placed centres may lie.
@@ -34,11 +35,7 @@ impl Region {
         match self {
             Self::Everywhere => true,
             Self::Circle { center, radius_m } => (p - center).norm() <= radius_m + reach_m,
-            Self::Polygon(ring) => bounds(ring.iter()).is_some_and(|(low, high)| {
-                let low = p - low;
-                let high = high - p;
-                low.min() >= -reach_m && high.min() >= -reach_m
-            }),
+            Self::Polygon(ring) => Extent::of(ring.iter().copied()).outside_m(p) <= reach_m,
         }
     }
 }
@@ -57,19 +54,11 @@ pub fn ring_area_m2(ring: &[Vec2]) -> f64 {
     (0.5 * ends.map(|(a, b)| scene::geometry::cross(*a, *b)).sum::<f64>()).abs()
 }
 
-/// Lowest and highest corner of the upright rectangle that holds the points; `None` without any.
-pub fn bounds<'a>(points: impl Iterator<Item = &'a Vec2>) -> Option<(Vec2, Vec2)> {
-    points.fold(None, |held, p| match held {
-        None => Some((*p, *p)),
-        Some((low, high)) => Some((low.inf(p), high.sup(p))),
-    })
-}
-
-/// The upright rectangle that holds a map's lanes, edges and crosswalks.
-pub fn map_bounds(map: &LaneMap) -> Option<(Vec2, Vec2)> {
+/// The upright rectangle that holds a map's lanes, edges and crosswalks; `None` of a map without any.
+pub fn map_extent(map: &LaneMap) -> Option<Extent> {
     let lanes = map.lanes.iter().flat_map(|l| &l.points.xy);
     let edges = map.road_edges.iter().flat_map(|l| &l.points.xy);
-    bounds(lanes.chain(edges).chain(map.crosswalks.iter().flat_map(|a| &a.polygon.xy)))
+    Extent::about(lanes.chain(edges).chain(map.crosswalks.iter().flat_map(|a| &a.polygon.xy)).copied())
 }
 
 #[cfg(test)]
@@ -88,6 +77,6 @@ mod tests {
         let circle = Region::Circle { center: Vec2::new(1.0, 1.0), radius_m: 2.0 };
         assert!(circle.contains(Vec2::new(3.0, 1.0)) && !circle.contains(Vec2::new(3.01, 1.0)));
         assert!(circle.may_hold(Vec2::new(4.0, 1.0), 1.0) && !circle.may_hold(Vec2::new(4.1, 1.0), 1.0));
-        assert_eq!(bounds([].iter()), None);
+        assert!(!Region::Polygon(Vec::new()).may_hold(Vec2::zeros(), 1e9));
     }
 }

@@ -1,9 +1,10 @@
 //! Who comes in, and who leaves.
 
 use crate::tuning::fixed::run::{ARRIVED_M, ENTRY_GAP_M, ENTRY_HEADWAY_S, OFF_MAP_M, OUTSIDE_M};
+use scene::geometry::Extent;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::routes::LaneGraph;
-use scene::{Agent, AgentType, LaneMap, STEP_S, Size, State, Vec2};
+use scene::{Agent, AgentType, STEP_S, Size, State};
 
 /// Why a road user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,21 +15,13 @@ pub enum DepartureReason {
     Arrived,
 }
 
-/// The corners of a map's box; `None` of a map without lines.
-pub(super) fn bounds(map: &LaneMap) -> Option<(Vec2, Vec2)> {
-    let points = map.outlines().flat_map(|(points, _)| points.iter().copied());
-    points.fold(None, |known: Option<(Vec2, Vec2)>, p| {
-        Some(known.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))))
-    })
-}
-
-/// Whether a road user with this state has left, and why.
+/// Whether a road user with this state has left, and why. `extent` is that of the map's lines.
 pub(super) fn departure(
     agent: &Agent,
     state: &State,
     scene_step: usize,
     graph: &LaneGraph,
-    bounds: Option<(Vec2, Vec2)>,
+    extent: Option<Extent>,
 ) -> Option<DepartureReason> {
     let at = state.position();
     let goal = &agent.conditions.goal;
@@ -39,10 +32,7 @@ pub(super) fn departure(
     {
         return Some(DepartureReason::Arrived);
     }
-    let outside = bounds.is_some_and(|(low, high)| {
-        let beyond = (low - at).sup(&(at - high));
-        beyond.x.max(beyond.y) > OUTSIDE_M
-    });
+    let outside = extent.is_some_and(|extent| extent.outside_m(at) > OUTSIDE_M);
     let rides = matches!(agent.kind(), AgentType::Vehicle | AgentType::Cyclist);
     let off = rides && graph.ground().off_map_m(at, OFF_MAP_M).is_some();
     (outside || off).then_some(DepartureReason::LeftTheMap)
@@ -67,8 +57,8 @@ pub(super) fn has_room(state: &State, size: &Size, there: &[(State, Size)]) -> b
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::Subtype;
-    use scene::map::Lane;
+    use scene::map::{Lane, LaneMap};
+    use scene::{Subtype, Vec2};
 
     #[test]
     fn who_comes_in_needs_room_before_and_behind() {
@@ -84,12 +74,12 @@ mod tests {
 
     #[test]
     fn where_the_road_ends_a_car_leaves_and_a_goal_is_left_at_its_time() {
-        let points = vec![Vec2::new(0.0, 0.0), Vec2::new(100.0, 0.0)];
-        let map = LaneMap { lanes: vec![Lane::street("a", points)], ..LaneMap::default() };
+        let ends = [Vec2::new(0.0, 0.0), Vec2::new(100.0, 0.0)];
+        let map = LaneMap { lanes: vec![Lane::street("a", ends.to_vec())], ..LaneMap::default() };
         let graph = LaneGraph::new(&map);
         let mut car = Agent::bare("a", AgentType::Vehicle, Subtype::Car, Vec::new());
         let gone = |car: &Agent, x_m: f64, step: usize| {
-            departure(car, &State { x_m, ..State::default() }, step, &graph, bounds(&map))
+            departure(car, &State { x_m, ..State::default() }, step, &graph, Extent::about(ends))
         };
         assert_eq!(gone(&car, 99.0, 10), None);
         assert_eq!(gone(&car, 106.0, 10), Some(DepartureReason::LeftTheMap));

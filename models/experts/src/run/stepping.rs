@@ -1,13 +1,14 @@
 //! From one moment of a run to the next: everybody moves, some come and go, some plan anew, the rest react.
 
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
-use super::borders::{bounds, departure, has_room};
+use super::borders::{departure, has_room};
 use super::contacts::{RunFault, Stepped, faults};
 use super::error::RunError;
 use super::moment::RunMoment;
 use super::settings::{EgoState, MOST_RUN_MS};
 use super::state::{Run, RunChange, RunDeparture, RunStep};
 use crate::generator::Generator;
+use crate::maps::KnownMap;
 use crate::request::Request;
 use scene::Cancel;
 use scene::geometry::obb::{OrientedBox, overlaps};
@@ -68,18 +69,18 @@ impl Run {
         egos: BTreeMap<usize, EgoState>,
         cancel: &Cancel,
     ) -> Result<RunStep, RunError> {
-        let graph = generator.maps().graph(&self.scene.map);
+        let map = generator.maps().known(&self.scene.map);
         let before: Vec<Option<State>> =
             self.agents.iter().map(|own| own.presence.state(self.elapsed_ms)).collect();
         self.number += 1;
         self.elapsed_ms += u64::from(self.settings.step_ms);
         self.move_egos(egos);
-        let left = self.see_off(&graph);
+        let left = self.see_off(&map);
         let entered = self.let_in();
         self.pass_vias();
-        let faults = self.faults(&before, &graph);
+        let faults = self.faults(&before, &map.graph);
         let acting = self.due();
-        let changes = self.plan(generator, &graph, &acting, cancel)?;
+        let changes = self.plan(generator, &map.graph, &acting, cancel)?;
         Ok(RunStep { changes, faults, entered, left, ..self.present() })
     }
 
@@ -94,12 +95,12 @@ impl Run {
     }
 
     /// Those who are driven and leave in this step.
-    fn see_off(&mut self, graph: &LaneGraph) -> Vec<RunDeparture> {
-        let (step, now_ms, bounds) = (self.scene_step(), self.elapsed_ms, bounds(&self.scene.map));
+    fn see_off(&mut self, map: &KnownMap) -> Vec<RunDeparture> {
+        let (step, now_ms) = (self.scene_step(), self.elapsed_ms);
         let mut left = Vec::new();
         for (own, agent) in self.agents.iter_mut().zip(&self.scene.agents) {
             let Presence::Driven(plan) = &own.presence else { continue };
-            if let Some(reason) = departure(agent, &plan.at(now_ms), step, graph, bounds) {
+            if let Some(reason) = departure(agent, &plan.at(now_ms), step, &map.graph, map.extent) {
                 own.presence = Presence::Gone;
                 left.push(RunDeparture { agent: agent.id.clone(), reason });
             }

@@ -10,7 +10,7 @@ use crate::map_file::{self, MapRead};
 use crate::problem::{Imported, ReadError};
 use crate::source::{Source, head};
 use crate::unpack;
-use scene::{Origin, Scene, Vec2};
+use scene::{Origin, Scene};
 use std::io;
 
 /// A scenario with or without its map; a map without scenario is a scene without road users.
@@ -78,8 +78,8 @@ fn scenario(file: &dyn Source, options: &ImportOptions) -> Result<Imported, Read
 /// Reads a map without scenario.
 fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
     let place = map::read(file)?;
-    let (low, high) = place.corners().unwrap_or_default();
-    let (origin, half): (Vec2, Vec2) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
+    let (middle, size) = place.extent().map(|all| (all.middle(), all.size())).unwrap_or_default();
+    let (origin, half) = (middle.map(f64::round), size / 2.0);
     if map_file::is_too_wide(half) {
         return Err(ReadError::map_too_large(map_file::extent(half)));
     }

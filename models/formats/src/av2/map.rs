@@ -6,6 +6,7 @@ use crate::source::{Source, without_mark};
 use crate::surface;
 use crate::unpack::{self, Bounds};
 use crate::{bounds, polyline};
+use scene::geometry::Extent;
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TYPES, TypedLine};
 use scene::{MAX_COORDINATE_M, Vec2};
 use serde::Deserialize;
@@ -114,14 +115,11 @@ fn line_type(mark: Option<&str>) -> Option<&'static str> {
 }
 
 impl Place {
-    /// The least and greatest coordinates of lanes and ground.
-    pub fn corners(&self) -> Option<(Vec2, Vec2)> {
+    /// Of lanes and ground; `None` without any.
+    pub fn extent(&self) -> Option<Extent> {
         let lanes = self.lane_segments.values().flat_map(|lane| &lane.left_lane_boundary);
         let ground = self.drivable_areas.values().flat_map(|area| &area.area_boundary);
-        let points = lanes.chain(ground).map(|p| Vec2::new(p.x, p.y));
-        points.fold(None, |corners: Option<(Vec2, Vec2)>, p| {
-            Some(corners.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))))
-        })
+        Extent::about(lanes.chain(ground).map(|p| Vec2::new(p.x, p.y)))
     }
 
     /// The map about a point of it.

@@ -76,12 +76,12 @@ fn place(database: &Database, options: &ImportOptions) -> Result<Imported, ReadE
         Around { x: at.x, y: at.y, ..around }
     });
     let chosen = Chosen::of(around);
-    let (low, high) = city.corners().unwrap_or_default();
-    let half = (high - low) / 2.0;
+    let (middle, size) = city.extent().map(|all| (all.middle(), all.size())).unwrap_or_default();
+    let half = size / 2.0;
     if !chosen.is_part() && map_file::is_too_wide(half) {
         return Err(ReadError::map_too_large(map_file::extent(half)));
     }
-    let origin = chosen.origin().unwrap_or_else(|| ((low + high) / 2.0).map(f64::round));
+    let origin = chosen.origin().unwrap_or_else(|| middle.map(f64::round));
     let part = city.part(origin, chosen);
     if let (true, Some(message)) = (part.map.lanes.is_empty(), part.chosen.nothing()) {
         return Err(FieldProblem::new("", code::CANNOT_REPRESENT, message).into());

@@ -11,6 +11,7 @@ use crate::refusals;
 use crate::repairs;
 use crate::sentences::{self, subject};
 use crate::settle::Ids;
+use scene::geometry::Extent;
 use scene::map::{Area, Boundary, Lane, LaneMap, Neighbor, Points, StopSign, TypedLine};
 use scene::{Shared, Vec2};
 use std::collections::{HashMap, HashSet};
@@ -171,12 +172,9 @@ impl CityMap {
         Ok(city)
     }
 
-    /// Corners of all lanes.
-    pub fn corners(&self) -> Option<(Vec2, Vec2)> {
-        self.lanes.iter().flat_map(|lane| &lane.line).fold(None, |corners, p| {
-            let (low, high): (Vec2, Vec2) = corners.unwrap_or((*p, *p));
-            Some((low.inf(p), high.sup(p)))
-        })
+    /// Of all lanes; `None` without any.
+    pub fn extent(&self) -> Option<Extent> {
+        Extent::about(self.lanes.iter().flat_map(|lane| &lane.line).copied())
     }
 
     /// What is chosen of the city, about an origin.

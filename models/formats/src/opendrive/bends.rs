@@ -1,7 +1,8 @@
 //! How roads bend and where their lanes are moved aside, for the memory that they take and the ends of their sections.
 
 use crate::xml::Element;
-use scene::{Vec2, geometry};
+use scene::Vec2;
+use scene::geometry::{self, Extent};
 
 /// Most memory for each metre of lane, bytes: points, borders and crossing edges.
 const LANE_MEMORY: f64 = 800.0;
@@ -27,8 +28,8 @@ pub(super) struct RoadBends {
     turn_rad: f64,
     /// The piece that is open: start, direction in radians, length in metres.
     piece: (Vec2, f64, f64),
-    /// Corners of the box that all pieces lie in.
-    corners: Option<(Vec2, Vec2)>,
+    /// Of all pieces.
+    extent: Option<Extent>,
     /// Records at which lanes may bend.
     records: usize,
 }
@@ -64,9 +65,8 @@ impl RoadBends {
 
     /// Widens the box by a place and what lies round it.
     fn reach(&mut self, place: Vec2, around_m: f64) {
-        let around = Vec2::new(around_m, around_m);
-        let (least, most) = self.corners.unwrap_or((place, place));
-        self.corners = Some((least.inf(&(place - around)), most.sup(&(place + around))));
+        let around = Extent::of([place]).grown(around_m);
+        self.extent = Some(self.extent.unwrap_or(around).joined(&around));
     }
 
     /// Memory for each metre of the lanes of a road of this length, bytes.
@@ -81,24 +81,19 @@ impl RoadBends {
 
 /// Roads that hardly bend, to find those that may cross.
 #[derive(Default)]
-pub(super) struct StraightRoads(Vec<(Vec2, Vec2, f64)>);
+pub(super) struct StraightRoads(Vec<(Extent, f64)>);
 
 impl StraightRoads {
     /// Memory for the lanes of a road, bytes a metre, and for where it may cross those before it, bytes.
     pub fn take(&mut self, bends: &RoadBends, length_m: f64, lanes: usize) -> (f64, f64) {
         let memory = bends.lane_memory(length_m);
-        let Some((least, most)) =
-            bends.corners.filter(|_| memory < LANE_MEMORY && self.0.len() < STRAIGHT_ROADS)
-        else {
-            return (LANE_MEMORY, 0.0);
-        };
+        let counts = memory < LANE_MEMORY && self.0.len() < STRAIGHT_ROADS;
+        let Some(extent) = bends.extent.filter(|_| counts) else { return (LANE_MEMORY, 0.0) };
         let lanes = lanes as f64;
-        let aside = Vec2::new(lanes, lanes) * LANE_M;
-        let (least, most) = (least - aside, most + aside);
-        let apart = |a: &Vec2, b: &Vec2| a.x > b.x || a.y > b.y;
-        let near = self.0.iter().filter(|(from, to, _)| !apart(from, &most) && !apart(&least, to));
-        let pairs: f64 = near.map(|(.., others)| others * lanes).sum();
-        self.0.push((least, most, lanes));
+        let extent = extent.grown(lanes * LANE_M);
+        let near = self.0.iter().filter(|(other, _)| extent.touches(other));
+        let pairs: f64 = near.map(|(_, others)| others * lanes).sum();
+        self.0.push((extent, lanes));
         (memory, CROSSING_MEMORY * pairs)
     }
 }

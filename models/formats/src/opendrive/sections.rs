@@ -2,6 +2,7 @@
 
 use super::filter::Filtered;
 use scene::Vec2;
+use scene::geometry::Extent;
 use std::collections::BTreeMap;
 use xodr::{Direction, LaneId, LaneType, Point, RoadNetwork};
 
@@ -83,11 +84,8 @@ impl NetworkFrame {
     pub fn of(network: &RoadNetwork) -> Self {
         let points = network.lanes().iter().flat_map(|lane| lane.center.points());
         let points = points.map(|p| Vec2::new(f64::from(p.x), f64::from(p.y)));
-        let corners = points.fold(None, |corners: Option<(Vec2, Vec2)>, p| {
-            Some(corners.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))))
-        });
-        let (low, high) = corners.unwrap_or_default();
-        Self { middle: ((low + high) / 2.0).map(f64::round), half: (high - low) / 2.0 }
+        let (middle, size) = Extent::about(points).map(|all| (all.middle(), all.size())).unwrap_or_default();
+        Self { middle: middle.map(f64::round), half: size / 2.0 }
     }
 
     /// A point of the network.

@@ -8,6 +8,7 @@ use crate::limits::MAX_AGENTS;
 use crate::problem::{ImportWarning, Imported, ReadError};
 use crate::repairs::checked;
 use crate::sentences::{self, subject};
+use scene::geometry::Extent;
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
@@ -122,11 +123,8 @@ fn origin(scenario: &Scenario, ego: Option<usize>, now_step: usize) -> Vec2 {
     }
     let states = scenario.tracks.iter().filter_map(|track| nearest(track, now_step)).map(position);
     let map = scenario.map_features.iter().filter_map(import_map::any_point).map(|p| p.plane());
-    let mut bounds: Option<(Vec2, Vec2)> = None;
-    for p in states.chain(map).filter(|p| p.x.is_finite() && p.y.is_finite()) {
-        bounds = Some(bounds.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))));
-    }
-    bounds.map_or(Vec2::zeros(), |(low, high)| finite_or_zero(((low + high) / 2.0).map(f64::round)))
+    let extent = Extent::about(states.chain(map).filter(|p| p.x.is_finite() && p.y.is_finite()));
+    extent.map_or(Vec2::zeros(), |extent| finite_or_zero(extent.middle().map(f64::round)))
 }
 
 fn finite_or_zero(p: Vec2) -> Vec2 {

@@ -1,6 +1,7 @@
 //! Plane geometry of traffic: angles, oriented boxes, polylines.
 
 pub mod crowding;
+mod extent;
 mod fine_cells;
 pub mod obb;
 pub mod overlap_energy;
@@ -8,6 +9,7 @@ pub mod polyline;
 pub mod segments;
 pub mod ttc;
 
+pub use extent::Extent;
 pub use nalgebra::Vector2;
 
 /// A point or vector in the plane, metres (or m/s), scene frame.

@@ -4,8 +4,8 @@
 //! another moment, the two share ground. The time shift between the moments gives the order (compare the
 //! post-encroachment time of the score, which needs paths that cross at an angle; merging counts here too).
 
-use crate::geometry::direction;
 use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::{Extent, direction};
 use crate::{AgentId, AgentType, STEP_S, Size, State, Vec2, wrap_angle};
 use std::sync::OnceLock;
 
@@ -51,8 +51,7 @@ pub struct Trace {
     forwards: OnceLock<Box<[Vec2]>>,
     /// Where it would go on from its last moment, for one that waits at its end.
     goes_on: Vec<Moment>,
-    low: Vec2,
-    high: Vec2,
+    extent: Extent,
     pub(super) radius_m: f64,
     /// Farthest way between two moments, metres.
     stride_m: f64,
@@ -75,8 +74,7 @@ impl Trace {
             moments: Vec::with_capacity(steps.div_ceil(STRIDE)),
             forwards: OnceLock::new(),
             goes_on: Vec::new(),
-            low: Vec2::repeat(f64::INFINITY),
-            high: Vec2::repeat(f64::NEG_INFINITY),
+            extent: Extent::NONE,
             radius_m: 0.5 * size.length_m.hypot(size.width_m),
             stride_m: 0.0,
             way_m: 0.0,
@@ -89,7 +87,7 @@ impl Trace {
                 last = Some(position);
                 trace.stride_m = trace.stride_m.max(moved);
                 trace.way_m += moved;
-                (trace.low, trace.high) = (trace.low.inf(&position), trace.high.sup(&position));
+                trace.extent = trace.extent.with(position);
                 Moment {
                     center: position,
                     heading_rad: state.heading_rad,
@@ -116,8 +114,7 @@ impl Trace {
                 Moment { center, ..last }
             };
             self.goes_on = (1..=count).map(on).collect();
-            let end = last.center + forward * GOES_ON_M;
-            (self.low, self.high) = (self.low.inf(&end), self.high.sup(&end));
+            self.extent = self.extent.with(last.center + forward * GOES_ON_M);
         }
         self
     }
@@ -145,10 +142,7 @@ impl Trace {
     /// Both are somewhere near each other, at whatever time.
     pub fn may_meet(&self, other: &Self) -> bool {
         let reach = self.radius_m + other.radius_m + QUEUE_M;
-        self.low.x < other.high.x + reach
-            && other.low.x < self.high.x + reach
-            && self.low.y < other.high.y + reach
-            && other.low.y < self.high.y + reach
+        self.extent.is_near(&other.extent, reach)
     }
 
     /// The boxes overlap at some moment after the first.
@@ -263,9 +257,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
             break;
         }
         // Far from all that the other does.
-        let low = other.low - here.center;
-        let high = here.center - other.high;
-        if low.x > reach || low.y > reach || high.x > reach || high.y > reach {
+        if other.extent.outside_m(here.center) > reach {
             continue;
         }
         let from = if beyond { 0 } else { i.saturating_sub(window) };

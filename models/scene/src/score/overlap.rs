@@ -3,7 +3,7 @@
 use super::input::Thresholds;
 use super::pairs::{BRUSH_M, PARKED_M};
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, overlaps};
-use crate::geometry::{Vec2, rotate, wrap_angle};
+use crate::geometry::{Extent, Vec2, rotate, wrap_angle};
 use crate::{Size, State};
 use std::f64::consts::FRAC_PI_6;
 use std::sync::OnceLock;
@@ -13,59 +13,28 @@ pub const CLOSE_M: f64 = 0.5;
 /// Boxes between two bounding rectangles.
 const CHUNK: usize = 8;
 
-/// Upright rectangle.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    low: Vec2,
-    high: Vec2,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self {
-        low: Vec2::new(f64::INFINITY, f64::INFINITY),
-        high: Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
-    };
-
-    fn of(boxes: &[Option<OrientedBox>]) -> Self {
-        boxes.iter().flatten().fold(Self::EMPTY, |bounds, b| {
-            let extents = b.upright_half_extents();
-            Self {
-                low: bounds.low.inf(&(b.center() - extents)),
-                high: bounds.high.sup(&(b.center() + extents)),
-            }
-        })
-    }
-
-    fn diagonal_m(&self) -> f64 {
-        (self.high - self.low).norm()
-    }
-
-    fn joined(&self, other: &Self) -> Self {
-        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
-    }
-
-    fn near(&self, other: &Self, margin_m: f64) -> bool {
-        self.low.x < other.high.x + margin_m
-            && other.low.x < self.high.x + margin_m
-            && self.low.y < other.high.y + margin_m
-            && other.low.y < self.high.y + margin_m
-    }
+/// About these boxes.
+fn extent_of(boxes: &[Option<OrientedBox>]) -> Extent {
+    boxes.iter().flatten().fold(Extent::NONE, |extent, b| {
+        let half = b.upright_half_extents();
+        extent.joined(&Extent { low: b.center() - half, high: b.center() + half })
+    })
 }
 
 /// Bounding rectangles of the boxes of one or several motions: of all moments, and of every eight.
 #[derive(Clone, Debug)]
 pub struct SweptBounds {
-    whole: Bounds,
-    chunks: Vec<Bounds>,
+    whole: Extent,
+    chunks: Vec<Extent>,
 }
 
 impl SweptBounds {
     /// About all of these motions.
     pub fn about<'a>(motions: impl IntoIterator<Item = &'a SweptBoxes>) -> Self {
-        let mut all = Self { whole: Bounds::EMPTY, chunks: Vec::new() };
+        let mut all = Self { whole: Extent::NONE, chunks: Vec::new() };
         for Self { whole, chunks } in motions.into_iter().map(|motion| &motion.bounds) {
             all.whole = all.whole.joined(whole);
-            all.chunks.resize(all.chunks.len().max(chunks.len()), Bounds::EMPTY);
+            all.chunks.resize(all.chunks.len().max(chunks.len()), Extent::NONE);
             all.chunks.iter_mut().zip(chunks).for_each(|(all, one)| *all = all.joined(one));
         }
         all
@@ -78,9 +47,9 @@ impl SweptBounds {
 
     /// The eights of moments in which the rectangles are nearer than this, metres.
     fn near_chunks(&self, other: &Self, margin_m: f64) -> impl Iterator<Item = usize> {
-        let possible = self.whole.near(&other.whole, margin_m);
+        let possible = self.whole.is_near(&other.whole, margin_m);
         let chunks = self.chunks.iter().zip(&other.chunks).take_while(move |_| possible).enumerate();
-        chunks.filter(move |(_, (a, b))| a.near(b, margin_m)).map(|(chunk, _)| chunk)
+        chunks.filter(move |(_, (a, b))| a.is_near(b, margin_m)).map(|(chunk, _)| chunk)
     }
 }
 
@@ -100,8 +69,8 @@ pub struct SweptBoxes {
 impl SweptBoxes {
     /// From one box a moment; `None` where the road user is not there.
     pub fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
-        let whole = Bounds::of(&boxes);
-        let bounds = SweptBounds { whole, chunks: boxes.chunks(CHUNK).map(Bounds::of).collect() };
+        let whole = extent_of(&boxes);
+        let bounds = SweptBounds { whole, chunks: boxes.chunks(CHUNK).map(extent_of).collect() };
         let extent_m = boxes.iter().flatten().next().map_or(0.0, |b| 2.0 * b.upright_half_extents().norm());
         let moved = |w: &[Option<OrientedBox>]| match w {
             [Some(from), Some(to)] => (to.center() - from.center()).norm(),
@@ -235,7 +204,7 @@ impl<'a> Going<'a> {
 pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
-    let stays = |m: &SweptBoxes| m.bounds.whole.diagonal_m() < m.extent_m + PARKED_M;
+    let stays = |m: &SweptBoxes| m.bounds.whole.size().norm() < m.extent_m + PARKED_M;
     let (parked, both_walk) = (stays(a) || stays(b), walks(a) && walks(b));
     let limits = Thresholds::default();
     let margin_m = if parked { BRUSH_M } else { limits.ttc_s * (a.top_mps + b.top_mps) };

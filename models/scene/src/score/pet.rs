@@ -3,7 +3,7 @@
 
 use super::pairs::{Mover, MoverState};
 use crate::geometry::obb::overlaps;
-use crate::geometry::{Vec2, cross};
+use crate::geometry::{Extent, Vec2, cross};
 use crate::{AgentType, STEP_S};
 
 /// Paths that meet at less than this angle merge or follow; they do not cross. 20 degrees.
@@ -85,10 +85,10 @@ struct PathCrossing {
 
 fn crossings(a: &[(usize, Vec2)], b: &[(usize, Vec2)]) -> Vec<PathCrossing> {
     let mut found = Vec::new();
-    let (bounds_a, bounds_b) = (bounds(a), bounds(b));
-    for (i, in_a) in bounds_a.iter().enumerate() {
-        for (j, in_b) in bounds_b.iter().enumerate() {
-            if in_a.0.x > in_b.1.x || in_b.0.x > in_a.1.x || in_a.0.y > in_b.1.y || in_b.0.y > in_a.1.y {
+    let (extents_a, extents_b) = (extents(a), extents(b));
+    for (i, in_a) in extents_a.iter().enumerate() {
+        for (j, in_b) in extents_b.iter().enumerate() {
+            if !in_a.touches(in_b) {
                 continue;
             }
             for p in piece_ends(a, i).windows(2) {
@@ -107,14 +107,9 @@ fn piece_ends(path: &[(usize, Vec2)], group: usize) -> &[(usize, Vec2)] {
     &path[from.min(path.len())..(from + PIECES + 1).min(path.len())]
 }
 
-fn bounds(path: &[(usize, Vec2)]) -> Vec<(Vec2, Vec2)> {
+fn extents(path: &[(usize, Vec2)]) -> Vec<Extent> {
     let groups = path.len().saturating_sub(1).div_ceil(PIECES);
-    let of_group = |g| {
-        let points = piece_ends(path, g).iter().map(|p| p.1);
-        let wide = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        points.fold(wide, |(low, high), p| (low.inf(&p), high.sup(&p)))
-    };
-    (0..groups).map(of_group).collect()
+    (0..groups).map(|group| Extent::of(piece_ends(path, group).iter().map(|p| p.1))).collect()
 }
 
 /// Crossing of two straight pieces at a large enough angle.

@@ -3,7 +3,7 @@
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, time_of};
 use crate::geometry::polyline::{Polyline, Pose};
-use crate::geometry::{Vec2, cross, wrap_angle};
+use crate::geometry::{Extent, Vec2, cross, wrap_angle};
 use crate::{AgentType, Signal, SignalState};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -90,15 +90,10 @@ pub(crate) fn crossed_at_red(
         return Vec::new();
     }
     let places = || input.steps.clone().filter_map(|i| actor.state(i)).map(crate::State::position);
-    let (low, high) = places()
-        .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), place| {
-            (low.inf(&place), high.sup(&place))
-        });
+    let extent = Extent::of(places());
     let mut crossings: Vec<LineCrossing<'_, '_>> = Vec::new();
     for line in lines {
-        let reach = Vec2::repeat(0.5 * actor.size.length_m + line.half_width_m);
-        let (at, low, high) = (line.at.position, low - reach, high + reach);
-        if at.x < low.x || at.y < low.y || at.x > high.x || at.y > high.y {
+        if extent.outside_m(line.at.position) > 0.5 * actor.size.length_m + line.half_width_m {
             continue;
         }
         for step in input.steps.clone() {

@@ -5,12 +5,13 @@ use crate::english::{self, wanted, what};
 use crate::problem::{Problem, refuse, unknown_agent};
 use experts::placement::{
     Amount, Arrivals, MAX_COUNT, MAX_GAP_M, MAX_PARKED_PER_100M, MAX_PER_HOUR, MAX_PER_LANE_KM,
-    MAX_SPEED_MPS, Parked, PlaceRequest, Region, SpeedRange, map_bounds, ring_area_m2,
+    MAX_SPEED_MPS, Parked, PlaceRequest, Region, SpeedRange, map_extent, ring_area_m2,
 };
 use formats::native::{MAX_SAFE_INTEGER, Members};
 use formats::problem::MAX_PROBLEMS;
 use formats::refusals::{at_most, expected, out_of_range, wanted::AGENT_TYPE};
 use formats::{FieldProblem, pointer_token};
+use scene::geometry::Extent;
 use scene::message::Message;
 use scene::{AgentType, STEP_S, Scene, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
@@ -164,11 +165,11 @@ fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<Agen
 }
 
 fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Region {
-    let Some((low, high)) = map_bounds(&scene.map) else {
+    let Some(extent) = map_extent(&scene.map) else {
         faults.push(invalid("/region", english::empty_map()));
         return Region::Everywhere;
     };
-    let (low, high) = (low - Vec2::repeat(REGION_MARGIN_M), high + Vec2::repeat(REGION_MARGIN_M));
+    let Extent { low, high } = extent.grown(REGION_MARGIN_M);
     let before = faults.len();
     match (&doc.polygon_m, &doc.circle) {
         (Some(corners), None) => {

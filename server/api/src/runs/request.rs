@@ -41,7 +41,7 @@ pub struct RunBody {
     /// Scene time at which the run begins, seconds; 0 by default.
     #[schemars(range(min = 0.0, max = 59.9))]
     pub start_s: Option<f64>,
-    /// Refinement steps of each plan; as in a generation by default.
+    /// Refinement steps of each plan; 1 by default.
     #[schemars(range(max = 100))]
     pub steps: Option<u64>,
     /// A snapshot of a run in this scene, base64: the run goes on from there.

@@ -1,5 +1,6 @@
 //! The road where two meet.
 
+use scene::geometry::Extent;
 use scene::geometry::polyline::Polyline;
 use scene::map::{Lane, LaneType};
 use scene::{LaneMap, Vec2, wrap_angle};
@@ -68,12 +69,7 @@ pub fn road_layout(map: &LaneMap, place: Vec2) -> &'static str {
 /// A lane that carries traffic, where it is near enough to tell a junction.
 fn lane_at(lane: &Lane, place: Vec2) -> Option<LaneAt<'_>> {
     let walked = matches!(lane.lane_type, LaneType::Sidewalk | LaneType::Parking);
-    let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-    for point in &lane.points.xy {
-        (low, high) = (low.inf(point), high.sup(point));
-    }
-    let outside = (low - place).sup(&(place - high));
-    if walked || outside.x > JUNCTION_M || outside.y > JUNCTION_M {
+    if walked || Extent::of(lane.points.xy.iter().copied()).outside_m(place) > JUNCTION_M {
         return None;
     }
     let line = Polyline::new(lane.points.xy.iter().copied());

@@ -17,7 +17,7 @@ use crate::generator::others::{Others, Reacted, replanned};
 use crate::generator::road_rules::starts_on_the_road;
 use crate::generator::slot::Slot;
 use crate::generator::window_setting::WindowSetting;
-use crate::request::{Draft, GenerateError, Intermediate};
+use crate::request::{Draft, GenerateError, Intermediate, React};
 use scene::judge::{About, Trace};
 use scene::{AgentFutures, AgentType, Future, Sample};
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,8 +191,9 @@ impl WindowActors {
             actor.pinned = setting.request.pinned.get(&actor.id).cloned();
         }
         let tuning = setting.tuning();
-        let react = &setting.request.react;
-        let found = replanned(world, workers, &actors, &cast.may_react, react, tuning.reacting.near_m);
+        // In a run all others may react, so that to be named says nothing.
+        let named = matches!(setting.request.react, React::Only(_)) && !setting.request.under_way;
+        let found = replanned(world, workers, &actors, &cast.may_react, named, tuning.reacting.near_m);
         let room = MOST_ACTORS.saturating_sub(actors.len());
         let mut found: Vec<PlannedActor> = found.into_iter().take(room).collect();
         batches.extend(encode(setting, &mut found, actors.len())?);

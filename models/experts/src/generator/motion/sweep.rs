@@ -1,6 +1,7 @@
 //! One motion at the steps of a window, with the forms that the stages compare it in.
 
 use crate::planning::{INSTANTS, PER_INSTANT, STAYS_WITHIN_M};
+use scene::geometry::Extent;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::Trace;
 use scene::motion::Trajectory;
@@ -82,13 +83,11 @@ impl Sweep {
         Some(last.about(last.center() + self.velocity(HORIZON_STEPS) * time_s))
     }
 
-    /// Corners of the upright box about the places at all steps, and so many seconds after the last one.
-    pub(in crate::generator) fn extent(&self, beyond_s: f64) -> (Vec2, Vec2) {
+    /// About the places at all steps, and so many seconds after the last one.
+    pub(in crate::generator) fn extent(&self, beyond_s: f64) -> Extent {
         let last = self.state(HORIZON_STEPS);
         let beyond = last.map(|last| last.position() + self.velocity(HORIZON_STEPS) * beyond_s);
-        let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        let places = self.states.iter().flatten().map(State::position).chain(beyond);
-        places.fold(none, |(low, high), at| (low.inf(&at), high.sup(&at)))
+        Extent::of(self.states.iter().flatten().map(State::position).chain(beyond))
     }
 
     /// The boxes that the choice compares.

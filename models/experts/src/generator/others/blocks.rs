@@ -6,7 +6,7 @@ use crate::tuning::fixed::blocks::{
     BEYOND_S, CLEAR_M, CROSSING_M, CROSSING_MPS, LINE_BESIDE_M, LINE_GAP_M, LINE_TURNED_RAD,
 };
 use scene::geometry::obb::{OrientedBox, overlaps};
-use scene::geometry::wrap_angle;
+use scene::geometry::{Extent, wrap_angle};
 use scene::routes::Pose;
 use scene::{HORIZON_STEPS, STEP_S, Size, Vec2};
 use std::f64::consts::FRAC_PI_6;
@@ -44,8 +44,8 @@ pub(super) struct Corridor {
     outlines: Vec<OrientedBox>,
     /// Circles about the centres of each eight of them.
     chunks: Vec<(Vec2, f64)>,
-    /// Corners of the upright box of all centres.
-    extent: (Vec2, Vec2),
+    /// Of all centres.
+    extent: Extent,
 }
 
 impl Corridor {
@@ -58,10 +58,7 @@ impl Corridor {
             (middle, boxes.iter().map(|b| (b.center() - middle).norm()).fold(0.0, f64::max))
         };
         let chunks = outlines.chunks(CHUNK).map(circle).collect();
-        let none = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        let extent = outlines
-            .iter()
-            .fold(none, |(low, high), outline| (low.inf(&outline.center()), high.sup(&outline.center())));
+        let extent = Extent::of(outlines.iter().map(OrientedBox::center));
         Self { enters: path.enters, outlines, chunks, extent }
     }
 
@@ -76,8 +73,7 @@ impl Corridor {
         let own = self.outlines.first()?.radius_m();
         // Most others are nowhere near the path.
         let (center, reach_m) = (other.center(), own + other.radius_m() + CROSSING_M);
-        let away = (self.extent.0 - center).sup(&(center - self.extent.1));
-        if away.x.max(away.y) > reach_m {
+        if self.extent.outside_m(center) > reach_m {
             return None;
         }
         let mut found: Option<(usize, usize)> = None;
@@ -142,9 +138,7 @@ impl Corridor {
         let Some(own) = self.outlines.first() else { return true };
         let Size { length_m, width_m, .. } = *other.size();
         let reach_m = own.radius_m() + 0.5 * length_m.hypot(width_m) + CROSSING_M + HAIR_M;
-        let (low, high) = other.extent(BEYOND_S);
-        let away = (self.extent.0 - high).sup(&(low - self.extent.1));
-        away.x.max(away.y) > reach_m
+        !self.extent.is_near(&other.extent(BEYOND_S), reach_m)
     }
 
     /// Where another agent comes into the way soon after the window, if it goes on as it does at its end.

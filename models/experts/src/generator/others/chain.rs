@@ -62,7 +62,7 @@ impl Others<'_> {
             let price = self.price(&who.other.sweep, sweep);
             (price > 0.0 && !who.other.is_kept_out_by(sweep)).then(|| {
                 let way = self.way(who, &[SeenMotion { reactor: None, kept: false, sweep }], price);
-                way.map_or(price, |way| way.cost.min(price))
+                way.map_or(price, |way| way.cost)
             })
         };
         self.reactors().into_iter().filter_map(cost).sum()
@@ -178,9 +178,9 @@ impl Others<'_> {
             let stays: f64 = others.iter().map(|s| self.price(now, s.sweep)).sum();
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
             match self.way(reactors[at], &others, stays - 1e-9) {
-                Some(way) if way.cost < stays - 1e-9 => ways[at] = Some(way),
+                Some(way) => ways[at] = Some(way),
                 // Nothing helps now; the change of another agent may.
-                _ => decisions[at] = MOST_DECISIONS,
+                None => decisions[at] = MOST_DECISIONS,
             }
         }
     }

@@ -42,7 +42,7 @@ impl Others<'_> {
     }
 
     /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
-    /// are. Of what costs `most` or more nothing need be found.
+    /// are; `None` where that costs `most` or more.
     pub(super) fn way(
         &self,
         who: ReactingAgent<'_>,

@@ -6,18 +6,17 @@ use crate::generator::trajectory::{rest, to_trajectory};
 use crate::generator::workers::WorkerPool;
 use crate::planning::STAYS_WITHIN_M;
 use crate::planning::world::{AgentAtStart, World};
-use crate::request::React;
 use scene::{Start, State, Vec2};
 use std::collections::BTreeSet;
 
 /// The agents of `may_react` that an earlier call gave a goal, a via point or a start: they plan again and keep their
-/// motion unless a changed one is in the way.
+/// motion unless a changed one is in the way. Those that are not `named` do so only near an actor.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
     workers: &WorkerPool,
     actors: &[PlannedActor],
     may_react: &BTreeSet<usize>,
-    react: &React,
+    named: bool,
     near_m: f64,
 ) -> Vec<PlannedActor> {
     let asked = |who: &AgentAtStart| {
@@ -33,7 +32,6 @@ pub(in crate::generator) fn replanned(
         actors.iter().map(|a| (path(a), a.plan.present.size.length_m)).collect();
     let found = workers.map(&candidates, |who| {
         let kept = KeptMotion::states(world, who);
-        let named = matches!(react, React::Only(_));
         let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
         let reach = |length: f64| near_m + 0.5 * (length + who.size.length_m);
         let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));

@@ -2,7 +2,7 @@
 
 use crate::geometry::obb::OrientedBox;
 use crate::geometry::ttc::LOOK_AHEAD_S;
-use crate::geometry::{Vec2, wrap_angle};
+use crate::geometry::{Extent, Vec2, wrap_angle};
 use crate::score::input::Actor;
 use crate::{AgentType, STEP_S, State};
 use std::ops::Range;
@@ -149,12 +149,7 @@ fn displacement(from: &MoverState, to: &MoverState) -> f64 {
 
 /// Upright rectangle about circles with this radius, each moved from here to there.
 fn rectangle(radius_m: f64, moved: impl Iterator<Item = (Vec2, Vec2)>) -> Option<Rectangle> {
-    let mut low = Vec2::repeat(f64::INFINITY);
-    let mut high = -low;
-    let r = Vec2::repeat(radius_m);
-    for (p, shift) in moved {
-        low = low.inf(&(p.inf(&(p + shift)) - r));
-        high = high.sup(&(p.sup(&(p + shift)) + r));
-    }
-    (low.x <= high.x).then(|| (0.5 * (low + high), 0.5 * (high - low)))
+    let centers = Extent::about(moved.flat_map(|(p, shift)| [p, p + shift]))?;
+    let about = centers.grown(radius_m);
+    Some((about.middle(), 0.5 * about.size()))
 }
