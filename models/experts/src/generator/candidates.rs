@@ -7,7 +7,7 @@ use super::slot::Slot;
 use super::trajectory::{
     Rollout, as_it_is, driven_again, mean_trajectory, rest, short_along, to_trajectory, without_creep,
 };
-use crate::planning::{INSTANTS, MODES, PER_INSTANT};
+use crate::planning::{INSTANTS, PER_INSTANT};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
 use scene::motion::{Gear, Reach, Smoothing};

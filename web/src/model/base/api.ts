@@ -4685,7 +4685,7 @@ export interface components {
             step_s?: number | null;
             /**
              * Format: uint64
-             * @description Refinement steps of each plan; as in a generation by default.
+             * @description Refinement steps of each plan; 1 by default.
              * @default null
              */
             steps?: number | null;
