@@ -96,7 +96,9 @@ fn replan_steps(text: &str) -> Result<usize, String> {
 /// A tuned number and its value as text, and all numbers with that one changed.
 fn tuned(text: &str) -> Result<(String, Tuning), String> {
     let (name, value) = match text.split_once('=') {
-        Some((name, value)) => (name, Some(value.parse().map_err(|_| format!("\"{value}\" is not a number"))?)),
+        Some((name, value)) => {
+            (name, Some(value.parse().map_err(|_| format!("\"{value}\" is not a number"))?))
+        }
         None => (text, None),
     };
     let changed = Tuning::default().with(name, value).map_err(|error| error.to_string())?;
