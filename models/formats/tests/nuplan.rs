@@ -430,7 +430,7 @@ fn faults_of_the_map_lie_beside_the_log() {
     let (scene, _) = read(&bytes_of(log()), Some(changed("DROP TABLE meta"))).remove(0).unwrap();
     assert_eq!(scene.map.lanes.len(), 4);
     let alone = registry::import(&changed("DROP TABLE meta"), "map.gpkg", "auto", &ImportOptions::default());
-    assert!(alone.unwrap().remove(0).unwrap_err().to_string().contains("names no zone of UTM"));
+    assert!(alone.unwrap().remove(0).unwrap_err().to_string().contains("names no UTM zone"));
     let (scene, _) =
         read(&bytes_of(log()), Some(changed("UPDATE lanes_polygons SET geom = x'4750'"))).remove(0).unwrap();
     assert!(scene.map.lanes.iter().all(|lane| lane.width_m.is_none()), "a broken polygon gives no width");
