@@ -44,7 +44,7 @@ journeys('sharing', (stage) => {
     await e.page.waitForSelector('.banner', { state: 'detached' });
   });
 
-  it('saves files after listing their losses, and reads its own again', { timeout: 90_000 }, async () => {
+  it('saves files after listing their losses, and reads its own again', { timeout: 150_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const save = async (kind) => {
@@ -53,7 +53,8 @@ journeys('sharing', (stage) => {
       await e.until(() => !document.querySelector('.kind[aria-checked="true"] .tag').textContent.includes('…'));
       const words = await e.text('.kind[aria-checked="true"] .tag');
       const [file] = await Promise.all([
-        e.page.waitForEvent('download'),
+        // A moving picture takes as long as the machine is busy.
+        e.page.waitForEvent('download', { timeout: 90_000 }),
         e.page.locator('.export .dfoot .btn.pri').click(),
       ]);
       return { words, name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
