@@ -147,7 +147,8 @@ impl Disk {
     /// # Errors
     /// When none is kept.
     pub fn begin_journal(&self) -> anyhow::Result<()> {
-        Ok(drop(File::create(self.journal()?)?))
+        File::create(self.journal()?)?;
+        Ok(())
     }
 
     /// Lets the power go in the middle of the work, with the last of so many changes from now on: programs that make

@@ -91,7 +91,7 @@ class Trace {
 
   /**
    * The first picture begun after the page handled a worker's message sent at or after a time: when the page had
-   * recorded it, when the painter had painted it and handed it over, and when it was on screen. Null when there was none.
+   * recorded it, when the painter had painted it and handed it over, and when it was on screen. Null for none.
    */
   pictureOnceTold(time) {
     const news = this.heard.find((h) => h.said >= time);

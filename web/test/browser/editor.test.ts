@@ -123,7 +123,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(moved[1]).toBeGreaterThan(before[1] + 5);
     const asked = d.server.log.length;
     await d.key('Control+z');
-    expect(await d.text('.goalsec h3')).toContain('free');
+    expect(await d.text('.goalsec h3')).toContain('chosen by the generator');
     await d.key('Control+Shift+z');
     await d.settled();
     expect(await d.goal()).toEqual(moved);
@@ -159,7 +159,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Escape');
     await d.page.mouse.up();
     await d.settled();
-    expect(await d.text('.goalsec h3')).toContain('free');
+    expect(await d.text('.goalsec h3')).toContain('chosen by the generator');
     expect(await d.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled')).toBe('true');
   });
 
@@ -443,7 +443,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.settled();
     expect(d.server.log.length).toBe(asked);
     await d.select('1');
-    expect(await d.text('.goalsec h3')).not.toContain('free');
+    expect(await d.text('.goalsec h3')).not.toContain('chosen by the generator');
     d.server.scenes.get(id.id)!.etag = '"9-other"';
     await d.key('Shift+G');
     await d.page.waitForSelector('.banner');
