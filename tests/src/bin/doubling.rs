@@ -63,10 +63,13 @@ fn town(lanes: usize, seed: u64) -> Value {
     scene
 }
 
-/// One operation: its requests for a scene, of which the last one is measured.
+/// Makes the request that is measured from a scene; it may ask the server before.
+type RequestMaker = Box<dyn Fn(&Server, &Value) -> anyhow::Result<Request>>;
+
+/// One operation on a scene.
 struct Operation {
     name: String,
-    ask: Box<dyn Fn(&Server, &Value) -> anyhow::Result<Request>>,
+    ask: RequestMaker,
 }
 
 impl Operation {

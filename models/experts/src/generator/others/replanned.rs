@@ -10,7 +10,7 @@ use scene::{Start, State, Vec2};
 use std::collections::BTreeSet;
 
 /// The agents of `may_react` that an earlier call gave a goal, a via point or a start: they plan again and keep their
-/// motion unless a changed one is in the way. Those that are not `named` do so only near an actor.
+/// motion unless a changed one is in the way. Unless the call `named` them, only those near an actor do.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
     workers: &WorkerPool,
