@@ -255,6 +255,11 @@ numbers! {
         /// The same of a vehicle, m/s2.
         VEHICLE_SPEEDS_UP_MPS2: f64 = 1.5;
     }
+    /// Of the motion that an agent has without a call.
+    kept_motion {
+        /// It goes on from a start if it is so near to where that leads in a step, metres.
+        SAME_M: f64 = 0.2;
+    }
     /// Of naming a reaction.
     reaction {
         /// Two places nearer than this are one place, metres.

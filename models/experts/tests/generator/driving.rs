@@ -4,7 +4,7 @@ use super::run;
 use experts::{Engine, Generator, ReachReport, React, Request};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::map::{Lane, LaneMap};
-use scene::{Agent, AgentType, Future, Goal, STEP_S, Sample, Scene, State, Subtype, Vec2, wrap_angle};
+use scene::{Agent, AgentType, Future, Goal, STEP_S, Sample, Scene, Start, State, Subtype, Vec2, wrap_angle};
 use std::sync::{Arc, LazyLock};
 
 static SHIPPED: LazyLock<Generator> = LazyLock::new(|| Engine::built_in().unwrap().generator.with_threads(1));
@@ -100,8 +100,23 @@ fn a_late_arrival_that_cannot_brake_in_time_enters_slower() {
 
 #[test]
 fn an_agent_that_is_cut_in_upon_brakes_in_its_lane() {
+    brakes_in_its_lane(Start::default());
+}
+
+#[test]
+fn an_agent_with_a_typed_start_that_is_cut_in_upon_brakes_in_its_lane() {
+    brakes_in_its_lane(Start {
+        position: Some(Vec2::zeros()),
+        heading_rad: Some(0.0),
+        speed_mps: Some(13.9),
+    });
+}
+
+/// Whoever is cut in upon, with this start.
+fn brakes_in_its_lane(start: Start) {
     for (gap_m, slower_mps) in [(5.0, 2.5), (10.0, 2.5), (10.0, 5.0), (20.0, 5.0), (20.0, 7.5), (30.0, 7.5)] {
-        let (behind, speed_mps) = (car("1", 0.0, 0.0, 13.9), 13.9 - slower_mps);
+        let (mut behind, speed_mps) = (car("1", 0.0, 0.0, 13.9), 13.9 - slower_mps);
+        behind.conditions.start = start;
         let mut cuts_in = car("2", gap_m + 4.6, -3.25, speed_mps);
         let goal = Vec2::new(gap_m + 4.6 + 4.0 * speed_mps, 0.0);
         cuts_in.conditions.goal =

@@ -1,7 +1,8 @@
 //! The motion that an agent has without this call.
 
 use crate::planning::world::{AgentAtStart, World};
-use scene::{Agent, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State};
+use crate::tuning::fixed::kept_motion::SAME_M;
+use scene::{Agent, Conditions, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, Start, State};
 
 /// The chosen future of an agent, else its recording. An agent whose future has ended, or that has only one
 /// known state, goes straight on.
@@ -40,6 +41,15 @@ impl<'a> KeptMotion<'a> {
         }
         let (first, state) = self.single?;
         Some(straight_on(&state, at.saturating_sub(first)))
+    }
+
+    /// The motion goes on from where an agent with these conditions starts.
+    pub(in crate::generator) fn begins_at(&self, start: &State, conditions: &Conditions) -> bool {
+        conditions.start == Start::default()
+            || self.at(1).is_some_and(|next| {
+                let expected = start.position() + start.velocity() * STEP_S;
+                (next.position() - expected).norm() < SAME_M
+            })
     }
 
     /// States of an agent that is present at the start, one a step from the step after the start to the first gap.

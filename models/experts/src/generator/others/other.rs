@@ -16,7 +16,7 @@ use scene::judge::Trace;
 use scene::limits::Limits;
 use scene::routes::LaneGraph;
 use scene::score::overlap;
-use scene::{AgentId, AgentType, HORIZON_STEPS, Size, Start, State};
+use scene::{AgentId, AgentType, HORIZON_STEPS, Size, State};
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
@@ -224,7 +224,8 @@ impl OtherAgent {
             }
             None => (recorded, None),
         };
-        if let Some(present) = world.present.iter().find(|p| p.index == index) {
+        let present = world.present.iter().find(|p| p.index == index);
+        if let Some(present) = present {
             states[0] = Some(present.start);
         }
         if states.iter().all(Option::is_none) {
@@ -233,9 +234,9 @@ impl OtherAgent {
         let chosen = request.scene.generated.as_ref().and_then(|g| g.chosen_future(&agent.id));
         let made = chosen.is_some() || request.pinned.contains_key(&agent.id) || resumed.is_some();
         let kept_from = if made { KeptFrom::Future } else { KeptFrom::Log };
-        let may_react = (resumed.is_some() || cast.may_react.contains(&index))
-            && agent_type != AgentType::Other
-            && (conditions.start == Start::default() || kept_from == KeptFrom::Future);
+        let goes_on = || present.is_none_or(|present| kept.begins_at(&present.start, conditions));
+        let may_react = (resumed.is_some() || cast.may_react.contains(&index) && goes_on())
+            && agent_type != AgentType::Other;
         let comes_in = states.iter().position(Option::is_some).filter(|step| may_react && *step > 0);
         // An agent that stands all the time stays; one that changed its motion goes on, even standing.
         let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };

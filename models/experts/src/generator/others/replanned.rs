@@ -6,11 +6,12 @@ use crate::generator::trajectory::{rest, to_trajectory};
 use crate::generator::workers::WorkerPool;
 use crate::planning::STAYS_WITHIN_M;
 use crate::planning::world::{AgentAtStart, World};
-use scene::{Start, State, Vec2};
+use scene::{State, Vec2};
 use std::collections::BTreeSet;
 
-/// The agents of `may_react` that an earlier call gave a goal, a via point or a start: they plan again and keep their
-/// motion unless a changed one is in the way. Unless the call `named` them, only those near an actor do.
+/// The agents of `may_react` that an earlier call gave a goal or a via point, or whose motion does not go on from their
+/// start: they plan again and keep their motion unless a changed one is in the way. Unless the call `named` them, only
+/// those near an actor do.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
     workers: &WorkerPool,
@@ -21,7 +22,7 @@ pub(in crate::generator) fn replanned(
 ) -> Vec<PlannedActor> {
     let asked = |who: &AgentAtStart| {
         let conditions = &world.conditions[who.index];
-        !conditions.goal.is_free() || !conditions.via.is_empty() || conditions.start != Start::default()
+        !conditions.goal.is_free() || !conditions.via.is_empty() || is_moved(world, who)
     };
     let candidates: Vec<_> =
         world.present.iter().filter(|p| may_react.contains(&p.index) && asked(p)).collect();
@@ -35,11 +36,16 @@ pub(in crate::generator) fn replanned(
         let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
         let reach = |length: f64| near_m + 0.5 * (length + who.size.length_m);
         let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
-        let unmoved = world.conditions[who.index].start == Start::default();
-        let leaves_it = !named && unmoved && (parked || !near);
+        let leaves_it = !named && !is_moved(world, who) && (parked || !near);
         (!leaves_it).then(|| PlannedActor::reacting(world, who, kept))
     });
     found.into_iter().flatten().collect()
+}
+
+/// Its motion is of no use, since it starts elsewhere or at another speed now.
+fn is_moved(world: &World<'_>, who: &AgentAtStart) -> bool {
+    let kept = KeptMotion::of(&world.scene, world.agent(who), world.step);
+    !kept.begins_at(&who.start, &world.conditions[who.index])
 }
 
 /// Places of an actor's likeliest draft, one a step.
