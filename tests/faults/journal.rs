@@ -23,11 +23,23 @@ static JOURNAL: AtomicI32 = AtomicI32::new(-1);
 struct Turn;
 
 impl Turn {
+    /// Waits for it. No change begins without power; one that had begun before is written down.
     fn take() -> Self {
         while BUSY.swap(true, Ordering::Acquire) {
             std::hint::spin_loop();
         }
+        if plan().is_some_and(|plan| plan.power.load(Ordering::Acquire) == 0) {
+            end();
+        }
         Self
+    }
+}
+
+/// Ends the process as a power cut does.
+fn end() {
+    // SAFETY: plain calls.
+    unsafe {
+        libc::syscall(libc::SYS_kill, libc::syscall(libc::SYS_getpid), libc::SIGKILL);
     }
 }
 
@@ -65,16 +77,12 @@ fn note(journal: c_int, change: u64, (file, number): (u64, u64), first: &[u8], s
     let power = plan().map(|plan| &plan.power);
     let left = power
         .map(|power| power.fetch_update(Ordering::AcqRel, Ordering::Acquire, |left| left.checked_sub(1)));
-    // Another process may have made the last change.
-    let is_gone = matches!(left, Some(Err(_)));
+    let whole = parts.iter().map(|part| part.iov_len).sum::<usize>() as i64;
     // SAFETY: the parts are valid for their lengths. A record that is not whole ends the process, so none follows it.
-    unsafe {
-        let whole = parts.iter().map(|part| part.iov_len).sum::<usize>() as i64;
-        let is_whole =
-            is_gone || libc::syscall(libc::SYS_writev, journal, parts.as_ptr(), parts.len()) == whole;
-        if is_gone || !is_whole || left == Some(Ok(1)) {
-            libc::syscall(libc::SYS_kill, libc::syscall(libc::SYS_getpid), libc::SIGKILL);
-        }
+    let is_whole = unsafe { libc::syscall(libc::SYS_writev, journal, parts.as_ptr(), parts.len()) } == whole;
+    // Another process may have made the last change while this one was made.
+    if !is_whole || matches!(left, Some(Ok(1) | Err(_))) {
+        end();
     }
 }
 

@@ -142,6 +142,25 @@ fn probes_have_an_address_of_their_own_without_token() {
 }
 
 #[test]
+fn every_metric_says_what_it_is() {
+    let server = Server::with_demos().unwrap();
+    server.wait_ready().unwrap();
+    let body = serde_json::json!({"scene_id": "demo-crossing", "agents": ["5"]});
+    assert_eq!(server.post("/v1/generate", &body).unwrap().status, 200);
+    assert_eq!(server.get("/v1/scenes/demo-crossing/export?format=csv").unwrap().status, 200);
+    let scene = server.get("/v1/scenes/demo-crossing").unwrap().json();
+    assert_eq!(server.post("/v1/import?dry_run=true", &scene).unwrap().status, 200);
+    let metrics = server.get("/metrics").unwrap().text();
+    let named = |kind: &str| {
+        let names = metrics.lines().filter_map(|line| line.strip_prefix(kind)?.split(' ').next());
+        names.collect::<std::collections::BTreeSet<_>>()
+    };
+    let (types, helps) = (named("# TYPE "), named("# HELP "));
+    assert!(types.len() > 15 && types.contains("dragtraffic_imports_total"), "{types:?}");
+    assert_eq!(types, helps);
+}
+
+#[test]
 fn options_come_from_the_command_line_the_environment_and_a_file_in_this_order() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("server.toml");

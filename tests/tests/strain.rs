@@ -5,8 +5,12 @@
 
 use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::{generate, street};
+#[cfg(target_os = "linux")]
+use dragtraffic_tests::{Reply, http::connect_from};
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
+#[cfg(target_os = "linux")]
+use std::io::{BufReader, Read, Write};
 use std::net::TcpStream;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -357,6 +361,10 @@ fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
         assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
         assert!(refused.json()["retry_after_ms"].is_u64());
     }
+    // One that asks nothing for long is told so as well, in place of being closed unheard.
+    let late = TcpStream::connect(server.address).unwrap();
+    let told = dragtraffic_tests::Reply::read(&mut std::io::BufReader::new(late), false).unwrap();
+    assert_eq!((told.status, told.code().as_str()), (503, "busy"));
     // Another machine takes a place from the one that has them all.
     let other = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
     other.bind(&std::net::SocketAddr::from(([127, 0, 0, 2], 0)).into()).unwrap();
@@ -365,6 +373,62 @@ fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
     std::io::Write::write_all(&mut other, &Request::new("GET", "/v1/info").bytes(server.address)).unwrap();
     let reply = dragtraffic_tests::Reply::read(&mut std::io::BufReader::new(other), false).unwrap();
     assert_eq!(reply.status, 200, "{}", reply.text());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_client_that_asks_when_its_place_is_taken_already_is_told() {
+    let server = Server::start(&["--limit", "connections=4"]).unwrap();
+    let mut late = connect_from(2, server.address).unwrap();
+    std::thread::sleep(Duration::from_millis(400));
+    let ask = Request::new("GET", "/healthz").keep().bytes(server.address);
+    let others: Vec<_> = (3..8)
+        .map(|address| {
+            let mut other = connect_from(address, server.address).unwrap();
+            other.write_all(&ask).unwrap();
+            assert_eq!(Reply::read(&mut BufReader::new(&other), false).unwrap().status, 200);
+            other
+        })
+        .collect();
+    std::thread::sleep(Duration::from_millis(200));
+    let _ = late.write_all(&ask);
+    let told = Reply::read(&mut BufReader::new(&late), false).unwrap();
+    assert_eq!((told.status, told.code().as_str()), (503, "busy"));
+    drop(others);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn whoever_has_most_places_takes_none_of_others() {
+    let limits = ["--limit", "connections=4", "--limit", "stalled_s=600", "--limit", "header_read_s=600"];
+    let server = Server::start(&limits).unwrap();
+    server.wait_ready().unwrap();
+    let health = Request::new("GET", "/healthz").keep().bytes(server.address);
+    let mut other = connect_from(2, server.address).unwrap();
+    let mut is_answered = || {
+        other.write_all(&health).is_ok()
+            && Reply::read(&mut BufReader::new(&other), false).is_ok_and(|reply| reply.status == 200)
+    };
+    assert!(is_answered());
+    let mut body = heavy();
+    body["stream_modes"] = json!("all");
+    let asked = Request::new("POST", "/v1/generate").header("accept", "text/event-stream").json(&body);
+    let asked = asked.bytes(server.address);
+    let held: Vec<_> = (0..3)
+        .map(|_| {
+            let mut greedy = connect_from(3, server.address).unwrap();
+            greedy.write_all(&asked).unwrap();
+            let mut first = [0; 12];
+            greedy.read_exact(&mut first).unwrap();
+            assert_eq!(&first, b"HTTP/1.1 200");
+            greedy
+        })
+        .collect();
+    let mut fourth = connect_from(3, server.address).unwrap();
+    fourth.write_all(&Request::new("GET", "/v1/info").bytes(server.address)).unwrap();
+    assert_eq!(Reply::read(&mut BufReader::new(&fourth), false).unwrap().status, 503);
+    assert!(is_answered());
+    drop(held);
 }
 
 #[test]

@@ -1,20 +1,64 @@
 //! Counters in Prometheus' text form. Labels are templates and fixed words, never ids or paths.
 
 use axum::http::{Method, StatusCode};
-use metrics::{counter, gauge, histogram};
+use metrics::{counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram};
 use metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle};
 
 const SECONDS: &[f64] = &[0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 60.0];
+
+/// What each counter counts (`# HELP`).
+const COUNTERS: &[(&str, &str)] = &[
+    ("dragtraffic_agents_total", "Road users for which futures were generated, by expert."),
+    ("dragtraffic_events_dropped_total", "Events of streams that a slow reader did not get."),
+    ("dragtraffic_exports_total", "Exports by format and outcome."),
+    ("dragtraffic_generates_total", "Generations by outcome."),
+    ("dragtraffic_http_requests_total", "Answered requests by route, method and status."),
+    ("dragtraffic_imports_total", "Imports by format and outcome."),
+    ("dragtraffic_steps_total", "Refinement steps by expert."),
+    ("dragtraffic_work_total", "Ended work by kind and outcome."),
+];
+
+/// What each gauge shows.
+const GAUGES: &[(&str, &str)] = &[
+    ("dragtraffic_build_info", "Always 1; its label is the version."),
+    ("dragtraffic_memory_budget_bytes", "Memory that the server may use for its work (--memory)."),
+    (
+        "dragtraffic_memory_taken_bytes",
+        "Memory of the budget that requests and what is kept for them have taken.",
+    ),
+    ("dragtraffic_queue_length", "Jobs that wait, by lane."),
+    ("dragtraffic_running", "Jobs under way, by lane."),
+    ("dragtraffic_store_bytes", "Size of the store."),
+    ("dragtraffic_store_scenes", "Scenes in the store."),
+    ("dragtraffic_weights_info", "Always 1; its labels are expert and SHA-256 of its weights."),
+    ("process_cpu_seconds_total", "User and system time of the process, seconds."),
+    ("process_max_fds", "Most file descriptors that the process may have open."),
+    ("process_open_fds", "Open file descriptors."),
+    ("process_resident_memory_bytes", "Resident memory of the process."),
+    ("process_start_time_seconds", "Start of the process, seconds since 1970."),
+    ("process_threads", "Threads of the process."),
+];
+
+/// What each histogram measures.
+const HISTOGRAMS: &[(&str, &str)] = &[
+    ("dragtraffic_generate_seconds", "Time of the phases of a generation: queue, encode, initial, step."),
+    ("dragtraffic_http_request_seconds", "Time from a request's head to the head of its reply, by route."),
+    ("dragtraffic_work_seconds", "Time of work by kind: in the queue, and with a worker."),
+];
 
 /// Installs the recorder of this process.
 ///
 /// # Errors
 /// When one is installed already.
 pub fn install() -> Result<PrometheusHandle, String> {
-    PrometheusBuilder::new()
+    let handle = PrometheusBuilder::new()
         .set_buckets_for_metric(Matcher::Suffix("_seconds".into()), SECONDS)
         .and_then(PrometheusBuilder::install_recorder)
-        .map_err(|error| error.to_string())
+        .map_err(|error| error.to_string())?;
+    COUNTERS.iter().for_each(|(name, help)| describe_counter!(*name, *help));
+    GAUGES.iter().for_each(|(name, help)| describe_gauge!(*name, *help));
+    HISTOGRAMS.iter().for_each(|(name, help)| describe_histogram!(*name, *help));
+    Ok(handle)
 }
 
 /// One finished request; no method where that could not be read.

@@ -8,7 +8,7 @@ use super::extract::Connection;
 use super::pause::RefusalPause;
 use super::proxies::{ForwardedUser, TrustedProxies};
 use super::stream::{ByteStream, Listener};
-use super::wire::{self, Socket, Wire};
+use super::wire::{self, PARTING, Socket, Wire};
 use super::{observe, owner};
 use api::{Code, Problem};
 use axum::Router;
@@ -38,8 +38,10 @@ const HEAD_FIELDS: usize = 512;
 const LOOK: Duration = Duration::from_millis(250);
 /// Least connections beyond all places whose clients are told so; half as many as there are places where that is more.
 const OVERFLOW: usize = 8;
-/// Time in which such a client sends its request, and takes the answer.
+/// Time in which such a client sends its request, and after the answer ends the connection.
 const OVERFLOW_TIME: Duration = Duration::from_secs(2);
+/// Time for a client whose connection makes room before it has asked anything, to take the answer.
+const TELLING: Duration = Duration::from_millis(50);
 /// Time for a new client to send its first request; afterwards its connection makes room for others.
 const FIRST_REQUEST: Duration = Duration::from_millis(200);
 /// Time between two looks of such a connection for a place.
@@ -116,6 +118,15 @@ impl ConnectionEntry {
         Connection { number: self.number, party: self.party, is_line: false, strangers, trusted }
     }
 
+    /// A client that has asked nothing yet when its connection ends may be about to: what it then reads is this.
+    async fn tell_busy(&self) {
+        if self.has_asked.load(Ordering::Relaxed) {
+            return;
+        }
+        let since = *lock(&self.idle_since);
+        wire::refuse(&self.socket, observe::unread(all_in_use(), since, Some(self.party)), TELLING).await;
+    }
+
     /// Ends the connection. One that waits for a refusal gets it before, if it takes it soon.
     fn make_room(self: &Arc<Self>) {
         if self.pause.since().is_none() {
@@ -153,7 +164,7 @@ impl ConnectionTable {
     /// Gives a connection a place, or says that work is under way on all of them. A full table takes one from the
     /// connection that waits longest for a refusal, else closes the one that is idle longest, else the one with the
     /// slowest request; first among those of parties with more than a quarter of all places. Of these, a party with less
-    /// may even take the newest one with work under way.
+    /// may even take the newest one with work under way; they take none of parties with less.
     fn admit(&self, new: &Arc<ConnectionEntry>) -> bool {
         let mut places = lock(&self.places);
         if places.len() >= self.most {
@@ -200,7 +211,10 @@ impl ConnectionTable {
             of.iter().filter_map(rate).min_by_key(|(rate, _)| *rate).map(|(_, p)| p)
         };
         let of = |some: &[Arc<ConnectionEntry>]| refused(some).or_else(|| idle(some)).or_else(|| slow(some));
-        let newest = || greedy.iter().max_by_key(|p| p.number).filter(|_| !is_greedy(new)).cloned();
+        if is_greedy(new) {
+            return of(&greedy);
+        }
+        let newest = || greedy.iter().max_by_key(|p| p.number).cloned();
         of(&greedy).or_else(newest).or_else(|| of(places))
     }
 
@@ -370,14 +384,20 @@ pub async fn serve(
             if is_beyond {
                 let is_admitted = tokio::select! {
                     is_admitted = table.admit_soon(&place) => is_admitted,
-                    () = place.close.notified() => return overflow.leave(place.number),
+                    () = place.close.notified() => {
+                        place.tell_busy().await;
+                        return overflow.leave(place.number);
+                    }
                 };
                 if !is_admitted {
                     drop(closed);
                     let answered = answer_health(router, place.connection(&proxies), &place);
+                    // A request that has come meanwhile is answered, however late this task has its turn.
                     tokio::select! {
-                        _ = tokio::time::timeout(OVERFLOW_TIME, answered) => {}
-                        () = place.close.notified() => {}
+                        biased;
+                        () = answered => {}
+                        () = time_is_up(&place) => place.tell_busy().await,
+                        () = place.close.notified() => place.tell_busy().await,
                     }
                     return overflow.leave(place.number);
                 }
@@ -397,6 +417,18 @@ pub async fn serve(
     }
 }
 
+fn all_in_use() -> Problem {
+    Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1)
+}
+
+/// Resolves when a connection beyond all places has had its time, and no answer is under way.
+async fn time_is_up(place: &ConnectionEntry) {
+    tokio::time::sleep(OVERFLOW_TIME).await;
+    while place.is_busy() {
+        tokio::time::sleep(ROOM_LOOK).await;
+    }
+}
+
 /// Answers one request of a connection beyond all places: about the server's health, else that it is busy.
 async fn answer_health(router: Router, connection: Connection, place: &Arc<ConnectionEntry>) {
     let service = tower::service_fn(|mut request: hyper::Request<hyper::body::Incoming>| {
@@ -407,9 +439,7 @@ async fn answer_health(router: Router, connection: Connection, place: &Arc<Conne
                 request.extensions_mut().insert(connection);
                 tower::ServiceExt::oneshot(router, request.map(axum::body::Body::new)).await?
             } else {
-                let problem =
-                    Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1);
-                observe::unread(problem, Instant::now(), Some(connection.party))
+                observe::unread(all_in_use(), Instant::now(), Some(connection.party))
             };
             Ok::<_, Infallible>(reply.map(|body| CountedBody { body, busy }))
         }
@@ -474,17 +504,19 @@ async fn connection(
     let mut served = http.serve_connection(wire, TowerToHyperService::new(service)).with_upgrades();
     let mut draining = false;
     loop {
+        // What has come, or is to be written, goes before the end, however late this task has its turn.
         tokio::select! {
+            biased;
             result = &mut served => {
                 let Err(error) = result else { break };
                 tracing::debug!(%error, "connection ended");
                 let unread = served.into_parts().map(|parts| parts.read_buf).unwrap_or_default();
                 let Some(problem) = wire::refusal(socket, &error, limits, &unread) else { return };
                 let since = *lock(&place.idle_since);
-                wire::refuse(socket, observe::unread(problem, since, Some(place.party))).await;
+                wire::refuse(socket, observe::unread(problem, since, Some(place.party)), PARTING).await;
                 return;
             }
-            () = place.close.notified() => return,
+            () = place.close.notified() => return place.tell_busy().await,
             _ = closed.changed(), if !draining => {
                 draining = true;
                 Pin::new(&mut served).graceful_shutdown();

@@ -23,7 +23,7 @@ const BARE_ANSWER: usize = 192;
 /// Most bytes that a refused client may still send while it receives the answer.
 const REST_OF_HEAD: usize = 1 << 20;
 /// Time for a refused client to take the answer and end the connection.
-const PARTING: Duration = Duration::from_secs(2);
+pub const PARTING: Duration = Duration::from_secs(2);
 
 /// Socket of a connection, with its state.
 pub struct Socket {
@@ -206,8 +206,8 @@ pub fn refusal(socket: &Socket, error: &hyper::Error, limits: &Limits, unread: &
     }
 }
 
-/// Answers on the socket itself, after which the connection ends.
-pub async fn refuse(socket: &Socket, response: Response) {
+/// Answers on the socket itself, after which the connection ends: when the client ends it, at the latest after this time.
+pub async fn refuse(socket: &Socket, response: Response, parting: Duration) {
     let (parts, body) = response.into_parts();
     let body = body.collect().await.map(|body| body.to_bytes()).unwrap_or_default();
     let mut bytes = format!("HTTP/1.1 {}\r\n", parts.status).into_bytes();
@@ -228,7 +228,7 @@ pub async fn refuse(socket: &Socket, response: Response) {
         shut(&socket.stream);
         socket.drain().await
     };
-    let _ = tokio::time::timeout(PARTING, sent).await;
+    let _ = tokio::time::timeout(parting, sent).await;
 }
 
 #[cfg(test)]

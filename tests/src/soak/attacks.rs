@@ -147,7 +147,7 @@ fn crossing(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> 
     let mut body = generate(2);
     let tangle: Vec<Value> = (0..lanes).map(lane).collect();
     body["scene"]["map"]["lanes"].as_array_mut().context("lanes")?.extend(tangle);
-    attacker.ask(&Request::new("POST", "/v1/generate").json(&body), &["map-too-complex", "timeout"])
+    attacker.ask(&Request::new("POST", "/v1/generate").json(&body), &["map-too-complex", "generate-timeout"])
 }
 
 /// Pings as fast as they go, and nothing read.
@@ -171,7 +171,7 @@ fn links(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     scene["map"]["lanes"] = json!((0..lanes).map(lane).collect::<Vec<_>>());
     let format = ["opendrive", "sumo", "commonroad", "openscenario"][random.index(4)];
     let export = Request::new("POST", &format!("/v1/export?format={format}")).json(&scene);
-    attacker.ask(&export, &["map-too-complex", "reply-too-large", "timeout"])
+    attacker.ask(&export, &["map-too-complex", "reply-too-large", "generate-timeout"])
 }
 
 /// Scenes that are held, each with members that no answer depends on.
@@ -234,6 +234,6 @@ fn long_work(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()>
         (json!("all"), json!(1 + random.below(16)), json!(false));
     attacker.ask(
         &Request::new("POST", "/v1/generate").json(&body),
-        &["too-much-work", "timeout", "reply-too-large", "invalid-field"],
+        &["too-much-work", "generate-timeout", "reply-too-large", "invalid-field"],
     )
 }

@@ -186,7 +186,8 @@ impl Common {
         allowed: &[&str],
     ) -> anyhow::Result<Option<Reply>> {
         let began = Instant::now();
-        let reply = request.send(self.address)?;
+        let sent = request.send(self.address);
+        let reply = sent.with_context(|| format!("no reply after {:.1} s", began.elapsed().as_secs_f64()))?;
         let (status, code) = (reply.status, reply.code());
         let is_success = (200..300).contains(&status);
         let mut report = self.report.lock().unwrap_or_else(PoisonError::into_inner);

@@ -21,6 +21,8 @@ const CHANGES: u64 = 600;
 const FEW_CHANGES: u64 = 60;
 /// The power goes at the latest after this time.
 const WITHIN: Duration = Duration::from_secs(2);
+/// Time in which a server that writes comes to its next change.
+const NEXT_CHANGE: Duration = Duration::from_millis(300);
 
 /// Counts of a trial.
 #[derive(Clone, Copy, Debug, Default)]
@@ -154,7 +156,7 @@ impl Trial {
             while !disk.is_without_power()? && began.elapsed() < WITHIN {
                 std::thread::sleep(Duration::from_millis(2));
             }
-            server.kill()
+            ended(disk, server)
         })?;
         self.power_is_gone()
     }
@@ -164,7 +166,7 @@ impl Trial {
         self.report.at_the_start += 1;
         self.power_goes(FEW_CHANGES)?;
         match Server::launch(self.server()?) {
-            Ok(server) => server.kill()?,
+            Ok(server) => ended(&self.disk, server)?,
             Err(error) => ensure!(self.disk.is_without_power()?, "{error:#}"),
         }
         self.power_is_gone()
@@ -177,7 +179,7 @@ impl Trial {
         let expected: usize = self.crowd.iter().map(|writer| writer.present().count()).sum();
         self.power_goes(FEW_CHANGES)?;
         let is_made = self.tool("backup", &self.db(), &self.copy())?;
-        server.kill()?;
+        ended(&self.disk, server)?;
         self.power_is_gone()?;
         if is_made {
             let found = scenes(&self.copy()).context("a copy that was reported")?;
@@ -192,9 +194,9 @@ impl Trial {
         let server = self.reopened()?;
         ensure!(self.tool("backup", &self.db(), &self.copy())?, "the store cannot be copied");
         let mut copied = self.crowd.clone();
-        let address = server.address;
+        let (address, disk) = (server.address, &self.disk);
         let a_while = Duration::from_millis(100);
-        writers::work_until(&mut self.crowd, address, a_while, writers::none, || server.kill())?;
+        writers::work_until(&mut self.crowd, address, a_while, writers::none, || ended(disk, server))?;
         // What a killed server leaves in the log is put in order by the return itself.
         self.power_goes(FEW_CHANGES)?;
         let is_made = self.tool("restore", &self.copy(), &self.db())?;
@@ -208,6 +210,16 @@ impl Trial {
         }
         Ok(())
     }
+}
+
+/// Ends a server at its next change: a kill from outside may come between a change and its record.
+fn ended(disk: &Disk, mut server: Server) -> anyhow::Result<()> {
+    disk.power_goes(0)?;
+    let began = Instant::now();
+    while server.is_up() && began.elapsed() < NEXT_CHANGE {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    server.kill()
 }
 
 /// Scenes of a whole copy.
