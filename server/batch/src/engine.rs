@@ -118,8 +118,12 @@ impl<'a> UnitEngine<'a> {
             Some(actor) if roles.put.is_none() => {
                 request.agents = Some(AgentChoice::Ids(vec![actor.clone()]))
             }
-            // All are generated, and nobody is left to react.
-            _ => request.react = ReactChoice::Whether(false),
+            _ => {
+                // All are generated, those of a pattern without goal too, and nobody is left to react.
+                request.agents =
+                    roles.put.as_ref().map(|_| AgentChoice::Ids(roles.conditions.keys().cloned().collect()));
+                request.react = ReactChoice::Whether(false);
+            }
         }
         let about = Subject::passing(Arc::clone(roles.put.as_ref().unwrap_or(scene)));
         let answer = self.operations.generate(&request, &about, cancel.clone())?.answer()?;
