@@ -3,7 +3,8 @@
 600 units in chunks of 20, made by one process, are what every other way must give, byte for byte, without a stray file:
 Dask with three workers while a worker, the scheduler or the client is killed; two runs at once; shards beside Dask; a
 disk that is full (as root on Linux); HyperQueue where its wheel is installed; the variables of a Slurm array and of an
-Indexed Job. Then Dask's cost, beside three processes with shards.
+Indexed Job; one process killed, or refused by the disk, at every file that it opens, syncs and names (where strace is
+installed). Then Dask's cost, beside three processes with shards.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import importlib
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -37,6 +39,18 @@ seeds = 60
 chunk_units = 20
 [generate]
 horizon_s = 4
+[[situations]]
+template = "cut-in"
+[[situations]]
+template = "brake"
+"""
+#: A plan of few files, each of which is a moment to fail at.
+SMALL = f"""
+scenes = ["{ROOT}/assets/scenes/demo-motorway.json"]
+seeds = 4
+chunk_units = 4
+[generate]
+horizon_s = 3
 [[situations]]
 template = "cut-in"
 [[situations]]
@@ -249,6 +263,42 @@ class Proof:
             assert [process.wait() for process in all] == [0] * 3
             self.equal(name, out, "three processes with its variables")
 
+    def fail_points(self) -> None:
+        """Ends a run at each call that opens the folder of chunks (before a write), syncs a file (after the write) or its
+        folder (after the name), or gives a name, and goes on: killed, or with an error of the disk."""
+        if shutil.which("strace") is None:
+            return self.say("fail points", "skipped, strace is not installed")
+        plan, whole = self.folder / "small.toml", self.folder / "small-alone"
+        plan.write_text(SMALL)
+        command = [*PROGRAM, "batch", str(plan), "--jobs", "1", "-o"]
+        assert start(self.folder, *command, str(whole)).wait() == 0
+        expected = tree(whole)
+        counts: dict[str, int] = {}
+        for call, fault in (
+            ("openat", "signal=KILL"),
+            ("fsync", "signal=KILL"),
+            ("linkat", "signal=KILL"),
+            ("fsync", "error=EIO"),
+            ("linkat", "error=ENOSPC"),
+        ):
+            number, ended = 0, 1
+            while ended != 0:
+                number += 1
+                out = self.folder / f"point-{call}-{fault}-{number}"
+                # Of the many files that are opened, those of the chunks alone are counted.
+                of = ["-P", str(out / "chunks")] if call == "openat" else []
+                inject = ["-e", f"trace={call}", "-e", f"inject={call}:{fault}:when={number}"]
+                traced = ["strace", "-f", "-qqq", "-o", "/dev/null", *of, *inject]
+                ended = start(self.folder, *traced, *command, str(out)).wait()
+                found = tree(out)
+                assert found.items() <= expected.items(), (call, fault, number, found.keys() - expected.keys())
+                assert start(self.folder, *command, str(out)).wait() == 0
+                assert tree(out) == expected, (call, fault, number)
+            # The last one was beyond the end of the run.
+            counts[f"{call} {fault}"] = number - 1
+        assert all(counts.values()), counts
+        self.say("fail points", f"{sum(counts.values())} ended and gone on, {counts}; equal bytes, no other file")
+
     def cost(self, times: int = 2) -> None:
         """Time of the processor and of the clock, of shards without Dask and of Dask, one after the other."""
         spent: dict[str, list[tuple[float, float]]] = {"shards": [], "Dask": []}
@@ -297,6 +347,7 @@ def main() -> None:
         proof.full_disk()
         proof.hyperqueue()
         proof.environment()
+        proof.fail_points()
         proof.cost()
     finally:
         for process in STARTED:

@@ -169,6 +169,79 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     assert!(tree(&base.join("one")) == merged);
 }
 
+/// The requested conditions of each kept result of a folder, with its draw.
+fn conditions(out: &Path) -> Vec<(u64, String, Value)> {
+    let files = tree(out).into_iter().filter(|(name, _)| {
+        let name = name.to_string_lossy();
+        name.ends_with(".jsonl") && !name.ends_with(".motions.jsonl")
+    });
+    let text: String = files.map(|(_, bytes)| String::from_utf8(bytes).unwrap()).collect();
+    let lines = text.lines().map(json);
+    lines
+        .map(|line| {
+            let actor = line["actor"].as_str().unwrap().to_owned();
+            (line["draw"].as_u64().unwrap_or(0), actor, line["conditions"].clone())
+        })
+        .collect()
+}
+
+#[test]
+fn goals_of_the_recording_are_pushed_and_kinds_are_set() {
+    let folder = prepared();
+    let base = folder.path();
+    let plan = r#"
+scenes = ["scenes/a.json"]
+[generate]
+horizon_s = 3
+steps = 1
+[[situations]]
+name = "pushed"
+agents = ["@vehicles"]
+goal = { recorded = true, left_m = 1, speed_times = 0.5, time_s = 2, later_s = { choice = [0, 0.5] } }
+start = { speed_times = 0.8 }
+others = { agents = ["@vehicles"], length_m = 12 }
+[[situations]]
+name = "on-bicycles"
+agents = ["@vehicles"]
+type = "cyclist"
+length_m = 1.8
+width_m = 0.6
+"#;
+    std::fs::write(base.join("plan.toml"), plan).unwrap();
+    ends(base, &["plan.toml", "-o", "out"], 0);
+    let scene = json(&std::fs::read_to_string(base.join("scenes/a.json")).unwrap());
+    let found = conditions(&base.join("out"));
+    assert_eq!(found.len(), 6 * 2 + 6, "{found:?}");
+    let (mut times, mut bicycles) = (Vec::new(), 0);
+    for (_, actor, conditions) in &found {
+        let own = &conditions[actor];
+        if own["type"] == "cyclist" {
+            assert_eq!(own, &serde_json::json!({"type": "cyclist", "length_m": 1.8, "width_m": 0.6}));
+            bicycles += 1;
+            continue;
+        }
+        let agents = scene["agents"].as_array().unwrap();
+        let track = &agents.iter().find(|agent| agent["id"] == **actor).unwrap()["track"];
+        let at = |step: usize, name: &str| track[name][step].as_f64().unwrap();
+        let near = |value: &Value, expected: f64| {
+            assert!((value.as_f64().unwrap() - expected).abs() < 1e-6, "{value} {expected}");
+        };
+        let heading = at(20, "heading_rad");
+        near(&own["goal"]["x_m"], at(20, "x_m") - heading.sin());
+        near(&own["goal"]["y_m"], at(20, "y_m") + heading.cos());
+        let speed = |step: usize| at(step, "vx_mps").hypot(at(step, "vy_mps"));
+        near(&own["goal"]["speed_mps"], 0.5 * speed(20));
+        near(&own["start"]["speed_mps"], 0.8 * speed(0));
+        times.push(own["goal"]["time_s"].as_f64().unwrap());
+        let others = conditions.as_object().unwrap().iter().filter(|(id, _)| *id != actor);
+        assert_eq!(others.filter(|(_, of)| **of == serde_json::json!({"length_m": 12.0})).count(), 5);
+    }
+    times.sort_by(f64::total_cmp);
+    assert_eq!((times[0], times[11], bicycles), (2.0, 2.5, 6), "{times:?}");
+    let (text, _) = ends(base, &["verify", "out", "--units", "18"], 0);
+    assert!(text.contains("all equal"), "{text}");
+}
+
 #[test]
 fn maps_are_filled_by_their_seeds() {
     let folder = prepared();

@@ -83,6 +83,10 @@ fn a_plan_varies_a_pattern_at_every_place() {
     let ids: BTreeSet<&str> =
         case["agents"].as_array().unwrap().iter().map(|a| a["id"].as_str().unwrap()).collect();
     assert_eq!(ids, BTreeSet::from(["target", "vut"]), "those of the map are left out");
+    // The ego has no goal, and a future all the same.
+    let futures = case["generated"]["samples"][0]["agents"].as_object().unwrap();
+    let moving: BTreeSet<&str> = futures.keys().map(String::as_str).collect();
+    assert_eq!(moving, ids, "all of the pattern are generated");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use crate::figures::{FigureFilter, Figures};
 use crate::pattern::place::PatternPlace;
 use crate::pattern::search::PatternSearch;
 use crate::plan::BatchPlan;
+use crate::recorded::RecordedMotion;
 use crate::row::{BatchRow, UnitOutcome};
 use crate::unit::BatchUnit;
 use api::generate::GenerationAnswer;
@@ -117,8 +118,12 @@ impl<'a> UnitEngine<'a> {
             Some(actor) if roles.put.is_none() => {
                 request.agents = Some(AgentChoice::Ids(vec![actor.clone()]))
             }
-            // All are generated, and nobody is left to react.
-            _ => request.react = ReactChoice::Whether(false),
+            _ => {
+                // All are generated, those of a pattern without goal too, and nobody is left to react.
+                request.agents =
+                    roles.put.as_ref().map(|_| AgentChoice::Ids(roles.conditions.keys().cloned().collect()));
+                request.react = ReactChoice::Whether(false);
+            }
         }
         let about = Subject::passing(Arc::clone(roles.put.as_ref().unwrap_or(scene)));
         let answer = self.operations.generate(&request, &about, cancel.clone())?.answer()?;
@@ -153,9 +158,17 @@ impl<'a> UnitEngine<'a> {
             return Some(UnitRoles { actor, other, what, conditions, put: Some(Arc::new(put)) });
         }
         let Some(actor) = &unit.actor else { return Some(UnitRoles::default()) };
-        let own = scene.agent(actor).map_or_else(Conditions::default, |agent| agent.conditions.clone());
-        let conditions = situation.applied(ConditionsDoc::from_conditions(&own), &unit.drawn);
-        let conditions = BTreeMap::from([(actor.clone(), conditions)]);
+        let own = |id: &str| {
+            let own = scene.agent(id).map_or_else(Conditions::default, |agent| agent.conditions.clone());
+            ConditionsDoc::from_conditions(&own)
+        };
+        let agent = scene.agent(actor);
+        let recording =
+            agent.map(|agent| RecordedMotion::new(agent, options.start_step(), options.horizon_s));
+        let applied = situation.applied(own(actor), &unit.drawn, recording.as_ref())?;
+        let beside = situation.beside(scene, options.start_step()).into_iter().filter(|id| id != actor);
+        let beside = beside.map(|id| (id.clone(), situation.applied_beside(own(&id), &unit.drawn)));
+        let conditions = beside.chain([(actor.clone(), applied)]).collect();
         Some(UnitRoles { actor: Some(actor.clone()), conditions, ..UnitRoles::default() })
     }
 

@@ -29,6 +29,7 @@ pub mod names;
 mod order;
 pub mod pattern;
 pub mod plan;
+pub mod recorded;
 pub mod row;
 pub mod sampling;
 pub mod search;

@@ -5,9 +5,11 @@ use crate::fault::PlanFault;
 use crate::names::{hint, is_name};
 use crate::pattern::choice::PatternChoice;
 use crate::pattern::document::RoadPattern;
-use crate::who::AgentSelector;
+use crate::recorded::{MOST_SHIFT_S, MOST_TIMES, RecordedMotion};
+use crate::who::{self, AgentSelector};
 use formats::native::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc};
 use scene::scenarios::Template;
+use scene::{AgentType, Scene};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -16,7 +18,7 @@ use std::sync::LazyLock;
 /// What a situation without name is called where nobody is asked for anything.
 const FREE: &str = "free";
 /// Conditions that can be drawn.
-pub const MOST_CONDITIONS: usize = 20;
+pub const MOST_CONDITIONS: usize = 28;
 /// Longest name, in characters.
 const MOST_NAME: usize = 60;
 
@@ -55,12 +57,40 @@ pub struct BatchSituation {
     /// Width of the road user, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_m: Option<Distribution>,
+    /// Type that the road user has in place of its own.
+    #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
+    pub agent_type: Option<AgentType>,
+    /// What the road users beside it are.
+    #[serde(skip_serializing_if = "is_default")]
+    pub others: OtherKinds,
+}
+
+/// Kind and size of the road users that are there beside the one with the conditions.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OtherKinds {
+    /// Who: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub agents: Vec<String>,
+    /// Type in place of their own.
+    #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
+    pub agent_type: Option<AgentType>,
+    /// Length of each, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<Distribution>,
+    /// Width of each, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_m: Option<Distribution>,
 }
 
 /// Fields of a goal; those absent are free.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalRanges {
+    /// The goal is where the recording has the road user at `time_s`, with its heading and speed there; `ahead_m`,
+    /// `left_m` and `turn_rad` are from there, in place of the start. Default: false.
+    #[serde(skip_serializing_if = "is_default")]
+    pub recorded: bool,
     /// Box centre in the frame of the scene, metres; with `y_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x_m: Option<Distribution>,
@@ -70,21 +100,27 @@ pub struct GoalRanges {
     /// Heading in the frame of the scene, radians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heading_rad: Option<Distribution>,
-    /// Metres along the heading of the start.
+    /// Metres along the heading of the start, or of the recorded goal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<Distribution>,
-    /// Metres to the left of the heading of the start; 0 with `ahead_m` alone.
+    /// Metres to the left of this heading; 0 with `ahead_m` alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_m: Option<Distribution>,
-    /// Radians from the heading of the start.
+    /// Radians from this heading.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn_rad: Option<Distribution>,
     /// Metres per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mps: Option<Distribution>,
+    /// With `recorded`: multiple of the recorded speed, in place of `speed_mps`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_times: Option<Distribution>,
     /// Scene time, seconds; the end of the horizon when free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<Distribution>,
+    /// With `recorded`: seconds after the recorded time; negative is earlier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub later_s: Option<Distribution>,
     /// What the goal is relative to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<GoalRelationRanges>,
@@ -129,9 +165,21 @@ pub struct StartRanges {
     /// Heading in the frame of the scene, radians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heading_rad: Option<Distribution>,
+    /// Metres along the recorded heading from the recorded start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ahead_m: Option<Distribution>,
+    /// Metres to the left of the recorded heading.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_m: Option<Distribution>,
+    /// Radians from the recorded heading.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn_rad: Option<Distribution>,
     /// Metres per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mps: Option<Distribution>,
+    /// Multiple of the recorded speed, in place of `speed_mps`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_times: Option<Distribution>,
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -181,7 +229,7 @@ impl BatchSituation {
     }
 
     fn conditions(&self) -> [(&'static str, &Option<Distribution>); MOST_CONDITIONS] {
-        let Self { goal, start, length_m, width_m, .. } = self;
+        let Self { goal, start, length_m, width_m, others, .. } = self;
         let relation =
             |of: fn(&GoalRelationRanges) -> &Option<Distribution>| goal.relation.as_ref().map_or(&None, of);
         [
@@ -205,14 +253,40 @@ impl BatchSituation {
             ("goal.relation.after_s", relation(|r| &r.after_s)),
             ("goal.relation.slower_mps", relation(|r| &r.slower_mps)),
             ("goal.relation.lanes_left", relation(|r| &r.lanes_left)),
+            ("goal.speed_times", &goal.speed_times),
+            ("goal.later_s", &goal.later_s),
+            ("start.ahead_m", &start.ahead_m),
+            ("start.left_m", &start.left_m),
+            ("start.turn_rad", &start.turn_rad),
+            ("start.speed_times", &start.speed_times),
+            ("others.length_m", &others.length_m),
+            ("others.width_m", &others.width_m),
         ]
     }
 
-    /// The conditions of a road user, `own` with the drawn numbers in place of its own.
-    pub fn applied(&self, own: ConditionsDoc, drawn: &BTreeMap<String, f64>) -> ConditionsDoc {
+    /// What a plan says about its conditions beside the drawn numbers; `None` where it says nothing.
+    pub(crate) fn fixed(&self) -> Option<impl Serialize + '_> {
+        let relative_to = self.goal.relation.as_ref().map(|relation| relation.to.as_str());
+        let OtherKinds { agents, agent_type, .. } = &self.others;
+        let is_plain = relative_to.is_none() && !self.goal.recorded && self.agent_type.is_none();
+        let fixed = (relative_to, self.goal.recorded, self.agent_type, agents, agent_type);
+        (!is_plain || !agents.is_empty()).then_some(fixed)
+    }
+
+    /// The conditions of a road user, `own` with the drawn numbers in place of its own; `None` where its recording lacks
+    /// what they begin at.
+    pub fn applied(
+        &self,
+        own: ConditionsDoc,
+        drawn: &BTreeMap<String, f64>,
+        recording: Option<&RecordedMotion<'_>>,
+    ) -> Option<ConditionsDoc> {
         let of = |path: &str| drawn.get(path).copied();
         let mut conditions = own;
-        if self.goal != GoalRanges::default() {
+        if self.goal.recorded {
+            conditions.frame = None;
+            conditions.goal = Some(recording?.goal(&of)?);
+        } else if self.goal != GoalRanges::default() {
             let goal = GoalDoc {
                 x_m: of("goal.x_m"),
                 y_m: of("goal.y_m"),
@@ -230,17 +304,40 @@ impl BatchSituation {
             conditions.goal = Some(goal);
         }
         if self.start != StartRanges::default() {
-            conditions.start = Some(StartDoc {
-                x_m: of("start.x_m"),
-                y_m: of("start.y_m"),
-                heading_rad: of("start.heading_rad"),
-                speed_mps: of("start.speed_mps"),
-                velocity: None,
+            conditions.start = Some(if self.start.is_relative() {
+                recording?.start(&of)?
+            } else {
+                StartDoc {
+                    x_m: of("start.x_m"),
+                    y_m: of("start.y_m"),
+                    heading_rad: of("start.heading_rad"),
+                    speed_mps: of("start.speed_mps"),
+                    velocity: None,
+                }
             });
         }
+        conditions.agent_type = self.agent_type.or(conditions.agent_type);
         conditions.length_m = of("length_m").or(conditions.length_m);
         conditions.width_m = of("width_m").or(conditions.width_m);
-        conditions
+        Some(conditions)
+    }
+
+    /// The road users of a scene whose kind or size it sets.
+    pub fn beside(&self, scene: &Scene, start_step: usize) -> Vec<String> {
+        let who: Vec<AgentSelector> =
+            self.others.agents.iter().filter_map(|text| text.parse().ok()).collect();
+        who::actors(&who, scene, start_step)
+    }
+
+    /// The conditions of a road user beside the one with the goal.
+    pub fn applied_beside(&self, own: ConditionsDoc, drawn: &BTreeMap<String, f64>) -> ConditionsDoc {
+        let of = |path: &str| drawn.get(path).copied();
+        ConditionsDoc {
+            agent_type: self.others.agent_type.or(own.agent_type),
+            length_m: of("others.length_m").or(own.length_m),
+            width_m: of("others.width_m").or(own.width_m),
+            ..own
+        }
     }
 
     /// The drawn parameters of the template, by their names there.
@@ -262,7 +359,10 @@ impl BatchSituation {
         }
         let under = |member: &str| format!("{path}.{member}");
         let mut fault = |member: &str, detail: &str| faults.push(PlanFault::new(under(member), detail));
-        let asks = self.conditions().iter().any(|(_, distribution)| distribution.is_some());
+        let asks = self.goal.recorded
+            || self.agent_type.is_some()
+            || self.others != OtherKinds::default()
+            || self.conditions().iter().any(|(_, distribution)| distribution.is_some());
         if self.template.is_some() && (asks || !self.agents.is_empty()) {
             fault(
                 "template",
@@ -276,14 +376,16 @@ impl BatchSituation {
                 "who gets the conditions? ids, @all, @moving, @vehicles, @pedestrians, @cyclists or @ego",
             );
         }
-        let GoalRanges { x_m, y_m, heading_rad, ahead_m, left_m, .. } = &self.goal;
+        self.check_kinds(&mut fault);
+        self.check_recorded(&mut fault);
+        let GoalRanges { recorded, x_m, y_m, heading_rad, ahead_m, left_m, .. } = &self.goal;
         if x_m.is_some() != y_m.is_some() {
             fault("goal", "x_m and y_m are fixed together or not at all");
         }
-        if left_m.is_some() && ahead_m.is_none() {
+        if left_m.is_some() && ahead_m.is_none() && !recorded {
             fault("goal.left_m", "left_m needs ahead_m beside it");
         }
-        if self.goal.is_relative() && (x_m.is_some() || heading_rad.is_some()) {
+        if self.goal.is_relative() && !recorded && (x_m.is_some() || heading_rad.is_some()) {
             fault(
                 "goal",
                 "ahead_m, left_m and turn_rad are from the start, x_m, y_m and heading_rad of the scene",
@@ -301,6 +403,53 @@ impl BatchSituation {
             if let Some(distribution) = distribution {
                 distribution.check(&under(member), range(member), faults);
             }
+        }
+    }
+
+    fn check_kinds(&self, fault: &mut dyn FnMut(&str, &str)) {
+        for (member, kind) in [("type", self.agent_type), ("others.type", self.others.agent_type)] {
+            if kind == Some(AgentType::Other) {
+                fault(member, "vehicle, pedestrian or cyclist expected");
+            }
+        }
+        let OtherKinds { agents, agent_type, length_m, width_m } = &self.others;
+        for text in agents {
+            if let Err(reason) = text.parse::<AgentSelector>() {
+                fault("others.agents", &reason);
+            }
+        }
+        let says = agent_type.is_some() || length_m.is_some() || width_m.is_some();
+        if agents.is_empty() == says {
+            fault("others", "agents and at least one of type, length_m and width_m expected");
+        }
+    }
+
+    fn check_recorded(&self, fault: &mut dyn FnMut(&str, &str)) {
+        let GoalRanges { recorded, x_m, heading_rad, speed_mps, speed_times, later_s, relation, .. } =
+            &self.goal;
+        if !recorded && (speed_times.is_some() || later_s.is_some()) {
+            fault("goal", "speed_times and later_s need recorded = true");
+        }
+        if *recorded && (x_m.is_some() || heading_rad.is_some() || relation.is_some()) {
+            fault(
+                "goal.recorded",
+                "a recorded goal has its place and heading; ahead_m, left_m and turn_rad push it",
+            );
+        }
+        if speed_mps.is_some() && speed_times.is_some() {
+            fault("goal.speed_times", "speed_mps excludes it");
+        }
+        let StartRanges { x_m, heading_rad, speed_mps, speed_times, ahead_m, left_m, turn_rad, .. } =
+            &self.start;
+        let moves = ahead_m.is_some() || left_m.is_some();
+        if moves && x_m.is_some() || turn_rad.is_some() && heading_rad.is_some() {
+            fault(
+                "start",
+                "ahead_m, left_m and turn_rad are from the recorded start, x_m, y_m and heading_rad of the scene",
+            );
+        }
+        if speed_mps.is_some() && speed_times.is_some() {
+            fault("start.speed_times", "speed_mps excludes it");
         }
     }
 
@@ -388,13 +537,28 @@ impl GoalRanges {
     }
 }
 
+impl StartRanges {
+    /// Is it from the recorded start, in place of the scene?
+    fn is_relative(&self) -> bool {
+        let Self { ahead_m, left_m, turn_rad, speed_times, .. } = self;
+        [ahead_m, left_m, turn_rad, speed_times].iter().any(|number| number.is_some())
+    }
+}
+
 /// The range of a condition, as its document has it.
 fn range(member: &str) -> (f64, f64) {
     static RELATION: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(GoalRelationDoc));
     static GOAL: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(GoalDoc));
     static START: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(StartDoc));
     static CONDITIONS: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(ConditionsDoc));
+    match member {
+        "goal.later_s" => return (-MOST_SHIFT_S, MOST_SHIFT_S),
+        "goal.speed_times" | "start.speed_times" => return (0.0, MOST_TIMES),
+        _ => {}
+    }
     let schema: &Schema = match member.split_once('.') {
+        Some(("start", "ahead_m" | "left_m")) => &GOAL,
+        Some(("others", _)) => &CONDITIONS,
         Some(("goal", rest)) if rest.contains('.') => &RELATION,
         Some(("goal", _)) => &GOAL,
         Some(_) => &START,
@@ -438,12 +602,54 @@ mod tests {
         assert!(faults.is_empty(), "{faults:?}");
         let drawn = [("goal.time_s", 5.0), ("goal.relation.ahead_m", 7.5), ("goal.relation.lanes_left", 1.0)];
         let drawn = drawn.map(|(path, value)| (path.to_owned(), value)).into();
-        let applied = serde_json::to_value(situation.applied(ConditionsDoc::default(), &drawn)).unwrap();
+        let applied =
+            serde_json::to_value(situation.applied(ConditionsDoc::default(), &drawn, None)).unwrap();
         let relation = serde_json::json!({"to": "4", "ahead_m": 7.5, "lanes_left": 1});
         assert_eq!(applied, serde_json::json!({"goal": {"time_s": 5.0, "relation": relation}}));
         let two = r#"{"agents":["6"],"goal":{"relation":{"to":"4","ahead_m":5,"after_s":1}}}"#;
         serde_json::from_str::<BatchSituation>(two).unwrap().check("situations[0]", &mut faults);
         assert_eq!(faults.len(), 1);
+    }
+
+    /// The faults of a situation.
+    fn faults(text: &str) -> Vec<String> {
+        let mut faults = Vec::new();
+        serde_json::from_str::<BatchSituation>(text).unwrap().check("s", &mut faults);
+        faults.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn types_and_kinds_of_others_are_conditions() {
+        let text = r#"{"agents":["6"],"type":"cyclist","others":{"agents":["@vehicles"],"length_m":12}}"#;
+        let situation: BatchSituation = serde_json::from_str(text).unwrap();
+        assert_eq!(faults(text), Vec::<String>::new());
+        let drawn = BTreeMap::from([("others.length_m".to_owned(), 12.0)]);
+        let own = situation.applied(ConditionsDoc::default(), &drawn, None);
+        assert_eq!(serde_json::to_value(own).unwrap(), serde_json::json!({"type": "cyclist"}));
+        let beside = situation.applied_beside(ConditionsDoc::default(), &drawn);
+        assert_eq!(serde_json::to_value(beside).unwrap(), serde_json::json!({"length_m": 12.0}));
+        assert!(situation.fixed().is_some());
+        let wrong = faults(r#"{"agents":["6"],"type":"other","others":{"agents":["@vehicles"]}}"#);
+        assert_eq!(wrong.len(), 2, "{wrong:?}");
+    }
+
+    #[test]
+    fn recorded_goals_exclude_places_of_the_scene() {
+        let at = |goal: &str| faults(&format!(r#"{{"agents":["6"],"goal":{goal}}}"#));
+        assert_eq!(
+            at(r#"{"recorded":true,"left_m":{"uniform":[-2,2]},"later_s":-1,"speed_times":0.5}"#),
+            [""; 0]
+        );
+        assert_eq!(at(r#"{"later_s":1}"#), ["s.goal: speed_times and later_s need recorded = true"]);
+        assert_eq!(at(r#"{"recorded":true,"speed_mps":1,"speed_times":1}"#).len(), 1);
+        assert_eq!(at(r#"{"recorded":true,"heading_rad":1}"#).len(), 1);
+        assert_eq!(at(r#"{"recorded":true,"later_s":30}"#), ["s.goal.later_s: 30 is outside -20 to 20"]);
+        let moved = r#"{"agents":["6"],"start":{"ahead_m":2,"x_m":1,"y_m":1}}"#;
+        assert_eq!(faults(moved).len(), 1);
+        // A recording is asked for.
+        let situation: BatchSituation =
+            serde_json::from_str(r#"{"agents":["6"],"goal":{"recorded":true}}"#).unwrap();
+        assert!(situation.applied(ConditionsDoc::default(), &BTreeMap::new(), None).is_none());
     }
 
     #[test]
@@ -452,7 +658,7 @@ mod tests {
             serde_json::from_str(r#"{"agents":["6"],"goal":{"ahead_m":40},"width_m":2}"#).unwrap();
         let own: ConditionsDoc = serde_json::from_str(r#"{"start":{"speed_mps":3},"width_m":1.8}"#).unwrap();
         let drawn = BTreeMap::from([("goal.ahead_m".to_owned(), 40.0), ("width_m".to_owned(), 2.0)]);
-        let applied = serde_json::to_value(situation.applied(own, &drawn)).unwrap();
+        let applied = serde_json::to_value(situation.applied(own, &drawn, None)).unwrap();
         let expected = serde_json::json!({
             "start": {"speed_mps": 3.0}, "width_m": 2.0, "frame": "agent", "goal": {"ahead_m": 40.0, "left_m": 0.0}
         });

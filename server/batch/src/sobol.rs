@@ -9,7 +9,7 @@ const DIGITS: u32 = 32;
 pub const DIMENSIONS: usize = DIRECTIONS.len() + 1;
 /// Polynomial and first direction numbers of each dimension but the first. From Joe and Kuo, "Constructing Sobol
 /// sequences with better two-dimensional projections" (2008), file `new-joe-kuo-6.21201`.
-const DIRECTIONS: [(u32, &[u32]); 20] = [
+const DIRECTIONS: [(u32, &[u32]); 27] = [
     (0, &[1]),
     (1, &[1, 3]),
     (1, &[1, 3, 1]),
@@ -30,6 +30,13 @@ const DIRECTIONS: [(u32, &[u32]); 20] = [
     (25, &[1, 1, 5, 5, 19, 61]),
     (1, &[1, 3, 7, 11, 23, 15, 103]),
     (4, &[1, 3, 7, 13, 13, 15, 69]),
+    (7, &[1, 1, 3, 13, 7, 35, 63]),
+    (8, &[1, 3, 5, 9, 1, 25, 53]),
+    (14, &[1, 3, 1, 13, 9, 35, 107]),
+    (19, &[1, 3, 1, 5, 27, 61, 31]),
+    (21, &[1, 1, 5, 11, 19, 41, 61]),
+    (28, &[1, 3, 5, 3, 3, 13, 69]),
+    (31, &[1, 1, 7, 13, 1, 19, 1]),
 ];
 
 /// Share of a range that a point has in a dimension, above 0 and below 1. `key` decides how the dimension is

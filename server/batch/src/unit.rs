@@ -129,6 +129,7 @@ impl<'a> UnitList<'a> {
             &drawn,
             seed,
         ));
+        let id = situation.fixed().map_or(id, |fixed| ContentHash::of(&(id, fixed)));
         let id = situation.pattern().map_or(id, |pattern| ContentHash::of(&(id, pattern)));
         let actor = actor.map(str::to_owned);
         Some(BatchUnit { id, scene: place.scene, situation: place.situation, actor, draw, drawn, seed })

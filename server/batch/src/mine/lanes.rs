@@ -26,6 +26,8 @@ const IN_LANE_M: f64 = 1.6;
 const ALIKE_RAD: f64 = 0.5;
 /// A cut-in leaves it less time, seconds.
 const CUT_IN_S: f64 = 1.5;
+/// One that turns round comes so far from where it began, metres: a box that shakes does not.
+const LEAST_EXTENT_M: f64 = 4.0;
 /// A way is looked at in pieces of at least this, metres.
 const APART_M: f64 = 1.0;
 /// A longer piece is a jump of the recording, metres.
@@ -138,7 +140,8 @@ pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Mine
         let Some(((step, _), state)) = half.and_then(|half| Some((half, actor.state(half.0)?))) else {
             continue;
         };
-        if turn_rad.abs() > ROUND_RAD && turn_rad.abs() < MOST_ROUND_RAD && first >= until {
+        let is_round = turn_rad.abs() > ROUND_RAD && turn_rad.abs() < MOST_ROUND_RAD;
+        if is_round && first >= until && extent_m(actor, first..end) >= LEAST_EXTENT_M {
             found.push(MinedEvent {
                 tag: MinedTag::UTurn,
                 actor: actor.id.to_owned(),
@@ -152,6 +155,13 @@ pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Mine
         }
     }
     found
+}
+
+/// How far a road user comes from its first place of a window.
+fn extent_m(actor: &Actor<'_>, window: Range<usize>) -> f64 {
+    let mut places = window.filter_map(|step| actor.state(step)).map(State::position);
+    let first = places.next().unwrap_or_default();
+    places.map(|place| (place - first).norm()).fold(0.0, f64::max)
 }
 
 /// How far the way of a road user has turned at steps of a window, radians. Jumps and turns on the spot count as standing.

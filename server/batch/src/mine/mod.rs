@@ -153,8 +153,13 @@ fn time_s(step: usize) -> f64 {
 /// What the score lists.
 fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
     let found = score(input).scene;
+    let actor = |id: &str| input.actors.iter().find(|actor| actor.id == id);
     for encounter in &found.encounters {
         let measures = &encounter.measures;
+        let both = actor(&encounter.a).zip(actor(&encounter.b));
+        if !both.is_some_and(|(a, b)| seen::close_in(a, b, encounter.time_s)) {
+            continue;
+        }
         let (tag, value) = match encounter.kind {
             EncounterKind::Collision => (MinedTag::Collision, measures.gap_m.map(|gap_m| -gap_m)),
             EncounterKind::NearMiss if seen::is_avoidable(measures) => (MinedTag::NearMiss, measures.ttc_s),
@@ -170,10 +175,10 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
             value,
         });
     }
-    let actor = |id: &str| input.actors.iter().find(|actor| actor.id == id);
     let counts = |tag: MinedTag, stretch: &Stretch| match tag {
         MinedTag::HardBraking => actor(&stretch.agent).is_some_and(|of| seen::brakes(of, stretch)),
         MinedTag::HardSteering => actor(&stretch.agent).is_some_and(|of| seen::steers(of, stretch)),
+        MinedTag::Running => actor(&stretch.agent).is_some_and(|of| seen::runs(of, stretch)),
         MinedTag::WrongWay => stretch.worst.is_some_and(|driven_m| driven_m >= WRONG_WAY_M),
         _ => true,
     };
@@ -186,9 +191,10 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
         (MinedTag::Speeding, &found.speeding),
     ];
     for (tag, stretches) in lists {
-        events.extend(stretches.iter().filter(|stretch| counts(tag, stretch)).map(|stretch| MinedEvent {
+        let seen = seen::joined(stretches.iter().filter(|stretch| counts(tag, stretch)));
+        events.extend(seen.into_iter().map(|stretch| MinedEvent {
             tag,
-            actor: stretch.agent.clone(),
+            actor: stretch.agent,
             other: None,
             time_s: stretch.time_s,
             x_m: stretch.x_m,
@@ -196,7 +202,7 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
             value: stretch.worst,
         }));
     }
-    for red in &found.red_lights {
+    for red in found.red_lights.iter().filter(|red| seen::stays_red(input, red)) {
         let step = (red.time_s / STEP_S).round() as usize;
         let place = actor(&red.agent).and_then(|actor| actor.state(step)).map(State::position);
         let Some(place) = place else { continue };

@@ -1,10 +1,10 @@
 //! Events that the places of a recording confirm. Velocities and boxes of recordings have outliers, above all of road users
 //! that stand.
 
-use scene::score::Actor;
 use scene::score::pairs::Measures;
-use scene::score::report::Stretch;
-use scene::{STEP_S, State};
+use scene::score::report::{RedLight, Stretch};
+use scene::score::{Actor, ScoreInput};
+use scene::{STEP_S, SignalState, State};
 
 /// No road user brakes or steers harder, m/s2.
 const HARDEST_MPS2: f64 = 10.0;
@@ -14,6 +14,15 @@ const WINDOW: usize = 5;
 const DRIVES_MPS: f64 = 3.0;
 /// Braking takes at least this from the speed, m/s.
 const LOSES_MPS: f64 = 2.0;
+
+/// Two that meet come so much nearer before, m/s: boxes that were drawn over each other do not.
+const CLOSES_MPS: f64 = 1.0;
+/// One that runs comes so far in a second, metres.
+const RUNS_M: f64 = 2.0;
+/// Recorded lights lag: whole queues set off so long before theirs turns to go, seconds.
+const LIGHT_LAGS_S: f64 = 5.0;
+/// Stretches of one road user with less between them are one event, seconds.
+const SAME_EVENT_S: f64 = 2.0;
 
 /// Could braking still avoid the collision of a near miss? Else a box was not where the recording has it.
 pub(super) fn is_avoidable(measures: &Measures) -> bool {
@@ -32,6 +41,52 @@ pub(super) fn brakes(actor: &Actor<'_>, stretch: &Stretch) -> bool {
 pub(super) fn steers(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let drives = speed_mps(actor, step(stretch.time_s)).is_some_and(|speed| speed >= DRIVES_MPS);
     is_possible(stretch) && drives
+}
+
+/// The places show that the two came nearer over the half second before.
+pub(super) fn close_in(a: &Actor<'_>, b: &Actor<'_>, time_s: f64) -> bool {
+    let apart_m = |step| Some((a.state(step)?.position() - b.state(step)?.position()).norm());
+    let now = step(time_s);
+    let before = now.checked_sub(WINDOW).and_then(apart_m);
+    let closed_m = before.zip(apart_m(now)).map(|(before_m, now_m)| before_m - now_m);
+    closed_m.is_some_and(|closed_m| closed_m >= CLOSES_MPS * WINDOW as f64 * STEP_S)
+}
+
+/// The places show that it runs.
+pub(super) fn runs(actor: &Actor<'_>, stretch: &Stretch) -> bool {
+    let place = |step| actor.state(step).map(State::position);
+    (step(stretch.time_s)..=step(stretch.until_s)).any(|from| {
+        let ends = place(from).zip(place(from + 2 * WINDOW));
+        ends.is_some_and(|(from, to)| (to - from).norm() >= RUNS_M)
+    })
+}
+
+/// The recorded light does not turn to go soon after.
+pub(super) fn stays_red(input: &ScoreInput<'_>, red: &RedLight) -> bool {
+    let first = step(red.time_s);
+    let last = (first + step(LIGHT_LAGS_S)).min(input.steps.end);
+    let goes = |state| matches!(state, SignalState::Go | SignalState::ArrowGo);
+    let of_lane = input.signals.iter().filter(|signal| signal.lane == red.lane);
+    of_lane.flat_map(|signal| (first..last).map(|step| signal.at(step))).all(|state| !goes(state))
+}
+
+/// Stretches of one road user that follow each other closely are one, as bad as the worst of them.
+pub(super) fn joined<'a>(stretches: impl Iterator<Item = &'a Stretch>) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for stretch in stretches {
+        let follows = |earlier: &&mut Stretch| {
+            earlier.agent == stretch.agent && stretch.time_s - earlier.until_s < SAME_EVENT_S
+        };
+        if let Some(earlier) = all.iter_mut().find(follows) {
+            earlier.until_s = earlier.until_s.max(stretch.until_s);
+            if stretch.worst > earlier.worst {
+                earlier.worst = stretch.worst;
+            }
+        } else {
+            all.push(stretch.clone());
+        }
+    }
+    all
 }
 
 fn is_possible(stretch: &Stretch) -> bool {

@@ -1,7 +1,7 @@
 use super::{MinedEvent, MinedTag, mine};
 use scene::map::{Lane, Neighbor};
 use scene::routes::LaneGraph;
-use scene::{Agent, AgentType, LaneMap, STEP_S, Scene, State, Subtype, Vec2};
+use scene::{Agent, AgentType, LaneMap, STEP_S, Scene, Signal, SignalState, State, Subtype, Vec2};
 
 const STEPS: usize = 91;
 
@@ -78,6 +78,42 @@ fn a_walker_behind_a_parked_car_is_hidden() {
     let hidden = events(vec![car(), walker(), parked()]);
     let found = hidden.iter().find(|event| event.tag == MinedTag::HiddenWalker).unwrap();
     assert!(found.value.unwrap() > 1.0, "{found:?}");
+}
+
+#[test]
+fn boxes_that_shake_or_overlap_from_the_start_are_no_events() {
+    use AgentType::{Pedestrian, Vehicle};
+    // A walker beside a parked car, whose box is drawn half a metre into it, and one that walks into it.
+    let car = || agent("car", Vehicle, |_| (0.0, -6.0));
+    let beside = events(vec![car(), agent("walker", Pedestrian, |t| (0.02 * t, -5.3))]);
+    assert!(beside.iter().all(|event| event.tag != MinedTag::Collision), "{beside:?}");
+    let into = events(vec![car(), agent("walker", Pedestrian, |t| (0.0, 2.0 - 1.5 * t))]);
+    assert!(tags(&into).iter().any(|(tag, ..)| *tag == MinedTag::Collision), "{into:?}");
+    // Back and forth by a step of 0.4 m ten times a second, and at 3 m/s.
+    let shakes = |t: f64| (40.0, -6.0 + if (t * 10.0).round() as i64 % 2 == 0 { 0.0 } else { 0.4 });
+    let shaking = events(vec![agent("walker", Pedestrian, shakes)]);
+    assert!(shaking.iter().all(|event| event.tag != MinedTag::Running), "{shaking:?}");
+    let running = events(vec![agent("walker", Pedestrian, |t| (3.0 * t, -6.0))]);
+    assert_eq!(running.iter().filter(|event| event.tag == MinedTag::Running).count(), 1, "{running:?}");
+}
+
+#[test]
+fn a_light_that_turns_soon_after_lagged() {
+    let red = |until: usize| {
+        let signal = Signal {
+            lane: "right".into(),
+            stop: Some(Vec2::new(30.0, 0.0)),
+            stop_z_m: None,
+            runs: vec![(0, SignalState::Stop), (until, SignalState::Go)],
+        };
+        let mut scene = Scene::bare("", street(), vec![agent("a", AgentType::Vehicle, |t| (10.0 * t, 0.0))]);
+        scene.signals = vec![signal];
+        let graph = LaneGraph::new(&scene.map);
+        let found = mine(&scene, &graph, graph.ground());
+        found.iter().filter(|event| event.tag == MinedTag::RedLight).count()
+    };
+    // The front crosses after less than 3 s.
+    assert_eq!([red(45), red(90)], [0, 1]);
 }
 
 #[test]

@@ -1008,6 +1008,8 @@ export interface components {
             length_m?: components["schemas"]["Distribution"] | null;
             /** @description Name in the results: letters, digits, - and _. Default: that of the template or the pattern, or `free`. */
             name?: string | null;
+            /** @description What the road users beside it are. */
+            others?: components["schemas"]["OtherKinds"];
             /**
              * @description Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
              *     have their standard values.
@@ -1027,6 +1029,8 @@ export interface components {
              * @enum {string|null}
              */
             template?: "brake" | "cut-in" | "late" | null;
+            /** @description Type that the road user has in place of its own. */
+            type?: components["schemas"]["AgentType"] | null;
             /** @description Width of the road user, metres. */
             width_m?: components["schemas"]["Distribution"] | null;
         };
@@ -2488,19 +2492,28 @@ export interface components {
          * @description Fields of a goal; those absent are free.
          */
         GoalRanges: {
-            /** @description Metres along the heading of the start. */
+            /** @description Metres along the heading of the start, or of the recorded goal. */
             ahead_m?: components["schemas"]["Distribution"] | null;
             /** @description Heading in the frame of the scene, radians. */
             heading_rad?: components["schemas"]["Distribution"] | null;
-            /** @description Metres to the left of the heading of the start; 0 with `ahead_m` alone. */
+            /** @description With `recorded`: seconds after the recorded time; negative is earlier. */
+            later_s?: components["schemas"]["Distribution"] | null;
+            /** @description Metres to the left of this heading; 0 with `ahead_m` alone. */
             left_m?: components["schemas"]["Distribution"] | null;
+            /**
+             * @description The goal is where the recording has the road user at `time_s`, with its heading and speed there; `ahead_m`,
+             *     `left_m` and `turn_rad` are from there, in place of the start. Default: false.
+             */
+            recorded?: boolean;
             /** @description What the goal is relative to. */
             relation?: components["schemas"]["GoalRelationRanges"] | null;
             /** @description Metres per second. */
             speed_mps?: components["schemas"]["Distribution"] | null;
+            /** @description With `recorded`: multiple of the recorded speed, in place of `speed_mps`. */
+            speed_times?: components["schemas"]["Distribution"] | null;
             /** @description Scene time, seconds; the end of the horizon when free. */
             time_s?: components["schemas"]["Distribution"] | null;
-            /** @description Radians from the heading of the start. */
+            /** @description Radians from this heading. */
             turn_rad?: components["schemas"]["Distribution"] | null;
             /** @description Box centre in the frame of the scene, metres; with `y_m`. */
             x_m?: components["schemas"]["Distribution"] | null;
@@ -3558,6 +3571,20 @@ export interface components {
              * @default 0
              */
             z_m?: number;
+        };
+        /**
+         * OtherKinds
+         * @description Kind and size of the road users that are there beside the one with the conditions.
+         */
+        OtherKinds: {
+            /** @description Who: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`. */
+            agents?: string[];
+            /** @description Length of each, metres. */
+            length_m?: components["schemas"]["Distribution"] | null;
+            /** @description Type in place of their own. */
+            type?: components["schemas"]["AgentType"] | null;
+            /** @description Width of each, metres. */
+            width_m?: components["schemas"]["Distribution"] | null;
         };
         /**
          * OtherSide
@@ -5600,10 +5627,18 @@ export interface components {
          * @description Fields of a start; those absent are the recording's.
          */
         StartRanges: {
+            /** @description Metres along the recorded heading from the recorded start. */
+            ahead_m?: components["schemas"]["Distribution"] | null;
             /** @description Heading in the frame of the scene, radians. */
             heading_rad?: components["schemas"]["Distribution"] | null;
+            /** @description Metres to the left of the recorded heading. */
+            left_m?: components["schemas"]["Distribution"] | null;
             /** @description Metres per second. */
             speed_mps?: components["schemas"]["Distribution"] | null;
+            /** @description Multiple of the recorded speed, in place of `speed_mps`. */
+            speed_times?: components["schemas"]["Distribution"] | null;
+            /** @description Radians from the recorded heading. */
+            turn_rad?: components["schemas"]["Distribution"] | null;
             /** @description Box centre in the frame of the scene, metres; with `y_m`. */
             x_m?: components["schemas"]["Distribution"] | null;
             /** @description Box centre in the frame of the scene, metres; with `x_m`. */
