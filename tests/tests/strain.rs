@@ -352,7 +352,7 @@ fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
     let mut held: Vec<_> = (0..4).map(|_| asked.open(server.address).unwrap()).collect();
     for stream in &mut held {
         let mut first = [0; 12];
-        std::io::Read::read_exact(stream, &mut first).unwrap();
+        stream.read_exact(&mut first).unwrap();
         assert_eq!(&first, b"HTTP/1.1 200");
     }
     for _ in 0..20 {
@@ -363,15 +363,15 @@ fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
     }
     // One that asks nothing for long is told so as well, in place of being closed unheard.
     let late = TcpStream::connect(server.address).unwrap();
-    let told = dragtraffic_tests::Reply::read(&mut std::io::BufReader::new(late), false).unwrap();
+    let told = Reply::read(&mut BufReader::new(late), false).unwrap();
     assert_eq!((told.status, told.code().as_str()), (503, "busy"));
     // Another machine takes a place from the one that has them all.
     let other = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
     other.bind(&std::net::SocketAddr::from(([127, 0, 0, 2], 0)).into()).unwrap();
     other.connect(&server.address.into()).unwrap();
     let mut other = TcpStream::from(other);
-    std::io::Write::write_all(&mut other, &Request::new("GET", "/v1/info").bytes(server.address)).unwrap();
-    let reply = dragtraffic_tests::Reply::read(&mut std::io::BufReader::new(other), false).unwrap();
+    other.write_all(&Request::new("GET", "/v1/info").bytes(server.address)).unwrap();
+    let reply = Reply::read(&mut BufReader::new(other), false).unwrap();
     assert_eq!(reply.status, 200, "{}", reply.text());
 }
 
@@ -441,7 +441,7 @@ fn a_newcomer_is_answered_beside_connections_that_wait_for_refusals() {
     let refused: Vec<_> = (0..24)
         .map(|_| {
             let mut stream = TcpStream::connect(server.address).unwrap();
-            let _ = std::io::Write::write_all(&mut stream, &pipelined);
+            let _ = stream.write_all(&pipelined);
             stream
         })
         .collect();

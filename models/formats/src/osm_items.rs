@@ -5,9 +5,8 @@ use crate::encoding::Utf8;
 use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::refusals::{found_expected, quoted, tag, wanted, what};
 use crate::source::Source;
-use crate::unpack::{self, Bounds};
+use crate::unpack::{self, Bounds, has_word};
 use crate::xml::{Element, Scanner, XmlEvent};
-use std::io::BufRead;
 
 /// Most bytes of a file once decompressed, and of one tag.
 const MAX_BYTES: u64 = 256 << 20;
@@ -123,24 +122,6 @@ pub(crate) fn holds_lanelets(file: &dyn Source) -> bool {
         {
             return true;
         }
-    }
-    false
-}
-
-fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
-    let mut kept: Vec<u8> = Vec::new();
-    while let Ok(chunk) = input.fill_buf() {
-        if chunk.is_empty() {
-            break;
-        }
-        let count = chunk.len();
-        kept.extend_from_slice(chunk);
-        input.consume(count);
-        if kept.windows(word.len()).any(|part| part == word) {
-            return true;
-        }
-        // The word may go on in the next piece.
-        kept.drain(..kept.len().saturating_sub(word.len() - 1));
     }
     false
 }

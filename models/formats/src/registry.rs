@@ -9,7 +9,9 @@ use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
 use crate::html::Page;
 use crate::kinds;
 use crate::lanelet2::format::LANELET2;
+use crate::limits::MAX_DECODED_BYTES;
 use crate::loss::Loss;
+use crate::native;
 use crate::native::format::NativeJson;
 #[cfg(not(target_family = "wasm"))]
 use crate::nuplan::format::NuPlanLog;
@@ -26,6 +28,7 @@ use crate::source::{Source, head, without_mark};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::TableFormat;
+use crate::unpack::{self, Bounds, has_word};
 use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
 use crate::womd::rollouts::SimAgents;
@@ -134,12 +137,26 @@ pub fn identified(file: &dyn Source, name: &str) -> Result<&'static dyn Format, 
     if head.len() as u64 == file.encoded_len() && without_mark(&head).trim_ascii().is_empty() {
         return Err(refused(refusals::empty_file()));
     }
-    let found = recognised(&head, name)?;
+    let found = match recognised(&head, name) {
+        // Programs that sort the members of JSON write the format after all road users.
+        Err(_) if begins_object(&head) && holds_scene(file) => &NativeJson,
+        found => found?,
+    };
     let alike: [&'static dyn Format; 2] = [&LANELET2, &OsmExtract];
     if alike.iter().any(|format| format.info().id == found.info().id) {
         return Ok(alike[usize::from(!holds_lanelets(file))]);
     }
     Ok(found)
+}
+
+fn begins_object(head: &[u8]) -> bool {
+    without_mark(head).trim_ascii_start().starts_with(b"{")
+}
+
+/// Whether a file names the format of our own scenes, anywhere.
+fn holds_scene(file: &dyn Source) -> bool {
+    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
+    input.is_ok_and(|input| has_word(input, native::FORMAT.as_bytes()))
 }
 
 /// Reads a file in memory of the given format (`auto` looks at its content and name).

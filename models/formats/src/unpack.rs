@@ -8,7 +8,7 @@ use flate2::CrcReader;
 use flate2::read::{DeflateDecoder, MultiGzDecoder};
 use scene::message::Message;
 use std::fmt;
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::ops::Range;
 use std::sync::Arc;
 use zip::result::ZipError;
@@ -119,6 +119,25 @@ pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReade
     let whole = CountingReader { inner: io::Cursor::new(head).chain(input), count: 0 };
     let inner = if gzip { Inner::Gzip(Box::new(MultiGzDecoder::new(whole))) } else { Inner::Plain(whole) };
     Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
+}
+
+/// Whether an input has these bytes anywhere, up to where it can be read.
+pub(crate) fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
+    let mut kept: Vec<u8> = Vec::new();
+    while let Ok(chunk) = input.fill_buf() {
+        if chunk.is_empty() {
+            break;
+        }
+        let count = chunk.len();
+        kept.extend_from_slice(chunk);
+        input.consume(count);
+        if kept.windows(word.len()).any(|part| part == word) {
+            return true;
+        }
+        // The word may go on in the next piece.
+        kept.drain(..kept.len().saturating_sub(word.len() - 1));
+    }
+    false
 }
 
 /// Beginning of a zip.

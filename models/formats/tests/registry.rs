@@ -76,6 +76,26 @@ fn licence_can_be_given_and_unknown_content_is_refused() {
 }
 
 #[test]
+fn a_scene_is_recognised_whatever_the_order_of_its_members() {
+    // serde_json sorts members: `agents` come first.
+    let mut scene: serde_json::Value = serde_json::from_slice(JUNCTION).unwrap();
+    let car = scene["agents"][0].clone();
+    let copy = |id: usize| {
+        let mut car = car.clone();
+        car["id"] = id.to_string().into();
+        car
+    };
+    scene["agents"] = (0..40).map(copy).collect();
+    let sorted = scene.to_string();
+    assert!(sorted.find("dragtraffic.scene").unwrap() > 4_096);
+    let (scene, _) = registry::import(sorted.as_bytes(), "upload", "auto", &ImportOptions::default())
+        .unwrap()
+        .remove(0)
+        .unwrap();
+    assert_eq!(scene.agents.len(), 40);
+}
+
+#[test]
 fn a_file_of_a_known_kind_is_called_what_it_is() {
     let refused = |bytes: &[u8], name: &str| {
         let error = registry::import(bytes, name, "auto", &ImportOptions::default()).unwrap_err();

@@ -111,7 +111,12 @@ mod tests {
             vy_mps: 5.0,
             ..State::default()
         };
-        Agent::bare("1", AgentType::Vehicle, Subtype::None, (0..=40).map(|step| Some(state(step))).collect())
+        Agent::bare(
+            "1",
+            AgentType::Vehicle,
+            Subtype::Unknown,
+            (0..=40).map(|step| Some(state(step))).collect(),
+        )
     }
 
     fn of<'a>(drawn: &'a BTreeMap<&str, f64>) -> impl Fn(&str) -> Option<f64> + 'a {
