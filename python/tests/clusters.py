@@ -33,17 +33,18 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = str(Path(dragtraffic.__file__).parents[1])
 PROGRAM = [sys.executable, _program.__file__]
 WORKERS = 3
+SITUATIONS = """[[situations]]
+template = "cut-in"
+[[situations]]
+template = "brake"
+"""
 PLAN = f"""
 scenes = ["{ROOT}/assets/scenes"]
 seeds = 60
 chunk_units = 20
 [generate]
 horizon_s = 4
-[[situations]]
-template = "cut-in"
-[[situations]]
-template = "brake"
-"""
+{SITUATIONS}"""
 #: A plan of few files, each of which is a moment to fail at.
 SMALL = f"""
 scenes = ["{ROOT}/assets/scenes/demo-motorway.json"]
@@ -51,11 +52,7 @@ seeds = 4
 chunk_units = 4
 [generate]
 horizon_s = 3
-[[situations]]
-template = "cut-in"
-[[situations]]
-template = "brake"
-"""
+{SITUATIONS}"""
 CLIENT = """
 import sys, dragtraffic
 from distributed import Client
@@ -265,7 +262,7 @@ class Proof:
 
     def fail_points(self) -> None:
         """Ends a run at each call that opens the folder of chunks (before a write), syncs a file (after the write) or its
-        folder (after the name), or gives a name, and goes on: killed, or with an error of the disk."""
+        folder (after the link), or links a name, and resumes it: killed, or with an error of the disk."""
         if shutil.which("strace") is None:
             return self.say("fail points", "skipped, strace is not installed")
         plan, whole = self.folder / "small.toml", self.folder / "small-alone"
@@ -297,7 +294,7 @@ class Proof:
             # The last one was beyond the end of the run.
             counts[f"{call} {fault}"] = number - 1
         assert all(counts.values()), counts
-        self.say("fail points", f"{sum(counts.values())} ended and gone on, {counts}; equal bytes, no other file")
+        self.say("fail points", f"{sum(counts.values())} stopped and resumed, {counts}; equal bytes, no other file")
 
     def cost(self, times: int = 2) -> None:
         """Time of the processor and of the clock, of shards without Dask and of Dask, one after the other."""
