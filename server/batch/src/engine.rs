@@ -16,8 +16,8 @@ use api::{GenerateRequest, Operations, Problem, Subject};
 use experts::{Cancel, Field, Limiting, ReachReport, Resolved, Source};
 use formats::native::{ConditionsDoc, Members};
 use scene::scenarios::Casting;
-use scene::score::ScoreInput;
 use scene::score::meeting::MeetingSearch;
+use scene::score::{Score, ScoreInput};
 use scene::{Conditions, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -162,14 +162,16 @@ impl<'a> UnitEngine<'a> {
             let own = scene.agent(id).map_or_else(Conditions::default, |agent| agent.conditions.clone());
             ConditionsDoc::from_conditions(&own)
         };
-        let agent = scene.agent(actor);
-        let recording =
-            agent.map(|agent| RecordedMotion::new(agent, options.start_step(), options.horizon_s));
+        let graph = self.operations.generator.maps().graph(&scene.map);
+        let recording = scene
+            .agent(actor)
+            .map(|agent| RecordedMotion::new(agent, &graph, options.start_step(), options.horizon_s));
         let applied = situation.applied(own(actor), &unit.drawn, recording.as_ref())?;
         let beside = situation.beside(scene, options.start_step()).into_iter().filter(|id| id != actor);
         let beside = beside.map(|id| (id.clone(), situation.applied_beside(own(&id), &unit.drawn)));
         let conditions = beside.chain([(actor.clone(), applied)]).collect();
-        Some(UnitRoles { actor: Some(actor.clone()), conditions, ..UnitRoles::default() })
+        let other = situation.with.clone();
+        Some(UnitRoles { actor: Some(actor.clone()), other, conditions, ..UnitRoles::default() })
     }
 
     /// Writes what came of a generation into the row of its unit.
@@ -184,8 +186,12 @@ impl<'a> UnitEngine<'a> {
             }
         };
         let actor = roles.actor.as_deref();
+        let drivable = self.operations.generator.maps().drivable(&answer.scene.map);
+        let input = ScoreInput::of_sample(&answer.scene, answer.samples.first(), &drivable);
+        let search = MeetingSearch::new(&input);
         let score = answer.scores.as_ref().and_then(|scores| scores.first());
-        let figures = score.map(|score| Figures::new(score, actor));
+        let pair = actor.and_then(|actor| search.of(actor, roles.other.as_deref()));
+        let figures = score.map(|score| Figures::new(score, actor, pair.as_ref()));
         let sample = answer.samples.first();
         let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
         row.code = Some(answer.code.clone());
@@ -194,28 +200,30 @@ impl<'a> UnitEngine<'a> {
         let goal = goals.max_by_key(|word| GOAL_WORDS.iter().position(|known| known == word));
         row.goal = Some(goal.unwrap_or(GOAL_WORDS[0]).to_owned());
         row.reacting = Some(reacting as u64);
-        row.actor = roles.actor.clone();
-        (row.other, row.what) = (roles.other, roles.what);
-        let motion = self.happened(&mut row, &answer);
+        (row.actor, row.other, row.what) = (roles.actor, roles.other, roles.what);
+        let motion = happened(&mut row, &input, &search, score);
         row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
         row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
         let is_left_out = self.filter.is_some() && row.miss != Some(0.0);
         row.outcome = if is_left_out { UnitOutcome::LeftOut } else { UnitOutcome::Kept };
         UnitEnd { row, conditions: roles.conditions, motion }
     }
+}
 
-    /// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives
-    /// the motion.
-    fn happened(&self, row: &mut BatchRow, answered: &GenerationAnswer) -> Option<CaseMotion> {
-        let hardest = || answered.scores.as_ref()?.first()?.scene.min_ttc_pair.as_ref().map(|pair| &pair[0]);
-        let id = row.actor.as_ref().or_else(hardest)?;
-        let drivable = self.operations.generator.maps().drivable(&answered.scene.map);
-        let input = ScoreInput::of_sample(&answered.scene, answered.samples.first(), &drivable);
-        let of = input.actors.iter().position(|actor| actor.id == id)?;
-        let (facts, pair) = CaseFacts::of(&input, &MeetingSearch::new(&input), of)?;
-        row.facts = facts;
-        CaseMotion::of(&row.unit, &input, of, pair.as_ref())
-    }
+/// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives the
+/// motion.
+fn happened(
+    row: &mut BatchRow,
+    input: &ScoreInput<'_>,
+    search: &MeetingSearch<'_>,
+    score: Option<&Score>,
+) -> Option<CaseMotion> {
+    let hardest = || score?.scene.min_ttc_pair.as_ref().map(|pair| &pair[0]);
+    let id = row.actor.as_ref().or_else(hardest)?;
+    let of = input.actors.iter().position(|actor| actor.id == id)?;
+    let (facts, pair) = CaseFacts::of(input, search, of)?;
+    row.facts = facts;
+    CaseMotion::of(&row.unit, input, of, pair.as_ref())
 }
 
 /// Has a road user a goal that was requested?

@@ -1,7 +1,11 @@
-//! Conditions that begin at a road user's own recording: where it was, pushed by drawn numbers.
+//! Conditions that begin at a road user's own recording or start: where it was, pushed by drawn numbers.
 
+use experts::planning::world::AgentAtStart;
 use formats::native::{GoalDoc, StartDoc};
-use scene::{Agent, STEP_S, State, wrap_angle};
+use scene::geometry::direction;
+use scene::routes::LaneGraph;
+use scene::{Agent, STEP_S, Start, State, wrap_angle};
+use std::f64::consts::FRAC_PI_2;
 
 /// Least time from the start to a goal, seconds: a step of the recording before it says nothing.
 const LEAST_S: f64 = 0.5;
@@ -10,50 +14,33 @@ pub const MOST_SHIFT_S: f64 = 20.0;
 /// Greatest multiple of a recorded speed.
 pub const MOST_TIMES: f64 = 5.0;
 
-/// A road user's recording, and the time that is generated.
+/// A road user's recording, the lanes that it is on, and the time that is generated.
 pub struct RecordedMotion<'a> {
     agent: &'a Agent,
+    graph: &'a LaneGraph,
     start_step: usize,
     end_s: f64,
 }
 
-/// Numbers that push a recorded state.
-struct Push {
-    ahead_m: f64,
-    left_m: f64,
-    turn_rad: f64,
-    times: f64,
-}
-
-impl Push {
-    /// Drawn for the goal or the start of a situation; 0, and the recorded speed, where a number is absent.
-    fn drawn(of: &dyn Fn(&str) -> Option<f64>, member: &str) -> Self {
-        let of = |name: &str| of(&format!("{member}.{name}"));
-        let number = |name: &str| of(name).unwrap_or_default();
-        Self {
-            ahead_m: number("ahead_m"),
-            left_m: number("left_m"),
-            turn_rad: number("turn_rad"),
-            times: of("speed_times").unwrap_or(1.0),
-        }
-    }
-
-    fn moved(&self, state: &State) -> State {
-        let (sin, cos) = state.heading_rad.sin_cos();
-        State {
-            x_m: state.x_m + self.ahead_m * cos - self.left_m * sin,
-            y_m: state.y_m + self.ahead_m * sin + self.left_m * cos,
-            heading_rad: wrap_angle(state.heading_rad + self.turn_rad),
-            vx_mps: state.vx_mps * self.times,
-            vy_mps: state.vy_mps * self.times,
-        }
+/// A recorded state, pushed by the drawn numbers of a goal.
+fn pushed(state: &State, of: &dyn Fn(&str) -> Option<f64>) -> State {
+    let number = |name: &str| of(name).unwrap_or_default();
+    let (ahead_m, left_m) = (number("goal.ahead_m"), number("goal.left_m"));
+    let times = of("goal.speed_times").unwrap_or(1.0);
+    let (sin, cos) = state.heading_rad.sin_cos();
+    State {
+        x_m: state.x_m + ahead_m * cos - left_m * sin,
+        y_m: state.y_m + ahead_m * sin + left_m * cos,
+        heading_rad: wrap_angle(state.heading_rad + number("goal.turn_rad")),
+        vx_mps: state.vx_mps * times,
+        vy_mps: state.vy_mps * times,
     }
 }
 
 impl<'a> RecordedMotion<'a> {
     /// Of a road user, from a step of the scene on for so many seconds.
-    pub fn new(agent: &'a Agent, start_step: usize, horizon_s: f64) -> Self {
-        Self { agent, start_step, end_s: start_step as f64 * STEP_S + horizon_s }
+    pub fn new(agent: &'a Agent, graph: &'a LaneGraph, start_step: usize, horizon_s: f64) -> Self {
+        Self { agent, graph, start_step, end_s: start_step as f64 * STEP_S + horizon_s }
     }
 
     /// The recorded state at the time of the goal, or the last one before it, pushed by the drawn numbers. `None` where
@@ -69,7 +56,7 @@ impl<'a> RecordedMotion<'a> {
         {
             return None;
         }
-        let state = Push::drawn(of, "goal").moved(&self.agent.state_at(step)?);
+        let state = pushed(&self.agent.state_at(step)?, of);
         Some(GoalDoc {
             x_m: Some(state.x_m),
             y_m: Some(state.y_m),
@@ -80,17 +67,28 @@ impl<'a> RecordedMotion<'a> {
         })
     }
 
-    /// The recorded start, pushed by the drawn numbers: what they do not concern stays free.
+    /// The start with the conditions of the scene, pushed by the drawn numbers: `ahead_m` is along the lane. What the
+    /// numbers do not concern stays as it is in the scene. `None` where they push a start that nothing tells.
     pub fn start(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<StartDoc> {
-        let state = Push::drawn(of, "start").moved(&self.agent.state_at(self.start_step)?);
-        let is_moved = of("start.ahead_m").or(of("start.left_m")).is_some();
-        let turn = of("start.turn_rad").map(|_| state.heading_rad);
-        let speed = of("start.speed_times").map(|_| state.speed_mps());
+        let of = |name: &str| of(&format!("start.{name}"));
+        let Start { mut position, mut heading_rad, mut speed_mps } = self.agent.conditions.start;
+        let (ahead_m, left_m, turn_rad) = (of("ahead_m"), of("left_m"), of("turn_rad"));
+        let times = of("speed_times");
+        if ahead_m.or(left_m).or(turn_rad).or(times).is_some() {
+            let own = AgentAtStart::at(0, self.agent, &self.agent.conditions, self.start_step)?;
+            let along = self.graph.moved_along(own.pose(), own.agent_type, ahead_m.unwrap_or_default());
+            let left = direction(along.heading_rad + FRAC_PI_2);
+            let pushed = along.position + left_m.unwrap_or_default() * left;
+            let turned_rad = wrap_angle(along.heading_rad + turn_rad.unwrap_or_default());
+            position = ahead_m.or(left_m).map(|_| pushed).or(position);
+            heading_rad = ahead_m.or(turn_rad).map(|_| turned_rad).or(heading_rad);
+            speed_mps = times.map(|times| own.start.speed_mps() * times).or(speed_mps);
+        }
         Some(StartDoc {
-            x_m: is_moved.then_some(state.x_m).or(of("start.x_m")),
-            y_m: is_moved.then_some(state.y_m).or(of("start.y_m")),
-            heading_rad: turn.or(of("start.heading_rad")),
-            speed_mps: speed.or(of("start.speed_mps")),
+            x_m: of("x_m").or(position.map(|at| at.x)),
+            y_m: of("y_m").or(position.map(|at| at.y)),
+            heading_rad: of("heading_rad").or(heading_rad),
+            speed_mps: of("speed_mps").or(speed_mps),
             velocity: None,
         })
     }
@@ -99,7 +97,8 @@ impl<'a> RecordedMotion<'a> {
 #[cfg(test)]
 mod tests {
     use super::RecordedMotion;
-    use scene::{Agent, AgentType, STEP_S, State, Subtype};
+    use scene::routes::LaneGraph;
+    use scene::{Agent, AgentType, LaneMap, STEP_S, State, Subtype};
     use std::collections::BTreeMap;
     use std::f64::consts::FRAC_PI_2;
 
@@ -119,14 +118,18 @@ mod tests {
         )
     }
 
+    fn nowhere() -> LaneGraph {
+        LaneGraph::new(&LaneMap::default())
+    }
+
     fn of<'a>(drawn: &'a BTreeMap<&str, f64>) -> impl Fn(&str) -> Option<f64> + 'a {
         move |path| drawn.get(path).copied()
     }
 
     #[test]
     fn a_goal_is_the_recorded_one_pushed_aside_slower_and_later() {
-        let agent = northward();
-        let recording = RecordedMotion::new(&agent, 10, 5.0);
+        let (agent, graph) = (northward(), nowhere());
+        let recording = RecordedMotion::new(&agent, &graph, 10, 5.0);
         let drawn = BTreeMap::from([
             ("goal.time_s", 3.0),
             ("goal.later_s", 1.0),
@@ -151,23 +154,36 @@ mod tests {
 
     #[test]
     fn nobody_fits_whose_recording_or_time_is_not_there() {
-        let agent = northward();
-        assert!(RecordedMotion::new(&agent, 38, 5.0).goal(&|_| None).is_none());
-        let recording = RecordedMotion::new(&agent, 0, 5.0);
+        let (agent, graph) = (northward(), nowhere());
+        assert!(RecordedMotion::new(&agent, &graph, 38, 5.0).goal(&|_| None).is_none());
+        let recording = RecordedMotion::new(&agent, &graph, 0, 5.0);
         for later in [-3.8, 1.2] {
             assert!(recording.goal(&of(&BTreeMap::from([("goal.later_s", later)]))).is_none());
         }
-        assert!(RecordedMotion::new(&agent, 50, 5.0).start(&|_| None).is_none());
+        assert!(RecordedMotion::new(&agent, &graph, 50, 5.0).start(&|_| None).is_none());
     }
 
     #[test]
     fn a_start_is_pushed_in_what_is_drawn_alone() {
-        let agent = northward();
-        let recording = RecordedMotion::new(&agent, 10, 5.0);
+        let (agent, graph) = (northward(), nowhere());
+        let recording = RecordedMotion::new(&agent, &graph, 10, 5.0);
         let start = recording.start(&of(&BTreeMap::from([("start.speed_times", 2.0)]))).unwrap();
         assert_eq!((start.x_m, start.heading_rad, start.speed_mps), (None, None, Some(10.0)));
         let start = recording.start(&of(&BTreeMap::from([("start.ahead_m", -3.0)]))).unwrap();
         assert!((start.y_m.unwrap() - 2.0).abs() < 1e-9 && start.x_m.unwrap().abs() < 1e-9);
         assert_eq!(start.speed_mps, None);
+    }
+
+    #[test]
+    fn a_start_is_pushed_from_the_one_in_the_scene() {
+        let (mut agent, graph) = (northward(), nowhere());
+        agent.conditions.start.position = Some(scene::Vec2::new(3.0, 1.0));
+        agent.conditions.start.speed_mps = Some(4.0);
+        let recording = RecordedMotion::new(&agent, &graph, 10, 5.0);
+        let start = recording.start(&of(&BTreeMap::from([("start.ahead_m", 2.0)]))).unwrap();
+        assert_eq!((start.x_m, start.speed_mps), (Some(3.0), Some(4.0)));
+        assert!((start.y_m.unwrap() - 3.0).abs() < 1e-9);
+        let start = recording.start(&of(&BTreeMap::from([("start.speed_times", 0.5)]))).unwrap();
+        assert_eq!((start.x_m, start.y_m, start.speed_mps), (Some(3.0), Some(1.0), Some(2.0)));
     }
 }

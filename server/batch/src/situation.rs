@@ -63,6 +63,10 @@ pub struct BatchSituation {
     /// What the road users beside it are.
     #[serde(skip_serializing_if = "is_default")]
     pub others: OtherKinds,
+    /// Id of the road user that the figures under `pair.` are about. Default: the one that a template or a pattern
+    /// affects, else the one with whom it comes nearest to a collision.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub with: Option<String>,
 }
 
 /// Kind and size of the road users that are there beside the one with the conditions.
@@ -152,7 +156,7 @@ pub struct GoalRelationRanges {
     pub lanes_left: Option<Distribution>,
 }
 
-/// Fields of a start; those absent are the recording's.
+/// Fields of a start; those absent are the scene's: of the conditions there, else of the recording.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartRanges {
@@ -165,19 +169,19 @@ pub struct StartRanges {
     /// Heading in the frame of the scene, radians.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heading_rad: Option<Distribution>,
-    /// Metres along the recorded heading from the recorded start.
+    /// Metres from the start in the scene, along the lane that it is on, else along its heading.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<Distribution>,
-    /// Metres to the left of the recorded heading.
+    /// Metres to the left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_m: Option<Distribution>,
-    /// Radians from the recorded heading.
+    /// Radians from the heading there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn_rad: Option<Distribution>,
     /// Metres per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_mps: Option<Distribution>,
-    /// Multiple of the recorded speed, in place of `speed_mps`.
+    /// Multiple of the speed in the scene, in place of `speed_mps`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_times: Option<Distribution>,
 }
@@ -304,17 +308,7 @@ impl BatchSituation {
             conditions.goal = Some(goal);
         }
         if self.start != StartRanges::default() {
-            conditions.start = Some(if self.start.is_relative() {
-                recording?.start(&of)?
-            } else {
-                StartDoc {
-                    x_m: of("start.x_m"),
-                    y_m: of("start.y_m"),
-                    heading_rad: of("start.heading_rad"),
-                    speed_mps: of("start.speed_mps"),
-                    velocity: None,
-                }
-            });
+            conditions.start = Some(recording?.start(&of)?);
         }
         conditions.agent_type = self.agent_type.or(conditions.agent_type);
         conditions.length_m = of("length_m").or(conditions.length_m);
@@ -370,6 +364,8 @@ impl BatchSituation {
             );
         } else if self.pattern.is_some() && (asks || !self.agents.is_empty() || self.template.is_some()) {
             fault("pattern", "a pattern has its own road users; agents, conditions and template exclude it");
+        } else if self.with.is_some() && self.agents.is_empty() {
+            fault("with", "it needs agents; a template or a pattern has its own other road user");
         } else if asks && self.agents.is_empty() {
             fault(
                 "agents",
@@ -445,7 +441,7 @@ impl BatchSituation {
         if moves && x_m.is_some() || turn_rad.is_some() && heading_rad.is_some() {
             fault(
                 "start",
-                "ahead_m, left_m and turn_rad are from the recorded start, x_m, y_m and heading_rad of the scene",
+                "ahead_m, left_m and turn_rad are from the start, x_m, y_m and heading_rad of the scene",
             );
         }
         if speed_mps.is_some() && speed_times.is_some() {
@@ -534,14 +530,6 @@ impl GoalRanges {
     /// Is it from the start of the road user, in place of the scene?
     fn is_relative(&self) -> bool {
         self.ahead_m.is_some() || self.left_m.is_some() || self.turn_rad.is_some()
-    }
-}
-
-impl StartRanges {
-    /// Is it from the recorded start, in place of the scene?
-    fn is_relative(&self) -> bool {
-        let Self { ahead_m, left_m, turn_rad, speed_times, .. } = self;
-        [ahead_m, left_m, turn_rad, speed_times].iter().any(|number| number.is_some())
     }
 }
 

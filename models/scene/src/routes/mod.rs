@@ -5,6 +5,7 @@
 //! [`speed`] says how fast it can be driven and what stands in the way.
 
 pub mod ahead;
+mod along;
 mod assemble;
 pub mod blend;
 mod cubic;

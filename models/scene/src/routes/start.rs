@@ -33,7 +33,7 @@ pub(super) struct StartLane {
 /// Start lanes by rising score, nearest and straightest first.
 pub(super) fn start_lanes(graph: &LaneGraph, pose: Pose, agent_type: AgentType) -> Vec<StartLane> {
     let near = graph.nearest_for(pose.position, RELAXED_M, agent_type);
-    let turn = |hit: &LaneHit| wrap_angle(hit.heading_rad - pose.heading_rad).abs();
+    let turn = |hit: &LaneHit| turn_rad(hit, pose);
     let pick = |on: &dyn Fn(&LaneHit) -> bool| {
         let starts = near.iter().filter(|h| on(h)).map(|h| StartLane {
             lane: h.lane,
@@ -46,9 +46,24 @@ pub(super) fn start_lanes(graph: &LaneGraph, pose: Pose, agent_type: AgentType) 
         starts.truncate(MAX_STARTS);
         starts
     };
-    let half_width = |hit: &LaneHit| ON_LANE_M.max(0.5 * graph.lanes()[hit.lane].width_m);
-    let strict = pick(&|h| h.distance_m <= half_width(h) && turn(h) <= ON_LANE_TURN_RAD);
+    let strict = pick(&|h| is_on(graph, h, pose));
     if strict.is_empty() { pick(&|h| turn(h) <= RELAXED_TURN_RAD) } else { strict }
+}
+
+/// Is a pose on a lane near it, and along it?
+fn is_on(graph: &LaneGraph, hit: &LaneHit, pose: Pose) -> bool {
+    let half_width_m = ON_LANE_M.max(0.5 * graph.lanes()[hit.lane].width_m);
+    hit.distance_m <= half_width_m && turn_rad(hit, pose) <= ON_LANE_TURN_RAD
+}
+
+fn turn_rad(hit: &LaneHit, pose: Pose) -> f64 {
+    wrap_angle(hit.heading_rad - pose.heading_rad).abs()
+}
+
+/// The nearest lane that a pose is on.
+pub(super) fn lane_under(graph: &LaneGraph, pose: Pose, agent_type: AgentType) -> Option<LaneHit> {
+    let near = graph.nearest_for(pose.position, RELAXED_M, agent_type);
+    near.into_iter().find(|hit| is_on(graph, hit, pose))
 }
 
 /// Something lies ahead of the start.

@@ -31,9 +31,9 @@ pub enum PairRelation {
     Beside,
 }
 
-/// The pair of a road user that is nearest to a collision.
+/// How a road user meets another one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HardestPair {
+pub struct MeetingPair {
     /// The other one, by its place in the input.
     pub other: usize,
     /// Scene step of the least gap.
@@ -66,19 +66,27 @@ impl<'a> MeetingSearch<'a> {
 
     /// The pair of a road user with the least time to collision or post-encroachment time; where no pair has one, with
     /// the least time gap, then with the least gap. `None` for one that has no such time and nobody within 30 m.
-    pub fn hardest(&self, of: usize) -> Option<HardestPair> {
+    pub fn hardest(&self, of: usize) -> Option<MeetingPair> {
         let pairs = (0..self.movers.len()).filter(|other| *other != of);
-        let pairs = pairs.filter_map(|other| self.pair(of, other));
-        let order = |pair: &HardestPair| {
+        let pairs = pairs.filter_map(|other| self.between(of, other));
+        let order = |pair: &MeetingPair| {
             let Measures { pet_s, headway_s, gap_m, .. } = pair.measures;
             let least_s = pair.ttc_s.into_iter().chain(pet_s).fold(f64::INFINITY, f64::min);
             [Some(least_s), headway_s, gap_m].map(|value| value.unwrap_or(f64::INFINITY))
         };
-        let compared = |p: &HardestPair, q: &HardestPair| {
+        let compared = |p: &MeetingPair, q: &MeetingPair| {
             let pairs = order(p).into_iter().zip(order(q));
             pairs.map(|(p, q)| p.total_cmp(&q)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
         };
         pairs.min_by(compared)
+    }
+
+    /// How a road user meets the other one, by their ids, or without another one its hardest pair. `None` where one of
+    /// them is not in the input, too.
+    pub fn of(&self, id: &str, other: Option<&str>) -> Option<MeetingPair> {
+        let place = |id: &str| self.input.actors.iter().position(|actor| actor.id == id);
+        let of = place(id)?;
+        other.map_or_else(|| self.hardest(of), |other| self.between(of, place(other)?))
     }
 
     /// State of the signal whose stop line a road user passes, or stands at in the end; `None` without one.
@@ -86,7 +94,10 @@ impl<'a> MeetingSearch<'a> {
         signal_passed(self.input, self.input.actors.get(of)?, &self.lines)
     }
 
-    fn pair(&self, of: usize, other: usize) -> Option<HardestPair> {
+    /// What happens between two of them, by their places in the input. `None` where both stay, where they belong
+    /// together, are left out of the score or are never seen near each other, and for two that stay 30 m apart and have
+    /// no time to collision.
+    pub fn between(&self, of: usize, other: usize) -> Option<MeetingPair> {
         let (a, b) = (self.movers.get(of)?, self.movers.get(other)?);
         let stays = |mover: &Mover| mover.travel_m < PARKED_M;
         if stays(a) && stays(b) {
@@ -130,7 +141,7 @@ impl<'a> MeetingSearch<'a> {
         let between = (p.outline.center() + q.outline.center()) * 0.5;
         let place = crossing.map_or(between, |crossing| crossing.point);
         let step = self.input.steps.start + step;
-        Some(HardestPair { other, step, place, relation, other_first, ttc_s, measures })
+        Some(MeetingPair { other, step, place, relation, other_first, ttc_s, measures })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::layout::road_layout;
 use formats::columnar::{Column, ColumnValue, ColumnValues};
-use scene::score::meeting::{HardestPair, MeetingSearch, PairRelation};
+use scene::score::meeting::{MeetingPair, MeetingSearch, PairRelation};
 use scene::score::{Actor, ScoreInput};
 use scene::{AgentType, STEP_S, SignalState, State};
 use std::collections::BTreeMap;
@@ -51,7 +51,7 @@ impl CaseFacts {
         input: &ScoreInput<'_>,
         search: &MeetingSearch<'_>,
         of: usize,
-    ) -> Option<(Self, Option<HardestPair>)> {
+    ) -> Option<(Self, Option<MeetingPair>)> {
         let actor = input.actors.get(of)?;
         let last = input.steps.clone().rev().find(|step| actor.state(*step).is_some())?;
         let pair = search.hardest(of);

@@ -2,7 +2,7 @@
 
 use super::facts::type_word;
 use scene::geometry::rotate;
-use scene::score::meeting::HardestPair;
+use scene::score::meeting::MeetingPair;
 use scene::score::{Actor, ScoreInput};
 use scene::{State, Vec2};
 use serde::{Deserialize, Serialize};
@@ -58,7 +58,7 @@ fn decimetres(metres: f64) -> i32 {
 
 impl CaseMotion {
     /// Of a road user and its pair, by places in the input.
-    pub fn of(unit: &str, input: &ScoreInput<'_>, of: usize, pair: Option<&HardestPair>) -> Option<Self> {
+    pub fn of(unit: &str, input: &ScoreInput<'_>, of: usize, pair: Option<&MeetingPair>) -> Option<Self> {
         let actor = input.actors.get(of)?;
         let (first, end) = (input.steps.start, input.steps.end);
         let steps: Vec<usize> = (first..end).step_by(PICTURE_STEPS).collect();

@@ -1,22 +1,25 @@
 //! The figures of a score by name, for conditions and tables: the numbers of the scene's score and how many entries
-//! its lists have, and under `actor.` those of the requested road user.
+//! its lists have, under `actor.` those of the requested road user, and under `pair.` those of this one with another.
 
 mod expression;
+mod known;
 mod tokens;
 
 use crate::names::hint;
 use expression::Expression;
+pub use known::names;
+use known::{OTHER_FIRST, lists_by_agent};
 use scene::Scene;
-use scene::score::{AgentScore, SceneScore, Score};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use scene::score::meeting::{MeetingPair, MeetingSearch};
+use scene::score::{Score, ScoreInput};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// What the actor's figures begin with.
 const ACTOR: &str = "actor.";
-/// Deepest figure inside a figure.
-const DEEPEST: usize = 3;
+/// What the figures of a pair begin with.
+const PAIR: &str = "pair.";
 /// The figure that no score has.
 const ROAD_USERS: &str = "road_users";
 
@@ -84,58 +87,12 @@ fn unknown(name: &str) -> String {
     format!("no figure is named \"{name}\"{meant}; there are {}", names().join(", "))
 }
 
-/// All names, those of the scene first.
-pub fn names() -> &'static [String] {
-    static NAMES: OnceLock<Vec<String>> = OnceLock::new();
-    NAMES.get_or_init(|| {
-        let mut names = vec![ROAD_USERS.to_owned()];
-        names.extend(of_schema::<SceneScore>(""));
-        names.extend(of_schema::<AgentScore>(ACTOR));
-        names
-    })
-}
-
-/// Names of the numbers and lists of a type, from its schema.
-fn of_schema<T: JsonSchema>(prefix: &str) -> Vec<String> {
-    let mut generator = SchemaGenerator::default();
-    let schema: Schema = generator.root_schema_for::<T>();
-    let schema = schema.to_value();
-    let mut names = Vec::new();
-    collect(&schema, &schema, prefix, 0, &mut names);
-    names.sort();
-    names
-}
-
-fn collect(root: &Value, schema: &Value, prefix: &str, deep: usize, names: &mut Vec<String>) {
-    for (name, member) in schema["properties"].as_object().into_iter().flatten() {
-        let name = format!("{prefix}{name}");
-        let member = meant(root, member);
-        let is = |kind: &str| match &member["type"] {
-            Value::Array(kinds) => kinds.iter().any(|k| k == kind),
-            one => one == kind,
-        };
-        if ["number", "integer", "boolean", "array"].into_iter().any(is) {
-            names.push(name);
-        } else if deep < DEEPEST {
-            collect(root, member, &format!("{name}."), deep + 1, names);
-        }
-    }
-}
-
-/// A schema behind a reference, or behind "this or null".
-fn meant<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
-    let choice = schema["anyOf"].as_array().and_then(|all| all.iter().find(|one| one["type"] != "null"));
-    let schema = choice.unwrap_or(schema);
-    let pointer = schema["$ref"].as_str().and_then(|text| text.strip_prefix('#'));
-    pointer.and_then(|pointer| root.pointer(pointer)).unwrap_or(schema)
-}
-
 /// The figures of one score.
 pub struct Figures(BTreeMap<String, f64>);
 
 impl Figures {
-    /// Of a score, and of one road user in it.
-    pub fn new(score: &Score, actor: Option<&str>) -> Self {
+    /// Of a score, of one road user in it, and of how this one meets another.
+    pub fn new(score: &Score, actor: Option<&str>, pair: Option<&MeetingPair>) -> Self {
         let mut all = BTreeMap::from([(ROAD_USERS.to_owned(), score.agents.len() as f64)]);
         let mut add = |prefix: &str, value: serde_json::Result<Value>| {
             // A score always has a JSON form.
@@ -143,11 +100,28 @@ impl Figures {
                 flatten(prefix, &value, &mut all);
             }
         };
-        add("", serde_json::to_value(&score.scene));
-        if let Some(agent) = actor.and_then(|id| score.agents.get(id)) {
+        let scene = serde_json::to_value(&score.scene).unwrap_or_default();
+        if let Some((id, agent)) = actor.and_then(|id| Some((id, score.agents.get(id)?))) {
             add(ACTOR, serde_json::to_value(agent));
+            let own = |list: &String| {
+                let entries = scene[list].as_array()?.iter().filter(|entry| entry["agent"] == id);
+                Some((list.clone(), Value::Array(entries.cloned().collect())))
+            };
+            add(ACTOR, Ok(Value::Object(lists_by_agent().iter().filter_map(own).collect())));
+        }
+        add("", Ok(scene));
+        if let Some(pair) = pair {
+            add(PAIR, serde_json::to_value(pair.measures));
+            add(PAIR, Ok(serde_json::json!({ OTHER_FIRST: pair.other_first })));
         }
         Self(all)
+    }
+
+    /// Of a score and the motions that it scores: the figures of a pair are those of the actor with `other`, or without
+    /// one with whom it comes nearest to a collision.
+    pub fn of(score: &Score, input: &ScoreInput<'_>, actor: Option<&str>, other: Option<&str>) -> Self {
+        let pair = actor.and_then(|id| MeetingSearch::new(input).of(id, other));
+        Self::new(score, actor, pair.as_ref())
     }
 
     /// Of a table's row.
@@ -214,7 +188,7 @@ mod tests {
         let empty = Scene::bare("none", scene::LaneMap::default(), Vec::new());
         let drivable = Drivable::new(&empty.map);
         let score = scene::score::score(&ScoreInput::of_scene(&empty, &drivable));
-        let figures = Figures::new(&score, None);
+        let figures = Figures::new(&score, None, None);
         assert_eq!((figures.get("collisions"), figures.get("min_ttc_s")), (Some(0.0), None));
         // Every figure of a score can be used by its name.
         assert!(figures.0.keys().all(|name| known.contains(name)), "{:?}", figures.0.keys());

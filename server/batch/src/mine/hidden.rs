@@ -1,7 +1,7 @@
 //! Pedestrians that a vehicle cannot see.
 
 use scene::geometry::direction;
-use scene::score::meeting::HardestPair;
+use scene::score::meeting::MeetingPair;
 use scene::score::{Actor, ScoreInput};
 use scene::{AgentType, STEP_S, State, Vec2};
 
@@ -24,7 +24,7 @@ pub(super) fn hidden_s(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
     other: &Actor<'_>,
-    pair: &HardestPair,
+    pair: &MeetingPair,
 ) -> Option<f64> {
     let (walker, vehicle) = match (actor.agent_type, other.agent_type) {
         (AgentType::Pedestrian, AgentType::Vehicle) => (actor, other),

@@ -11,7 +11,7 @@ mod tests;
 use crate::case::facts::recorded_input;
 use lanes::LaneChange;
 use scene::routes::LaneGraph;
-use scene::score::meeting::{HardestPair, MeetingSearch, PairRelation};
+use scene::score::meeting::{MeetingPair, MeetingSearch, PairRelation};
 use scene::score::report::{EncounterKind, Stretch};
 use scene::score::{Actor, Drivable, ScoreInput, score};
 use scene::{STEP_S, Scene, State};
@@ -130,7 +130,7 @@ pub fn mine(scene: &Scene, graph: &LaneGraph, drivable: &Drivable) -> Vec<MinedE
     let mut events = Vec::new();
     of_score(&input, &mut events);
     let search = MeetingSearch::new(&input);
-    let pairs: Vec<Option<HardestPair>> = (0..input.actors.len()).map(|of| search.hardest(of)).collect();
+    let pairs: Vec<Option<MeetingPair>> = (0..input.actors.len()).map(|of| search.hardest(of)).collect();
     of_crossings(&input, &pairs, &mut events);
     for actor in &input.actors {
         for change in lanes::changes(&input, actor, graph) {
@@ -219,7 +219,7 @@ fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
 }
 
 /// Crossings of the pairs, each pair once.
-fn of_crossings(input: &ScoreInput<'_>, pairs: &[Option<HardestPair>], events: &mut Vec<MinedEvent>) {
+fn of_crossings(input: &ScoreInput<'_>, pairs: &[Option<MeetingPair>], events: &mut Vec<MinedEvent>) {
     let mut known = BTreeSet::new();
     for (of, pair) in pairs.iter().enumerate() {
         let Some(pair) = pair.as_ref().filter(|pair| pair.relation == PairRelation::Crossing) else {

@@ -11,6 +11,7 @@ use experts::{Cancel, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::Scene;
 use scene::scenarios::{Casting, Template};
+use scene::score::ScoreInput;
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -98,8 +99,13 @@ impl Maker<'_> {
         let scores =
             scores.map_or_else(|| vec![None; all_samples], |scores| scores.into_iter().map(Some).collect());
         let (mut samples, mut numbers) = (Vec::new(), Vec::new());
+        let drivable = self.operations.generator.maps().drivable(&scene.map);
+        let other = casting.as_ref().and_then(|casting| casting.other.as_deref());
         for (number, (sample, score)) in all.into_iter().zip(scores).enumerate() {
-            let figures = score.map(|score| Figures::new(&score, actor.as_deref()));
+            let figures = score.map(|score| {
+                let input = ScoreInput::of_sample(&scene, Some(&sample), &drivable);
+                Figures::of(&score, &input, actor.as_deref(), other)
+            });
             let wanted = |figures: &Figures| args.filter.as_ref().is_none_or(|filter| filter.holds(figures));
             if figures.as_ref().is_none_or(wanted) {
                 samples.push(sample);

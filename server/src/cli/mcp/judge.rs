@@ -40,7 +40,7 @@ pub fn score(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnsw
         return Err(super::give::unknown_road_user(id));
     }
     let score = tools.operations.score(&request, &Subject::passing(scene))?;
-    let figures = Figures::new(&score, call.road_user.as_deref());
+    let figures = Figures::new(&score, call.road_user.as_deref(), None);
     let mut lines = vec![summary(&score)];
     lines.extend(figures.all().iter().map(|(name, value)| format!("{name} = {}", rounded(*value))));
     lines.extend(entries(&score));

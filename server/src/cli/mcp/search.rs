@@ -11,6 +11,7 @@ use batch::figures::{FigureFilter, Figures};
 use experts::Cancel;
 use formats::native::ConditionsDoc;
 use scene::scenarios::{Casting, Template};
+use scene::score::ScoreInput;
 use scene::{Sample, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -141,13 +142,14 @@ fn one_seed(
     cancel: &Cancel,
 ) -> Result<Option<Try>, Problem> {
     let mut request = GenerateRequest { seed, score: true, ..asked.clone() };
-    let mut words = Vec::new();
+    let (mut words, mut affected) = (Vec::new(), None);
     if let Some(template) = template {
         let graph = tools.operations.generator.maps().graph(&scene.map);
         let fixed = BTreeMap::new();
         let casting = template.cast(scene, &graph, asked.start_step(), asked.horizon_s, seed, &fixed);
         let Some(casting) = casting else { return Ok(None) };
-        let Casting { actor, conditions, words: said, .. } = casting;
+        let Casting { actor, other, conditions, words: said, .. } = casting;
+        affected = other;
         request.conditions.0.insert(actor.clone(), ConditionsDoc::from_conditions(&conditions));
         request.agents = Some(AgentChoice::Ids(vec![actor]));
         if matches!(request.react, ReactChoice::Whether(false)) {
@@ -160,11 +162,14 @@ fn one_seed(
     let asked = plan.request.agents.as_ref();
     let actor = asked.filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
     let answered = tools.operations.start(plan, cancel.clone())?.answer()?;
-    let scores = answered.scores.iter().flatten();
-    let scored = scores.map(|score| (filter.miss(&Figures::new(score, actor.as_deref())), score));
-    let scored = scored.zip(&answered.samples);
-    let nearest = scored.min_by(|((a, _), _), ((b, _), _)| a.total_cmp(b));
-    let Some(((miss, score), sample)) = nearest else { return Ok(None) };
+    let drivable = tools.operations.generator.maps().drivable(&answered.scene.map);
+    let scored = answered.scores.iter().flatten().zip(&answered.samples).map(|(score, sample)| {
+        let input = ScoreInput::of_sample(&answered.scene, Some(sample), &drivable);
+        let figures = Figures::of(score, &input, actor.as_deref(), affected.as_deref());
+        (filter.miss(&figures), score, sample)
+    });
+    let nearest = scored.min_by(|(a, ..), (b, ..)| a.total_cmp(b));
+    let Some((miss, score, sample)) = nearest else { return Ok(None) };
     words.push(super::judge::summary(score));
     let (what, sample) = (words.join("; "), sample.clone());
     Ok(Some(Try { seed, miss, what, answered, sample }))

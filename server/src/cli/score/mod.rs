@@ -123,10 +123,9 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
             .map_err(|reason| Failure::usage(format!("--sample: {}: {reason}", source.shown())))?;
         for (number, sample) in samples {
             scored.looked_at += 1;
-            let input = ScoreInput::of_sample(&item.scene, sample, &drivable);
-            let score = scene::score::score(&args.counting.applied(input));
-            let actor = figures::actor_of(&item.scene);
-            let figures = Figures::new(&score, actor);
+            let input = args.counting.applied(ScoreInput::of_sample(&item.scene, sample, &drivable));
+            let score = scene::score::score(&input);
+            let figures = Figures::of(&score, &input, figures::actor_of(&item.scene), None);
             if args.filter.as_ref().is_some_and(|filter| !filter.holds(&figures)) {
                 continue;
             }
