@@ -1,17 +1,19 @@
 // Cases: conditions, attempts, and the state after a search.
 import { describe, expect, it } from 'vitest';
 import { NOTHING_SAID } from '../../src/model/document/future-facts';
-import { attempt, withAttempt } from '../../src/model/physics/attempts';
+import { conditionOn, methodFor, situationOf, withTry } from '../../src/model/physics/case-search';
+import type { SearchBody, Try } from '../../src/model/physics/case-search';
 import { alike, KINDS, momentOf, type Moment, type Sought } from '../../src/model/physics/cases';
 import { emptyMotion, type MotionSet } from '../../src/model/document/futures';
 import { motionFrom, type Motion } from '../../src/model/base/motion';
-import { sceneKey, startPose, withAgents, type Scene } from '../../src/model/document/scene';
+import { sceneKey, startPose, withAgents, type Agent, type Scene } from '../../src/model/document/scene';
 import { Cases } from '../../src/edit/tools/cases/cases';
+import { Tries } from '../../src/edit/tools/cases/tries';
 import { RequestBuilder } from '../../src/edit/asking/request-builder';
 import { SceneFile } from '../../src/edit/document/scene-file';
-import { Maker } from '../../src/edit/asking/take-maker';
+import { Client } from '../../src/net/client';
 import { car, crossing } from '../helpers';
-import { finalOf, InMemoryGenerator, json, Session } from '../edit/session';
+import { finalWith, InMemoryGenerator, json, Session, six } from '../edit/session';
 
 const [ME, OTHER] = ['1', '2'];
 const STEPS = 90;
@@ -172,50 +174,136 @@ describe('a red light', () => {
   });
 });
 
-describe('attempts', () => {
+describe('a search in the words of the API', () => {
   const scene = crossing();
   const may = { speed: true, time: true, seed: true, place: true };
+  const aimed = (): Agent => ({ ...car(scene), goal: { ...car(scene).goal, pos: [30, 0] as const, time: 7 } });
 
-  it('begin with the scene as it is, and change only what may change, within limits', () => {
-    const a = { ...car(scene), goal: { ...car(scene).goal, pos: [30, 0] as const } };
-    expect(attempt(a, scene, may, 0, 20)).toEqual({ seed: scene.seed, speed: null, time: null, ahead: null });
-    for (let n = 1; n < 200; n++) {
-      const t = attempt(a, scene, may, n, 20);
-      expect(t.speed).toBeGreaterThanOrEqual(0);
-      expect(t.speed).toBeLessThanOrEqual(20);
-      expect(t.time).toBeGreaterThanOrEqual(1);
-      expect(t.time).toBeLessThanOrEqual(scene.duration);
-      expect(attempt(a, scene, { ...may, speed: false, seed: false, place: false }, n, 20)).toEqual({
-        seed: scene.seed,
-        speed: null,
-        time: t.time,
-        ahead: null,
-      });
-      expect(Math.abs(t.ahead!)).toBeLessThanOrEqual(5);
-    }
+  it('has ranges of what may vary alone, within limits, beside what the document asks for', () => {
+    const now = startPose(car(scene))!.speed;
+    const of = situationOf(aimed(), scene, { ...may, place: false }, 20)!;
+    expect(of.agents).toEqual([ME]);
+    expect(of.goal).toEqual({ x_m: 30, y_m: 0, time_s: { uniform: [4, scene.duration] } });
+    const { uniform } = of.start!.speed_mps as { uniform: number[] };
+    expect(uniform[0]).toBeGreaterThanOrEqual(0);
+    expect(uniform[0]).toBeLessThan(now);
+    expect(uniform[1]).toBeGreaterThan(now);
+    expect(uniform[1]).toBeLessThanOrEqual(20);
+    const [no, speed] = [false, false];
+    expect(situationOf(aimed(), scene, { ...may, speed, time: no }, 20)).toEqual({
+      agents: [ME],
+      start: { ahead_m: { uniform: [-5, 5] } },
+    });
+    // Without a goal there is no time to vary, and a goal with edges to cross stays whole.
+    const edged = { ...aimed(), goal: { ...aimed().goal, mayCross: ['e'] } };
+    for (const a of [car(scene), edged]) expect(situationOf(a, scene, { ...may, speed, place: no }, 20)).toBeNull();
   });
 
-  it('leave all others unchanged', () => {
-    const tried = withAttempt(scene, ME, { seed: 9, speed: 3, time: null, ahead: 2 });
+  it('keeps a start of the document where only its speed varies, and shifts from it where its place does', () => {
+    const a = { ...car(scene), start: { pos: [3, 4] as const, heading: 1, speed: 8 } };
+    const fixed = situationOf(a, scene, { ...may, place: false, time: false }, 20)!;
+    expect(fixed.start).toEqual({ x_m: 3, y_m: 4, heading_rad: 1, speed_mps: { uniform: [4, 12] } });
+    const shifted = situationOf(a, scene, { ...may, speed: false, time: false }, 20)!;
+    expect(shifted.start).toEqual({ heading_rad: 1, speed_mps: 8, ahead_m: { uniform: [-5, 5] } });
+  });
+
+  it('has a condition for each kind', () => {
+    const all = (Object.keys(KINDS) as Sought['what'][]).map((what) => conditionOn(sought(what)));
+    expect(all).toEqual([
+      'actor.min_distance_m <= 3',
+      'actor.min_distance_m <= 2',
+      'actor.pet_s <= 4',
+      'actor.kinematic.brake_mps2 >= 4 && actor.collisions == 0',
+      'actor.goal_error.position_m <= 1 && actor.min_distance_m <= 2 && actor.collisions == 0',
+      'red_lights >= 1',
+    ]);
+    expect([methodFor(sought('braking', 4, null)), methodFor(sought('near'))]).toEqual(['search', 'sobol']);
+  });
+
+  it('gives the document of a try, and leaves all others unchanged', () => {
+    const p = startPose(car(scene))!;
+    const [x_m, y_m] = [p.x + 2 * Math.cos(p.heading), p.y + 2 * Math.sin(p.heading)];
+    const request = tryAt(9, { start: { x_m, y_m, speed_mps: 3 } }).request!;
+    const tried = withTry(scene, ME, request)!;
     expect(tried.seed).toBe(9);
-    expect(startPose(tried.agents.get(ME)!)!.speed).toBe(3);
+    expect(startPose(tried.agents.get(ME)!)).toMatchObject({ x: x_m, y: y_m, heading: p.heading, speed: 3 });
     for (const [id, a] of scene.agents) if (id !== ME) expect(tried.agents.get(id)).toBe(a);
-    const [p, q] = [scene, tried].map((s) => startPose(s.agents.get(ME)!)!);
-    expect(Math.hypot(q.x - p.x, q.y - p.y)).toBeCloseTo(2, 1);
     // It does not start where another road user stands.
-    const blocker = { ...scene.agents.get(OTHER)!, start: { pos: [q.x, q.y] as const, heading: q.heading, speed: 0 } };
-    const full = withAgents(scene, [blocker]);
-    const beside = startPose(withAttempt(full, ME, { seed: 9, speed: 3, time: null, ahead: 2 }).agents.get(ME)!)!;
-    expect(Math.hypot(beside.x - p.x, beside.y - p.y)).toBeLessThan(1.5);
+    const blocker = { ...scene.agents.get(OTHER)!, start: { pos: [x_m, y_m] as const, heading: p.heading, speed: 0 } };
+    expect(withTry(withAgents(scene, [blocker]), ME, request)).toBeNull();
+    const aim = withAgents(scene, [aimed()]);
+    const timed = tryAt(9, { goal: { x_m: 30, y_m: 0, time_s: 6.2468 } }).request!;
+    expect(withTry(aim, ME, timed)!.agents.get(ME)!.goal).toMatchObject({ pos: [30, 0], time: 6.2 });
   });
 });
 
-/** Answers at once with the same six futures; the score is empty. */
+type TryBody = NonNullable<Try['request']>;
+
+/** A try that satisfies its condition, unless it says by how much not. */
+const tryAt = (seed: number, conditions: TryBody['conditions'][string] = {}, miss = 0): Try => ({
+  number: seed,
+  outcome: miss ? 'left-out' : 'kept',
+  drawn: {},
+  figures: {},
+  miss,
+  code: 'AAAAAA',
+  request: {
+    agents: [ME],
+    conditions: { [ME]: conditions },
+    seed,
+    diversity: 0.5,
+    horizon_s: 9,
+    modes: 6,
+    react: true,
+    start_s: 0,
+    steps: 5,
+  },
+});
+
+/** Answers at once with the same six futures, and each time with another one chosen; the score is empty. */
 class Prompt extends InMemoryGenerator {
+  /** Always this one, where it is given. */
+  choice: number | null = null;
+
   override ask(q: Parameters<InMemoryGenerator['ask']>[0]): void {
     super.ask(q);
-    queueMicrotask(() => q.on.final(finalOf(ME), 1));
+    const all = six(ME);
+    const chosen = this.choice ?? this.asked.length % all.modes.length;
+    queueMicrotask(() => q.on.final(finalWith({ [ME]: { ...all, chosen } }), 1));
   }
+}
+
+interface Searched {
+  readonly body: SearchBody;
+  readonly signal: AbortSignal;
+}
+
+/** Answers each search with as many tries as were asked for, each with this miss; `hold` leaves the stream open. */
+class SearchServer {
+  readonly searched: Searched[] = [];
+  miss: (number: number) => number = () => 0;
+  hold = false;
+  problem: string | null = null;
+
+  readonly fetcher = (_: unknown, init?: RequestInit): Promise<Response> => {
+    const body = JSON.parse(init!.body as string) as SearchBody;
+    this.searched.push({ body, signal: init!.signal! });
+    const seeds = body.seeds as number[];
+    const tries = Array.from({ length: body.tries! * seeds.length }, (_, i): Try => {
+      const seed = seeds[i % seeds.length];
+      if (this.problem) return { number: i, outcome: 'failed', drawn: {}, figures: {}, problem: this.problem };
+      return { ...tryAt(seed, { start: { speed_mps: 5 + (i % 50) / 10 } }, this.miss(i)), number: i };
+    });
+    const lines = tries.map((of) => `${JSON.stringify({ event: 'try', ...of })}\n`);
+    const stream = new ReadableStream<Uint8Array>({
+      start: (to) => {
+        for (const line of lines) to.enqueue(new TextEncoder().encode(line));
+        if (!this.hold) to.close();
+        init!.signal!.addEventListener('abort', () => this.hold && to.error(init!.signal!.reason));
+      },
+    });
+    return Promise.resolve(new Response(stream));
+  };
 }
 
 describe('a search', () => {
@@ -224,31 +312,63 @@ describe('a search', () => {
     const file = new SceneFile(s.editor);
     file.adopt(json, {} as never, true);
     const line = new Prompt();
-    const maker = new Maker(s.editor, new RequestBuilder(s.editor, file), line, file);
-    const cases = new Cases(s.editor, maker, () => line.cancel());
+    const server = new SearchServer();
+    const tries = new Tries({
+      editor: s.editor,
+      file,
+      client: new Client('', server.fetcher as typeof fetch),
+      generator: () => line,
+      questions: () => new RequestBuilder(s.editor, file),
+    });
+    const cases = new Cases(s.editor, tries);
     cases.open('near', [ME, OTHER]);
-    return { editor: s.editor, cases, line };
+    return { editor: s.editor, cases, line, server };
   }
 
-  it('ends by itself, changes nothing, and reports the closest attempt', async () => {
-    const { editor, cases, line } = begin();
+  it('ends by itself, changes nothing, and reports the closest try', async () => {
+    const { editor, cases, line, server } = begin();
     const before = editor.scene.peek();
     cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
+    server.miss = (n) => 1 / (n + 1);
     await cases.run();
     expect(cases.state.peek()).toBe('done');
     expect(cases.progress.peek().tried).toBe(cases.progress.peek().of);
-    expect(line.asked.length).toBeGreaterThan(40);
+    expect(server.searched.map(({ body }) => body.tries! * (body.seeds as number[]).length)).toEqual(
+      Array.from({ length: 5 }, () => 60),
+    );
+    // Of the tries that miss, only those that come nearer than all before are made again.
+    expect(line.asked).toHaveLength(60);
     expect(editor.scene.peek()).toBe(before);
     expect(editor.document.undoName.peek()).toBeNull();
     expect(cases.found.peek().length + (cases.closest.peek() ? 1 : 0)).toBeGreaterThan(0);
   });
 
+  it('asks for the ranges, the condition and other seeds each time, with the conditions of the scene', async () => {
+    const { editor, cases, server } = begin();
+    server.miss = () => 1;
+    await cases.run();
+    const [one, two] = server.searched.map(({ body }) => body);
+    expect(one.where).toBe(conditionOn(cases.sought.peek()!));
+    expect(one.situation).toMatchObject({
+      agents: [ME],
+      start: { speed_mps: { uniform: [expect.any(Number), expect.any(Number)] } },
+    });
+    expect(one.generate!.react).toBe(true);
+    expect(one.scene!.agents!.map((a) => a.id)).toEqual([...editor.scene.peek()!.agents.keys()]);
+    expect([one.seed, two.seed]).toEqual([0, 1]);
+    const seeds = server.searched.flatMap(({ body }) => body.seeds as number[]);
+    expect(new Set(seeds).size).toBe(seeds.length);
+    expect(seeds[0]).toBe(editor.scene.peek()!.seed);
+  });
+
   it('finds a case, shows it beside the scene, and takes it in one step that can be undone', async () => {
-    const { editor, cases } = begin();
+    const { editor, cases, server } = begin();
     const before = editor.scene.peek()!;
     cases.seek({ ...cases.sought.peek()!, limit: 10 });
+    server.miss = (n) => n % 10;
     await cases.run();
     const [first] = cases.found.peek();
+    expect(first.like).toBeGreaterThan(0);
     cases.show(first.id);
     expect(editor.view.beside.peek()?.meeting?.who).toEqual([ME, OTHER]);
     expect(editor.playhead.time.peek()).toBeCloseTo(first.moment.time);
@@ -261,31 +381,69 @@ describe('a search', () => {
     expect(editor.document.undoName.peek()).toBeNull();
   });
 
+  it('follows another future of a try that would be a case, with the reactions to it', async () => {
+    const { cases, line, server } = begin();
+    cases.seek({ ...cases.sought.peek()!, limit: 10 });
+    line.choice = 0;
+    server.miss = (n) => n;
+    await cases.run();
+    const [first] = cases.found.peek();
+    const { chosen } = first.take.scene.agents.get(ME)!;
+    expect(chosen).toBeGreaterThan(0);
+    const [own, ...others] = line.asked.map(({ options }) => options.pinned);
+    expect(own).toBeUndefined();
+    expect(others).toContainEqual([ME]);
+  });
+
   it('sends no request during a drag', async () => {
-    const { editor, cases, line } = begin();
+    const { editor, cases, line, server } = begin();
+    server.miss = (n) => n;
     editor.select(ME);
     editor.drag.begin({ part: 'start', handle: 'body' });
     const going = cases.run();
     await new Promise((done) => setTimeout(done, 120));
-    expect(line.asked).toHaveLength(0);
+    expect(line.asked.length + server.searched.length).toBe(0);
     editor.drag.cancel();
     await going;
     expect(cases.state.peek()).toBe('done');
   });
 
-  it('stops at once, and resumes where it was', async () => {
-    const { cases, line } = begin();
+  it('stops at once, and resumes where it was with other seeds', async () => {
+    const { cases, line, server } = begin();
     cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
+    server.miss = () => 1;
+    server.hold = true;
     const going = cases.run();
-    await Promise.resolve();
+    await expect.poll(() => cases.progress.peek().tried).toBe(60);
     cases.stop();
     await going;
-    const { tried } = cases.progress.peek();
     expect(cases.state.peek()).toBe('paused');
     expect(line.cancelled).toBe(1);
+    expect(server.searched[0].signal.aborted).toBe(true);
+    server.hold = false;
     await cases.run();
-    expect(cases.progress.peek().tried).toBeGreaterThan(tried);
+    expect(cases.progress.peek().tried).toBe(300);
     expect(cases.state.peek()).toBe('done');
+    const [one, two] = server.searched.map(({ body }) => body);
+    expect(two.seeds).not.toEqual(one.seeds);
+  });
+
+  it('makes one try where nothing can differ', async () => {
+    const { cases, server } = begin();
+    for (const what of ['speed', 'seed'] as const) cases.toggleMay(what);
+    server.miss = () => 1;
+    await cases.run();
+    expect([cases.state.peek(), cases.progress.peek().tried]).toEqual(['done', 1]);
+    expect(server.searched.map(({ body }) => body.tries)).toEqual([1]);
+  });
+
+  it('reports why no try has a result', async () => {
+    const { cases, server } = begin();
+    server.problem = 'start-missing';
+    await cases.run();
+    expect(server.searched).toHaveLength(1);
+    expect(cases.state.peek()).toBe('paused');
+    expect(cases.problem.peek()).toMatch(/start-missing/);
   });
 
   it('reports a missing setting before it begins', () => {

@@ -4,7 +4,7 @@ import { KINDS, type Sought, type What } from '../../model/physics/cases';
 import { howWords, KIND_WORDS, momentWords, nothingWords, TITLES } from '../../model/words/case-words';
 import { readEvents } from '../../model/words/event-words';
 import { MOST_TRIES, type Case, type Cases, type Progress, type SearchState } from '../../edit/tools/cases/cases';
-import { PLACE_MORE_M } from '../../model/physics/attempts';
+import { PLACE_MORE_M } from '../../model/physics/case-search';
 import { accelerationUnit, leftWords, lengthText, lengthUnit, metres, num } from '../../model/base/units';
 import { useAlbum } from '../variants/album';
 import type { Pictured } from '../../edit/tools/variants/cards';

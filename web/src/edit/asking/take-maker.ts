@@ -73,16 +73,6 @@ export class Maker {
     return this.workOut(choose(seeded.agents.get(subject)!, which, '').apply(seeded), subject);
   }
 
-  /** The six futures of a road user in a document, before the others react. */
-  futuresOf(scene: Scene, subject: string): Promise<MotionSet> {
-    return this.#base(scene, subject);
-  }
-
-  /** Discards the cached answers. */
-  forget(): void {
-    this.#bases.clear();
-  }
-
   /** A variant of an earlier session: from the file, otherwise computed again. */
   async again(id: number, scene: Scene, subject: string | null): Promise<Take> {
     const kept = this.file.raw && readVariantSample(this.file.raw, id, scene);
@@ -94,10 +84,15 @@ export class Maker {
     const usual = subject === null ? emptyMotion('') : await this.#base(scene, subject);
     const own = subject !== null && dealt ? new Map(usual.futures).set(subject, dealt) : usual.futures;
     const base = { ...usual, futures: withTaken(scene, own) };
+    return this.after(scene, subject, base);
+  }
+
+  /** The same after a change of the subject, from a known motion. */
+  async after(scene: Scene, subject: string | null, base: MotionSet): Promise<Take> {
     const step: Step = { name: '', agent: subject, undo: false, ...(subject === null && scene.drawn ? EVERYBODY : {}) };
     const asked = requestForChange(this.editor, scene, step, base);
     if (typeof asked === 'string') return { scene, set: await this.#scored(scene, base) };
-    return { scene, set: await this.#answered(scene, base, asked) };
+    return { scene, set: await this.answered(scene, base, asked) };
   }
 
   /** The six futures of a road user, before the others react. */
@@ -109,13 +104,14 @@ export class Maker {
     if (known) return known;
     const mine = touchedIn(open);
     const who = open.drawn ? 'all' : mine.includes(subject) ? mine : [...mine, subject];
-    const asking = this.#answered(open, emptyMotion(''), { agents: who, react: false, step: null });
+    const asking = this.answered(open, emptyMotion(''), { agents: who, react: false, step: null });
     this.#bases.set(key, asking);
     asking.catch(() => this.#bases.delete(key));
     return asking;
   }
 
-  async #answered(scene: Scene, base: MotionSet, w: Wanted): Promise<MotionSet> {
+  /** The motion of all road users after a request, from a known motion. */
+  async answered(scene: Scene, base: MotionSet, w: Wanted): Promise<MotionSet> {
     const e = await this.#ask(scene, base, w);
     return motionAfter(base, scene, e, w, (a) => this.#letters(a, base));
   }

@@ -1,21 +1,21 @@
 // The search for a case: its target, progress and results. It uses the scene at its start; the document stays unchanged
 // until the user takes a case.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
-import { attempt, withAttempt, type MayChange } from '../../../model/physics/attempts';
+import type { MayChange, Try } from '../../../model/physics/case-search';
 import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../../model/physics/cases';
 import { momentWords } from '../../../model/words/case-words';
 import { findChanges } from '../../../model/words/change-words';
-import { choose } from '../../../model/document/commands';
-import { topSpeed } from '../../../model/base/domain';
 import type { MotionSet } from '../../../model/document/futures';
 import type { Motion } from '../../../model/base/motion';
 import { canMove, type Scene } from '../../../model/document/scene';
 import type { Vec } from '../../../model/base/geometry';
 import { stateOfVariant, takeVariant } from '../../../model/document/variants';
 import { Away, Refused } from '../../../net/client';
+import type { Problem } from '../../../net/types';
 import type { Editor } from '../../session/editor';
-import type { SceneBeside, Tries } from '../../session/view-settings';
-import { Stopped, type Maker, type Take } from '../../asking/take-maker';
+import type { SceneBeside, Tries as TriedPaths } from '../../session/view-settings';
+import { Stopped, type Take } from '../../asking/take-maker';
+import { OF_A_CALL, type SearchOf, type Tries } from './tries';
 import { TEXTS } from '../../../texts/editing/cases';
 
 /** A result: the motions of all, the moment in question, and the number of similar cases. */
@@ -58,13 +58,17 @@ export class Cases {
   readonly #closest = signal<Case | null>(null);
   readonly #shown = signal<number | null>(null);
   readonly #problem = signal<string | null>(null);
-  readonly #from = signal<{ readonly scene: Scene; readonly at: Date } | null>(null);
+  readonly #from = signal<{ readonly scene: Scene; readonly set: MotionSet; readonly at: Date } | null>(null);
   /** The case shown from here; another owner's overlay is not removed. */
   #beside: SceneBeside | null = null;
   /** Increases with every stop. */
   #turn = 0;
-  /** Total number of attempts for this target. */
-  #made = 0;
+  /** Calls for this target. */
+  #calls = 0;
+  /** Ends the running call. */
+  #over = new AbortController();
+  /** Least distance from the condition of the tries that were shown as the closest. */
+  #leastMiss = Infinity;
 
   readonly isOpen: ReadonlySignal<boolean> = this.#open;
   readonly sought: ReadonlySignal<Sought | null> = this.#sought;
@@ -88,8 +92,7 @@ export class Cases {
 
   constructor(
     private readonly editor: Editor,
-    private readonly maker: Maker,
-    private readonly cancel: () => void,
+    private readonly tries: Pick<Tries, 'search' | 'open' | 'cancel'>,
   ) {
     const scene = computed(() => editor.resting.value?.id);
     effect(() => {
@@ -166,75 +169,93 @@ export class Cases {
     if (!sought || !scene || this.obstacle.peek() || this.#state.peek() === 'running') return;
     const turn = ++this.#turn;
     batch(() => {
-      this.#from.value ??= { scene, at: new Date() };
+      this.#from.value ??= { scene, set: editor.answers.motion.peek(), at: new Date() };
       this.#problem.value = null;
       this.#state.value = 'running';
       const { tried, of } = this.#progress.peek();
       this.#progress.value = { ...this.#progress.peek(), of: tried >= of ? of + MOST_TRIES : of };
     });
+    const { set } = this.#from.peek()!;
     try {
-      await this.#tryAll(scene, sought, turn);
+      await this.#tryAll({ scene, set, sought, may: this.#may.peek() }, turn);
     } catch (e) {
-      if (!(e instanceof Stopped)) this.#fail(e);
+      if (!(e instanceof Stopped) && turn === this.#turn) this.#fail(e);
     }
     if (turn === this.#turn) this.#end();
   }
 
-  async #tryAll(scene: Scene, sought: Sought, turn: number): Promise<void> {
-    const who = scene.agents.get(sought.who)!;
+  async #tryAll(of: SearchOf, turn: number): Promise<void> {
     const began = { ms: performance.now(), tried: this.#progress.peek().tried };
-    const may = this.#may.peek();
-    while (this.#progress.peek().tried < this.#progress.peek().of && this.#found.peek().length < ENOUGH) {
+    for (let left = this.#left(); left > 0; left = this.#left()) {
       await this.#quiet();
       if (turn !== this.#turn) return;
-      const tried = withAttempt(scene, who.id, attempt(who, scene, may, this.#made++, topSpeed(who)));
-      this.maker.forget();
-      const base = await this.maker.futuresOf(tried, who.id);
-      if (turn !== this.#turn) return;
-      const promising = this.#promising(tried, base, sought);
-      for (const which of promising) {
-        await this.#quiet();
-        const take = await this.maker.workOut(choose(tried.agents.get(who.id)!, which, '').apply(tried), who.id);
+      this.#over = new AbortController();
+      let tries = 0;
+      let results = 0;
+      let failed = '';
+      for await (const tried of this.tries.search(of, this.#calls++, Math.min(left, OF_A_CALL), this.#over.signal)) {
         if (turn !== this.#turn) return;
-        this.#look(take, sought);
+        tries++;
+        if (tried.code !== undefined) results++;
+        failed = tried.problem ?? failed;
+        await this.#look(of, tried, turn);
+        if (turn !== this.#turn) return;
+        this.#count(began);
+        if (!this.#left()) return;
       }
-      const modes = base.futures.get(who.id)?.modes ?? [];
-      this.#draw(modes.map((m) => m.motion));
-      this.#count(modes.length || 1, began);
+      if (!results && failed) throw new Refused(422, { code: failed as Problem['code'], title: failed });
+      if (!tries) {
+        // Nothing else can be tried.
+        this.#progress.value = { ...this.#progress.peek(), of: this.#progress.peek().tried };
+        return;
+      }
     }
+  }
+
+  /** Tries that are left; 0 where enough is found. */
+  #left(): number {
+    const { tried, of } = this.#progress.peek();
+    return this.#found.peek().length < ENOUGH ? of - tried : 0;
   }
 
   /** Shows the searched paths on the picture. */
   #draw(motions: readonly Motion[]): void {
-    const all: Tries = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
+    const all: TriedPaths = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
     this.editor.view.showTries(Object.freeze(all.slice(-MOST_WAYS)));
   }
 
-  /** Futures that would match before reactions; if none does, the nearest one while there is no result. */
-  #promising(scene: Scene, base: MotionSet, sought: Sought): number[] {
-    const a = scene.agents.get(sought.who)!;
-    const modes = base.futures.get(a.id)?.modes ?? [];
-    const all = modes.flatMap((_, which) => {
-      const m = momentOf(choose(a, which, '').apply(scene), base, sought);
-      return m ? [{ which, m }] : [];
-    });
-    const would = all.filter((x) => x.m.found);
-    const nearest = all.sort((p, q) => p.m.miss - q.m.miss).slice(0, 1);
-    const { miss } = this.#closest.peek()?.moment ?? { miss: Infinity };
-    const worth = this.#found.peek().length === 0 && nearest.length > 0 && nearest[0].m.miss < miss;
-    return (would.length ? would : worth ? nearest : []).map((x) => x.which);
+  /** Makes a try again that satisfies the condition, and without a result so far one that comes nearer. */
+  async #look(of: SearchOf, tried: Try, turn: number): Promise<void> {
+    const { sought } = of;
+    const { miss = Infinity } = tried;
+    const nearer = this.#found.peek().length === 0 && miss < this.#leastMiss;
+    const counts = sought.what !== 'collision' && sought.what !== 'red';
+    const crashed = counts && (tried.figures['actor.collisions'] ?? 0) > 0;
+    let found = false;
+    if (miss === 0 || nearer) {
+      this.#leastMiss = Math.min(miss, this.#leastMiss);
+      await this.#quiet();
+      if (turn !== this.#turn) return;
+      for await (const take of this.tries.open(of, tried)) {
+        if (turn !== this.#turn) return;
+        this.#draw((take.set.futures.get(sought.who)?.modes ?? []).map((m) => m.motion));
+        found = this.#judge(take, sought);
+        if (found) break;
+      }
+    }
+    if (!found && crashed)
+      this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
   }
 
-  #look(take: Take, sought: Sought): void {
+  /** Is it a case? The figures of a try do not say of which two. A try counts as one case at most. */
+  #judge(take: Take, sought: Sought): boolean {
     const moment = momentOf(take.scene, take.set, sought);
-    if (!moment) return;
+    if (!moment) return false;
     const id = 1 + Math.max(0, ...this.#found.peek().map((c) => c.id));
     const fresh: Case = { id, take, moment, like: 0, starred: false };
     if (!moment.found) {
-      if (sought.what !== 'collision' && sought.what !== 'red' && moment.value === 0)
-        this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
       if (moment.miss < (this.#closest.peek()?.moment.miss ?? Infinity)) this.#closest.value = fresh;
-      return;
+      return false;
     }
     const known = this.#found.peek();
     const same = known.find((c) => alike(c.moment, moment));
@@ -246,12 +267,13 @@ export class Cases {
       this.#progress.value = { ...this.#progress.peek(), found: this.#progress.peek().found + 1 };
     });
     if (!same) this.editor.notices.say(TEXTS.caseSaid(id, momentWords(sought, moment)));
+    return true;
   }
 
-  #count(n: number, began: { ms: number; tried: number }): void {
+  #count(began: { ms: number; tried: number }): void {
     const now = this.#progress.peek();
-    const tried = Math.min(now.of, now.tried + n);
-    const each = (performance.now() - began.ms) / 1000 / Math.max(1, tried - began.tried);
+    const tried = now.tried + 1;
+    const each = (performance.now() - began.ms) / 1000 / (tried - began.tried);
     this.#progress.value = { ...now, tried, left: (now.of - tried) * each };
   }
 
@@ -279,7 +301,8 @@ export class Cases {
     if (this.#state.peek() !== 'running') return;
     this.#turn++;
     this.#state.value = 'paused';
-    this.cancel();
+    this.#over.abort();
+    this.tries.cancel();
   }
 
   #forget(): void {
@@ -288,7 +311,8 @@ export class Cases {
       this.#progress.value = NOTHING;
       this.#found.value = [];
       this.#closest.value = this.#problem.value = this.#from.value = null;
-      this.#made = 0;
+      this.#calls = 0;
+      this.#leastMiss = Infinity;
       this.editor.view.showTries([]);
       this.show(null);
     });
