@@ -8,7 +8,7 @@ import { emptyMotion, type MotionSet } from '../../src/model/document/futures';
 import { motionFrom, type Motion } from '../../src/model/base/motion';
 import { sceneKey, startPose, withAgents, type Agent, type Scene } from '../../src/model/document/scene';
 import { Cases } from '../../src/edit/tools/cases/cases';
-import { Tries } from '../../src/edit/tools/cases/tries';
+import { CaseTries } from '../../src/edit/tools/cases/tries';
 import { RequestBuilder } from '../../src/edit/asking/request-builder';
 import { SceneFile } from '../../src/edit/document/scene-file';
 import { Client } from '../../src/net/client';
@@ -313,7 +313,7 @@ describe('a search', () => {
     file.adopt(json, {} as never, true);
     const line = new Prompt();
     const server = new SearchServer();
-    const tries = new Tries({
+    const tries = new CaseTries({
       editor: s.editor,
       file,
       client: new Client('', server.fetcher as typeof fetch),

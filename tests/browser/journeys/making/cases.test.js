@@ -27,6 +27,8 @@ async function another(e, car) {
 journeys('looking for a case', (stage) => {
   it('searches by a sentence, shows the results, and takes one as one step', { timeout: 120_000 }, async () => {
     const e = await stage.open();
+    const searches = [];
+    e.page.on('request', (r) => r.url().endsWith('/v1/search') && searches.push(JSON.parse(r.postData()).where));
     await e.begin();
     await e.key('b');
     const car = await carOnTheMove(e);
@@ -37,6 +39,7 @@ journeys('looking for a case', (stage) => {
     await e.page.getByText(`Find hard braking of ${car.name} without a collision`).click();
     await e.page.waitForSelector('.seeking');
     await e.page.waitForFunction(() => /about|found/.test(document.querySelector('.seeking')?.textContent ?? ''));
+    assert.match(searches[0], /brake_mps2/);
     // Another target: a gap so wide that it is found soon.
     await e.page.getByRole('button', { name: 'Close the search' }).click();
     await e.page.locator(`[data-agent="${car.id}"]`).evaluate((el) => el.click());

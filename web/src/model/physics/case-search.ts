@@ -56,6 +56,13 @@ export function situationOf(a: Agent, scene: Scene, may: MayChange, top: number)
 const OTHER_FUTURES_M = 2;
 const OTHER_FUTURES_S = 2;
 
+/** A figure, compared with a number. */
+type FigureBound = readonly [figure: string, is: '<=' | '>=' | '==', number: number];
+
+const NO_COLLISION: FigureBound = ['actor.collisions', '==', 0];
+const gapAtMost = (metres: number): FigureBound => ['actor.min_distance_m', '<=', metres];
+const all = (...of: FigureBound[]): string => of.map((c) => c.join(' ')).join(' && ');
+
 /**
  * The condition on the figures of a try. They are those of the chosen future of the varied road user with anybody, and
  * of all red lights: what satisfies it is made again, and judged.
@@ -64,15 +71,15 @@ export function conditionOn({ what, limit }: Sought): string {
   switch (what) {
     case 'near':
     case 'collision':
-      return `actor.min_distance_m <= ${limit + OTHER_FUTURES_M}`;
+      return all(gapAtMost(limit + OTHER_FUTURES_M));
     case 'first':
-      return `actor.pet_s <= ${limit + OTHER_FUTURES_S}`;
+      return all(['actor.pet_s', '<=', limit + OTHER_FUTURES_S]);
     case 'braking':
-      return `actor.kinematic.brake_mps2 >= ${limit} && actor.collisions == 0`;
+      return all(['actor.kinematic.brake_mps2', '>=', limit], NO_COLLISION);
     case 'goal':
-      return `actor.goal_error.position_m <= ${AT_GOAL_M} && actor.min_distance_m <= ${limit} && actor.collisions == 0`;
+      return all(['actor.goal_error.position_m', '<=', AT_GOAL_M], gapAtMost(limit), NO_COLLISION);
     case 'red':
-      return 'red_lights >= 1';
+      return all(['red_lights', '>=', 1]);
   }
 }
 

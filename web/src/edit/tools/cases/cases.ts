@@ -13,9 +13,9 @@ import { stateOfVariant, takeVariant } from '../../../model/document/variants';
 import { Away, Refused } from '../../../net/client';
 import type { Problem } from '../../../net/types';
 import type { Editor } from '../../session/editor';
-import type { SceneBeside, Tries as TriedPaths } from '../../session/view-settings';
+import type { SceneBeside, Tries } from '../../session/view-settings';
 import { Stopped, type Take } from '../../asking/take-maker';
-import { OF_A_CALL, type SearchOf, type Tries } from './tries';
+import { OF_A_CALL, type CaseTries, type SearchOf } from './tries';
 import { TEXTS } from '../../../texts/editing/cases';
 
 /** A result: the motions of all, the moment in question, and the number of similar cases. */
@@ -92,7 +92,7 @@ export class Cases {
 
   constructor(
     private readonly editor: Editor,
-    private readonly tries: Pick<Tries, 'search' | 'open' | 'cancel'>,
+    private readonly tries: Pick<CaseTries, 'search' | 'open' | 'cancel'>,
   ) {
     const scene = computed(() => editor.resting.value?.id);
     effect(() => {
@@ -220,7 +220,7 @@ export class Cases {
 
   /** Shows the searched paths on the picture. */
   #draw(motions: readonly Motion[]): void {
-    const all: TriedPaths = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
+    const all: Tries = [...this.editor.view.tries.peek(), ...motions.map(wayOf)];
     this.editor.view.showTries(Object.freeze(all.slice(-MOST_WAYS)));
   }
 

@@ -18,8 +18,8 @@ export class Searching {
   /** Opens it for the selected road users; with `start` it begins at once. */
   async begin(what?: What, ids: readonly string[] = this.of.editor.selected.peek(), start = false): Promise<void> {
     try {
-      const [{ Cases }, { Tries }] = await Promise.all([import('./cases'), import('./tries')]);
-      const cases = this.#now.peek() ?? new Cases(this.of.editor, new Tries(this.of));
+      const [{ Cases }, { CaseTries }] = await Promise.all([import('./cases'), import('./tries')]);
+      const cases = this.#now.peek() ?? new Cases(this.of.editor, new CaseTries(this.of));
       this.#now.value = cases;
       cases.open(what, ids);
       if (start) await cases.run();

@@ -44,7 +44,7 @@ const UNHEARD: Handlers = {
   away: () => undefined,
 };
 
-export class Tries {
+export class CaseTries {
   readonly #client: Client;
   readonly #questions: RequestBuilder;
   readonly #maker: Maker;
