@@ -1,7 +1,7 @@
 // Cases: conditions, attempts, and the state after a search.
 import { describe, expect, it } from 'vitest';
 import { NOTHING_SAID } from '../../src/model/document/future-facts';
-import { conditionOn, methodFor, situationOf, withTry } from '../../src/model/physics/case-search';
+import { conditionOn, mayBeCase, situationOf, withTry } from '../../src/model/physics/case-search';
 import type { SearchBody, Try } from '../../src/model/physics/case-search';
 import { alike, KINDS, momentOf, type Moment, type Sought } from '../../src/model/physics/cases';
 import { emptyMotion, type MotionSet } from '../../src/model/document/futures';
@@ -199,34 +199,49 @@ describe('a search in the words of the API', () => {
     for (const a of [car(scene), edged]) expect(situationOf(a, scene, { ...may, speed, place: no }, 20)).toBeNull();
   });
 
-  it('keeps a start of the document where only its speed varies, and shifts from it where its place does', () => {
+  it('shifts and changes the start of the document, which stays in the scene', () => {
     const a = { ...car(scene), start: { pos: [3, 4] as const, heading: 1, speed: 8 } };
     const fixed = situationOf(a, scene, { ...may, place: false, time: false }, 20)!;
-    expect(fixed.start).toEqual({ x_m: 3, y_m: 4, heading_rad: 1, speed_mps: { uniform: [4, 12] } });
+    expect(fixed.start).toEqual({ speed_mps: { uniform: [4, 12] } });
     const shifted = situationOf(a, scene, { ...may, speed: false, time: false }, 20)!;
-    expect(shifted.start).toEqual({ heading_rad: 1, speed_mps: 8, ahead_m: { uniform: [-5, 5] } });
+    expect(shifted.start).toEqual({ ahead_m: { uniform: [-5, 5] } });
   });
 
-  it('has a condition for each kind', () => {
+  it('has a condition for each kind, about the two or about anybody', () => {
     const all = (Object.keys(KINDS) as Sought['what'][]).map((what) => conditionOn(sought(what)));
     expect(all).toEqual([
-      'actor.min_distance_m <= 3',
-      'actor.min_distance_m <= 2',
-      'actor.pet_s <= 4',
+      'pair.gap_m <= 1 && pair.gap_m > 0 && actor.collisions == 0',
+      'pair.gap_m <= 0',
+      'pair.pet_s <= 2 && pair.other_first == 0 && actor.collisions == 0',
       'actor.kinematic.brake_mps2 >= 4 && actor.collisions == 0',
-      'actor.goal_error.position_m <= 1 && actor.min_distance_m <= 2 && actor.collisions == 0',
-      'red_lights >= 1',
+      'actor.goal_error.position_m <= 1 && pair.gap_m <= 2 && actor.collisions == 0',
+      'actor.red_lights >= 1',
     ]);
-    expect([methodFor(sought('braking', 4, null)), methodFor(sought('near'))]).toEqual(['search', 'sobol']);
+    expect(conditionOn(sought('collision', 0, null))).toBe('actor.min_distance_m <= 0');
+  });
+
+  it('makes those tries again of which another future may be a case', () => {
+    const near = sought('near', 1);
+    expect(mayBeCase({ miss: 0, figures: {} }, near)).toBe(true);
+    expect(mayBeCase({ miss: 0.5, figures: { 'pair.gap_m': 2.9 } }, near)).toBe(true);
+    expect(mayBeCase({ miss: 0.5, figures: { 'pair.gap_m': 3.1 } }, near)).toBe(false);
+    expect(mayBeCase({ miss: 1, figures: {} }, near)).toBe(false);
+    expect(mayBeCase({ miss: 0.5, figures: { 'pair.pet_s': 3 } }, sought('first', 2))).toBe(true);
+    expect(mayBeCase({ miss: 0.5, figures: { 'pair.gap_m': 1 } }, sought('braking'))).toBe(false);
   });
 
   it('gives the document of a try, and leaves all others unchanged', () => {
     const p = startPose(car(scene))!;
     const [x_m, y_m] = [p.x + 2 * Math.cos(p.heading), p.y + 2 * Math.sin(p.heading)];
-    const request = tryAt(9, { start: { x_m, y_m, speed_mps: 3 } }).request!;
+    const request = tryAt(9, { start: { x_m, y_m, heading_rad: p.heading + 0.1, speed_mps: 3 } }).request!;
     const tried = withTry(scene, ME, request)!;
     expect(tried.seed).toBe(9);
-    expect(startPose(tried.agents.get(ME)!)).toMatchObject({ x: x_m, y: y_m, heading: p.heading, speed: 3 });
+    expect(startPose(tried.agents.get(ME)!)).toMatchObject({
+      x: x_m,
+      y: y_m,
+      heading: expect.closeTo(p.heading + 0.1),
+      speed: 3,
+    });
     for (const [id, a] of scene.agents) if (id !== ME) expect(tried.agents.get(id)).toBe(a);
     // It does not start where another road user stands.
     const blocker = { ...scene.agents.get(OTHER)!, start: { pos: [x_m, y_m] as const, heading: p.heading, speed: 0 } };
@@ -352,6 +367,7 @@ describe('a search', () => {
     expect(one.situation).toMatchObject({
       agents: [ME],
       start: { speed_mps: { uniform: [expect.any(Number), expect.any(Number)] } },
+      with: OTHER,
     });
     expect(one.generate!.react).toBe(true);
     expect(one.scene!.agents!.map((a) => a.id)).toEqual([...editor.scene.peek()!.agents.keys()]);

@@ -16,7 +16,7 @@ export interface MayChange {
   readonly speed: boolean;
   readonly time: boolean;
   readonly seed: boolean;
-  /** Start place, along its heading. */
+  /** Start place, along its lane. */
   readonly place: boolean;
 }
 
@@ -33,58 +33,63 @@ const range = (low: number, high: number): Schemas['Distribution'] => ({ uniform
 
 /** What a road user is asked for, with ranges of what may vary; null where nothing but the seed does. */
 export function situationOf(a: Agent, scene: Scene, may: MayChange, top: number): Situation | null {
-  const { start, goal } = conditionOf(a);
   const now = startPose(a)?.speed ?? 0;
   const wide = Math.max(SPEED_SHARE * now, Math.min(SPEED_MORE_MPS, top / 4));
-  const speed = may.speed ? { speed_mps: range(Math.max(0, now - wide), Math.min(top, now + wide)) } : {};
+  const start = {
+    ...(may.speed ? { speed_mps: range(Math.max(0, now - wide), Math.min(top, now + wide)) } : {}),
+    ...(may.place ? { ahead_m: range(-PLACE_MORE_M, PLACE_MORE_M) } : {}),
+  };
   // The ranges replace the whole goal, and have no edges that may be crossed.
   const timed = may.time && a.goal.pos !== null && !a.goal.mayCross.length;
   const [from, to] = [a.goal.time - TIME_MORE_S, a.goal.time + TIME_MORE_S];
   const time = { time_s: range(Math.max(TIME_LEAST_S, from), Math.min(scene.duration, to)) };
-  // A shift is from the recorded start, which is that of the document in the scene of a search.
-  const { x_m: x, y_m: y, ...rest } = start ?? {};
-  const place = may.place ? { ahead_m: range(-PLACE_MORE_M, PLACE_MORE_M) } : x == null ? {} : { x_m: x, y_m: y };
   if (!may.speed && !may.place && !timed) return null;
   return {
     agents: [a.id],
-    ...(may.speed || may.place ? { start: { ...rest, ...place, ...speed } as Situation['start'] } : {}),
-    ...(timed ? { goal: { ...goal, ...time } as Situation['goal'] } : {}),
+    ...(may.speed || may.place ? { start } : {}),
+    ...(timed ? { goal: { ...conditionOf(a).goal, ...time } as Situation['goal'] } : {}),
   };
 }
 
-/** The chosen future of a try may miss a case of another one by so much, where two road users are meant. */
-const OTHER_FUTURES_M = 2;
-const OTHER_FUTURES_S = 2;
-
 /** A figure, compared with a number. */
-type FigureBound = readonly [figure: string, is: '<=' | '>=' | '==', number: number];
+type FigureBound = readonly [figure: string, is: '<=' | '>=' | '>' | '==', number: number];
 
 const NO_COLLISION: FigureBound = ['actor.collisions', '==', 0];
-const gapAtMost = (metres: number): FigureBound => ['actor.min_distance_m', '<=', metres];
-const all = (...of: FigureBound[]): string => of.map((c) => c.join(' ')).join(' && ');
+const gapOf = ({ other }: Sought): string => (other === null ? 'actor.min_distance_m' : 'pair.gap_m');
 
-/**
- * The condition on the figures of a try. They are those of the chosen future of the varied road user with anybody, and
- * of all red lights: what satisfies it is made again, and judged.
- */
-export function conditionOn({ what, limit }: Sought): string {
+/** What the figures of a try must be, of the chosen future of the varied road user. */
+function boundsOf(s: Sought): FigureBound[] {
+  const { what, limit } = s;
   switch (what) {
     case 'near':
+      return [[gapOf(s), '<=', limit], [gapOf(s), '>', 0], NO_COLLISION];
     case 'collision':
-      return all(gapAtMost(limit + OTHER_FUTURES_M));
+      return [[gapOf(s), '<=', limit]];
     case 'first':
-      return all(['actor.pet_s', '<=', limit + OTHER_FUTURES_S]);
+      return [['pair.pet_s', '<=', limit], ['pair.other_first', '==', 0], NO_COLLISION];
     case 'braking':
-      return all(['actor.kinematic.brake_mps2', '>=', limit], NO_COLLISION);
+      return [['actor.kinematic.brake_mps2', '>=', limit], NO_COLLISION];
     case 'goal':
-      return all(['actor.goal_error.position_m', '<=', AT_GOAL_M], gapAtMost(limit), NO_COLLISION);
+      return [['actor.goal_error.position_m', '<=', AT_GOAL_M], [gapOf(s), '<=', limit], NO_COLLISION];
     case 'red':
-      return all(['red_lights', '>=', 1]);
+      return [['actor.red_lights', '>=', 1]];
   }
 }
 
-/** The miss of a condition about one road user leads to a case; that of a pair would lead to any other pair. */
-export const methodFor = ({ other }: Sought): Schemas['SamplingMethod'] => (other === null ? 'search' : 'sobol');
+/** The condition on the figures of a try. */
+export const conditionOn = (s: Sought): string =>
+  boundsOf(s)
+    .map((bound) => bound.join(' '))
+    .join(' && ');
+
+/** Where the chosen future of a try comes as near as this, metres or seconds, another one may be a case. */
+const OTHER_FUTURES = 2;
+
+/** May one of the futures of a try be a case? */
+export function mayBeCase({ miss, figures }: Pick<Try, 'miss' | 'figures'>, s: Sought): boolean {
+  const near = boundsOf(s).find(([figure]) => figure === gapOf(s) || figure === 'pair.pet_s');
+  return miss === 0 || (near !== undefined && (figures[near[0]] ?? Infinity) <= near[2] + OTHER_FUTURES);
+}
 
 /** The document of a try, without a picked future for the varied road user; null where its start is occupied. */
 export function withTry(scene: Scene, id: string, { conditions, seed }: NonNullable<Try['request']>): Scene | null {
@@ -92,7 +97,8 @@ export function withTry(scene: Scene, id: string, { conditions, seed }: NonNulla
   const { start, goal } = conditions[id] ?? {};
   const [x, y] = [start?.x_m ?? null, start?.y_m ?? null];
   const pos = x === null || y === null ? a.start.pos : Object.freeze([x, y] as const);
-  const begun = { ...a.start, pos, speed: start?.speed_mps ?? a.start.speed };
+  const [heading, speed] = [start?.heading_rad ?? a.start.heading, start?.speed_mps ?? a.start.speed];
+  const begun = { ...a.start, pos, heading, speed };
   const s = setStart(a, begun).apply(patchScene('', { seed }).apply(scene));
   const at = s.agents.get(id)!;
   if (pos !== a.start.pos && !isFree(scene, at)) return null;

@@ -1,7 +1,7 @@
 // The search for a case: its target, progress and results. It uses the scene at its start; the document stays unchanged
 // until the user takes a case.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
-import type { MayChange, Try } from '../../../model/physics/case-search';
+import { mayBeCase, type MayChange, type Try } from '../../../model/physics/case-search';
 import { alike, KINDS, momentOf, type Moment, type Sought, type What } from '../../../model/physics/cases';
 import { momentWords } from '../../../model/words/case-words';
 import { findChanges } from '../../../model/words/change-words';
@@ -224,7 +224,7 @@ export class Cases {
     this.editor.view.showTries(Object.freeze(all.slice(-MOST_WAYS)));
   }
 
-  /** Makes a try again that satisfies the condition, and without a result so far one that comes nearer. */
+  /** Makes a try again that may be a case, and without a result so far one that comes nearer. */
   async #look(of: SearchOf, tried: Try, turn: number): Promise<void> {
     const { sought } = of;
     const { miss = Infinity } = tried;
@@ -232,7 +232,7 @@ export class Cases {
     const counts = sought.what !== 'collision' && sought.what !== 'red';
     const crashed = counts && (tried.figures['actor.collisions'] ?? 0) > 0;
     let found = false;
-    if (miss === 0 || nearer) {
+    if (mayBeCase(tried, sought) || nearer) {
       this.#leastMiss = Math.min(miss, this.#leastMiss);
       await this.#quiet();
       if (turn !== this.#turn) return;
@@ -247,7 +247,7 @@ export class Cases {
       this.#progress.value = { ...this.#progress.peek(), collisions: this.#progress.peek().collisions + 1 };
   }
 
-  /** Is it a case? The figures of a try do not say of which two. A try counts as one case at most. */
+  /** Is it a case? A try counts as one case at most. */
   #judge(take: Take, sought: Sought): boolean {
     const moment = momentOf(take.scene, take.set, sought);
     if (!moment) return false;

@@ -1,18 +1,11 @@
 // Tries for a case: the server makes and measures them; the page makes those again that it shows.
 import { DEFAULTS, topSpeed } from '../../../model/base/domain';
-import {
-  conditionOn,
-  methodFor,
-  situationOf,
-  withTry,
-  type MayChange,
-  type Try,
-} from '../../../model/physics/case-search';
+import { conditionOn, situationOf, withTry, type MayChange, type Try } from '../../../model/physics/case-search';
 import { momentOf, type Sought } from '../../../model/physics/cases';
 import { choose } from '../../../model/document/commands';
 import type { MotionSet } from '../../../model/document/futures';
 import { thoseWhoAnswer } from '../../../model/document/reaction-records';
-import { GOAL_TIME, withAgents, type Scene } from '../../../model/document/scene';
+import { GOAL_TIME, type Scene } from '../../../model/document/scene';
 import type { ConditionJson, SceneJson } from '../../../model/document/scene-json';
 import type { Client } from '../../../net/client';
 import type { Handlers } from '../../../net/generator';
@@ -35,7 +28,7 @@ type CaseSupplies = Pick<Supplies, 'client' | 'editor' | 'file' | 'generator' | 
 
 /** Most tries of one call: its time is limited, and the next one has other seeds. */
 export const OF_A_CALL = 60;
-/** Seeds of one call that learns: each is a search of its own. Even draws are more different with one. */
+/** Seeds of one call: each is a search of its own. */
 const SEEDS = 3;
 const UNHEARD: Handlers = {
   draft: () => undefined,
@@ -65,15 +58,15 @@ export class CaseTries {
     const ranges = situationOf(a, scene, may, topSpeed(a));
     // Tries with one seed and without a range are all the same.
     if (!ranges && !may.seed && turn > 0) return;
-    const method = ranges ? methodFor(sought) : 'random';
-    const each = ranges ? Math.ceil(most / (may.seed && method === 'search' ? SEEDS : 1)) : 1;
+    const method = ranges ? 'search' : 'random';
+    const each = ranges ? Math.ceil(most / (may.seed ? SEEDS : 1)) : 1;
     const seeds = may.seed ? Math.ceil(most / each) : 1;
     const { react, asked } = this.#asked(of);
     yield* triesOf(
       this.#client,
       asked,
       {
-        situation: ranges ?? { agents: [a.id] },
+        situation: { ...(ranges ?? { agents: [a.id] }), ...(sought.other === null ? {} : { with: sought.other }) },
         where: conditionOn(sought),
         tries: each,
         method,
@@ -93,12 +86,9 @@ export class CaseTries {
   }
 
   /** The searched scene, with its conditions and the motion of the others. */
-  #asked({ scene, set, sought: { who }, may }: SearchOf) {
-    const a = scene.agents.get(who)!;
-    // A shift is from the recording, and the document may have another start.
-    const own = may.place && a.start.pos ? withAgents(scene, [{ ...a, placed: true }]) : scene;
-    const wanted = wantedOf(own, set, who);
-    const question = this.#questions.makeApart(own, without(set, who), wanted, UNHEARD);
+  #asked({ scene, set, sought: { who } }: SearchOf) {
+    const wanted = wantedOf(scene, set, who);
+    const question = this.#questions.makeApart(scene, without(set, who), wanted, UNHEARD);
     const { conditions } = question.options;
     const withConditions = (of: SceneJson): SceneJson => ({
       ...of,
