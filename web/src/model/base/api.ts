@@ -1033,6 +1033,11 @@ export interface components {
             type?: components["schemas"]["AgentType"] | null;
             /** @description Width of the road user, metres. */
             width_m?: components["schemas"]["Distribution"] | null;
+            /**
+             * @description Id of the road user that the figures under `pair.` are about. Default: the one that a template or a pattern
+             *     affects, else the one with whom it comes nearest to a collision.
+             */
+            with?: string | null;
         };
         /**
          * Bound
@@ -5624,20 +5629,20 @@ export interface components {
         } & (unknown & unknown);
         /**
          * StartRanges
-         * @description Fields of a start; those absent are the recording's.
+         * @description Fields of a start; those absent are the scene's: of the conditions there, else of the recording.
          */
         StartRanges: {
-            /** @description Metres along the recorded heading from the recorded start. */
+            /** @description Metres from the start in the scene, along the lane that it is on, else along its heading. */
             ahead_m?: components["schemas"]["Distribution"] | null;
             /** @description Heading in the frame of the scene, radians. */
             heading_rad?: components["schemas"]["Distribution"] | null;
-            /** @description Metres to the left of the recorded heading. */
+            /** @description Metres to the left. */
             left_m?: components["schemas"]["Distribution"] | null;
             /** @description Metres per second. */
             speed_mps?: components["schemas"]["Distribution"] | null;
-            /** @description Multiple of the recorded speed, in place of `speed_mps`. */
+            /** @description Multiple of the speed in the scene, in place of `speed_mps`. */
             speed_times?: components["schemas"]["Distribution"] | null;
-            /** @description Radians from the recorded heading. */
+            /** @description Radians from the heading there. */
             turn_rad?: components["schemas"]["Distribution"] | null;
             /** @description Box centre in the frame of the scene, metres; with `y_m`. */
             x_m?: components["schemas"]["Distribution"] | null;
