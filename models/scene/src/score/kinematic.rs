@@ -9,19 +9,19 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
-/// Slower than this, curvature means nothing (yaw rate over speed), m/s.
+/// Speed below which curvature (yaw rate over speed) is undefined, m/s.
 const LEAST_CURVE_MPS: f64 = 1.0;
-/// Slower than this, a walker's direction means nothing, m/s.
+/// Speed below which a walker's direction is undefined, m/s.
 const LEAST_WALK_MPS: f64 = 0.3;
 
-/// Speeds and headings so many steps before and after a moment decide whether it is harsh.
+/// Number of steps before and after a moment over which harshness is measured.
 pub const HARSH_STEPS: usize = 2;
 
-/// What scoring still calls plausible: wider than [`Limits`], which generated motion keeps, because
-/// differences of rounded positions and foreign motion are noisier. `None`: not scored for this type.
+/// Limits of plausible motion in scores. They are wider than [`Limits`], which generated motion keeps,
+/// because differences of rounded positions and foreign motion are noisier. `None`: not scored for this type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KinematicLimits {
-    /// Speeding up, m/s2.
+    /// Acceleration, m/s2.
     pub accel_mps2: f64,
     /// Braking, m/s2, positive.
     pub brake_mps2: f64,
@@ -29,9 +29,9 @@ pub struct KinematicLimits {
     pub lateral_mps2: f64,
     /// Turning, rad/s.
     pub yaw_rate_radps: Option<f64>,
-    /// Change of the acceleration along the way, m/s3.
+    /// Change of the longitudinal acceleration, m/s3.
     pub jerk_mps3: Option<f64>,
-    /// Bend of the path, 1/m.
+    /// Curvature of the path, 1/m.
     pub curvature_per_m: Option<f64>,
 }
 
