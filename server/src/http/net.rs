@@ -163,9 +163,9 @@ impl ConnectionTable {
 
     /// Gives a connection a place; false if all places have work in progress. In a full table it replaces the
     /// connection that waits longest for a refusal, else the one idle longest, else the one with the slowest
-    /// request. Parties with more than a quarter of all places lose theirs first. A party with fewer places
-    /// may even replace the newest connection with work in progress of such a party; nobody replaces
-    /// connections of parties with fewer places.
+    /// request. Connections of parties with more than a quarter of all places are replaced first. Such a
+    /// party replaces no others; any other party may even replace their newest connection with work in
+    /// progress.
     fn admit(&self, new: &Arc<ConnectionEntry>) -> bool {
         let mut places = lock(&self.places);
         if places.len() >= self.most {
