@@ -1,6 +1,5 @@
 //! The journal: every change of a file or a name below the folder, in order and with its bytes. From it, the
-//! state of
-//! a disk after a power cut can be derived. Records are those of `dragtraffic_tests::power`.
+//! state of a disk after a power cut can be derived. Records are those of `dragtraffic_tests::power`.
 //!
 //! Nothing is really synced while a journal is kept: the effect of a sync is derived from the journal alone.
 

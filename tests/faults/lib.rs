@@ -1,12 +1,10 @@
 //! Makes file operations fail. The library is loaded before the system's (`LD_PRELOAD`), replaces the calls
-//! that write
-//! and read files, and fails some of them as the plan says. Only files below one folder are affected.
+//! that write and read files, and fails some of them as the plan says. Only files below one folder are
+//! affected.
 //!
 //! The plan is a small file that this process and the test map as shared memory; `dragtraffic_tests::faults`
-//! describes
-//! its words. If `FAULTS_JOURNAL` names a file, every change is recorded there, and the process ends in the
-//! middle of its
-//! work when the plan says so ([`journal`]).
+//! describes its words. If `FAULTS_JOURNAL` names a file, every change is recorded there, and the process
+//! ends in the middle of its work when the plan says so ([`journal`]).
 
 #![cfg(target_os = "linux")]
 #![allow(unsafe_code, reason = "it takes the place of C functions, and speaks to the kernel in their stead")]

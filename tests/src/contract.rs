@@ -1,6 +1,5 @@
 //! The committed OpenAPI document as a contract: every reply and every event that a test receives is checked
-//! against
-//! the schema of its operation and status.
+//! against the schema of its operation and status.
 
 #![allow(clippy::panic, clippy::expect_used, reason = "a reply that breaks the contract fails its test")]
 

@@ -1,6 +1,5 @@
 //! Deliberate disk faults: which calls of a running program fail, from when, and with which error. The
-//! library of
-//! `tests/faults` causes them, loaded into the program before the system's own.
+//! library of `tests/faults` causes them, loaded into the program before the system's own.
 
 use crate::program::{built, root};
 use crate::random::Random;
@@ -153,8 +152,7 @@ impl Disk {
     }
 
     /// Cuts the power at the last of this many changes from now on: programs that make it, or try to make
-    /// another one,
-    /// are killed.
+    /// another one, are killed.
     ///
     /// # Errors
     /// When the plan cannot be written.

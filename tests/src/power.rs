@@ -2,8 +2,7 @@
 //! `tests/faults` keeps of every change.
 //!
 //! A file has the bytes of its last sync, and a folder the names of its last sync (POSIX promises no more).
-//! Of later
-//! changes, a disk may have all, none, or any sectors.
+//! Of later changes, a disk may have all, none, or any sectors.
 
 use crate::random::Random;
 use anyhow::{Context, bail, ensure};
@@ -230,8 +229,7 @@ impl DiskModel {
     }
 
     /// Checks that the journal has every change: its result must equal the files. SQLite writes the index of
-    /// its log in
-    /// memory, so that file is left out; the first process that opens a store makes it anew.
+    /// its log in memory, so that file is left out; the first process that opens a store makes it anew.
     ///
     /// # Errors
     /// At the first file that differs.

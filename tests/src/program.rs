@@ -18,8 +18,8 @@ pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests if it is newer than its sources
-/// (`cargo test --workspace` has just built it), else a new build.
+/// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests if it is newer than its sources (`cargo
+/// test --workspace` has just built it), else a new build.
 #[allow(clippy::panic, reason = "no test can go on without it")]
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();

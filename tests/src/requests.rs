@@ -1,6 +1,5 @@
 //! Unexpected request bodies, sent to the real server: every reply must follow the document, and none may
-//! report a
-//! defect.
+//! report a defect.
 
 use crate::contract::promise;
 use crate::http::{Reply, Request};

@@ -1,10 +1,9 @@
 //! Module layers inside a crate, called rooms: which module imports which, read from the sources.
 //!
 //! A room is a module of a crate's root, or of a module that is a house of its own. Rooms stand on floors,
-//! and a room may
-//! import only rooms on lower floors: rooms on one floor do not depend on each other. [`rings`] looks for
-//! import cycles
-//! inside rooms, file by file. Both parse the text: every path outside comments and strings.
+//! and a room may import only rooms on lower floors: rooms on one floor do not depend on each other.
+//! [`rings`] looks for import cycles inside rooms, file by file. Both parse the text: every path outside
+//! comments and strings.
 
 use std::path::{Path, PathBuf};
 
@@ -94,8 +93,7 @@ fn module_of(path: &Path) -> Vec<String> {
 }
 
 /// All paths in the text of a module, from the crate's root: `use super::{b, c::D}` in `a::e` gives `a::b`
-/// and
-/// `a::c::D`. A path that begins with a plain name is relative to the module itself.
+/// and `a::c::D`. A path that begins with a plain name is relative to the module itself.
 fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
     let tokens = tokens(&without_words(text));
     // The inline modules of the text, each with the depth of braces at which it opened.
@@ -198,8 +196,7 @@ fn is_name(token: &str) -> bool {
 }
 
 /// Import cycles among the files of a folder below a crate's sources, each as a list of modules. `folder` is
-/// the
-/// module of the folder. Imports of types count like all others.
+/// the module of the folder. Imports of types count like all others.
 ///
 /// # Errors
 /// When the sources cannot be read.

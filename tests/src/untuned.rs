@@ -1,10 +1,9 @@
 //! Numbers of the engine outside its tables of tuned numbers, and a search for them in the sources.
 //!
 //! Reasons: an `input` is measured for the networks, a `bound` only leaves out what cannot matter, a `grid`
-//! and a
-//! `bracket` set the resolution of a search, a `divisor` keeps a division finite, `kinematics`, `geometry`,
-//! `angle` and
-//! `polynomial` follow from a formula, and a `sample` is the scene that warms the engine up.
+//! and a `bracket` set the resolution of a search, a `divisor` keeps a division finite, `kinematics`,
+//! `geometry`, `angle` and `polynomial` follow from a formula, and a `sample` is the scene that warms the
+//! engine up.
 
 /// Floating-point constants outside `experts::tuning`: file, name, and the reason in a word.
 pub const CONSTANTS: &[(&str, &str, &str)] = &[
@@ -140,8 +139,7 @@ pub fn float_constants(text: &str) -> Vec<&str> {
 }
 
 /// Floating-point literals in a text other than 0, 0.5, 1, 2 and small powers of ten, which are tolerances.
-/// Comments,
-/// the values of [`float_constants`], and tests at the end are left out.
+/// Comments, the values of [`float_constants`], and tests at the end are left out.
 pub fn float_literals(text: &str) -> Vec<String> {
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);
     let mut code: String = code

@@ -1,7 +1,6 @@
 //! Checks the documentation: its sizes, its links, the sections that a command prints, and every command that
-//! it shows.
-//! With `DOCS_ACCEPT=1`, sections and shown outputs are rewritten. `python/tests/test_docs.py` runs the
-//! Python blocks.
+//! it shows. With `DOCS_ACCEPT=1`, sections and shown outputs are rewritten. `python/tests/test_docs.py` runs
+//! the Python blocks.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -90,8 +89,7 @@ fn every_block_has_a_language_and_is_run_or_says_why_not() {
 }
 
 /// Runs every block of every page in the order of the page, in a folder with the example scenes, and the
-/// command of each
-/// generated section.
+/// command of each generated section.
 #[cfg(unix)]
 #[test]
 fn commands_run_and_print_what_the_pages_show() {

@@ -26,8 +26,7 @@ pub struct ProcessEngine {
     process: u32,
     operations: Operations,
     /// Threads of calls in a forked process: the shared pool of the thread library lost its threads in the
-    /// fork, and
-    /// would wait for them.
+    /// fork, and would wait for them.
     pool: Option<Arc<ThreadPool>>,
 }
 
@@ -70,8 +69,7 @@ impl ProcessEngine {
 }
 
 /// Runs work on another thread with the interpreter lock released, so that other Python threads go on. A
-/// signal such
-/// as Ctrl-C cancels it.
+/// signal such as Ctrl-C cancels it.
 ///
 /// # Errors
 /// A refusal, the exception of the signal, or a defect.

@@ -19,8 +19,7 @@ use std::sync::Arc;
 const COLUMNS: usize = 5;
 
 /// Result of a step: its number, the time at its end, the ids of the present road users, their states, and
-/// the rest
-/// as JSON if there is any.
+/// the rest as JSON if there is any.
 type Stepped<'py> = (u64, f64, Vec<String>, Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyBytes>>);
 
 /// Ids of the egos, one row of a state for each, and the plan that each announces: no rows for no plan.
@@ -78,8 +77,7 @@ impl NativeRun {
     }
 
     /// One step; `rows` of x, y, heading and velocity are the egos' states at its end. `plans` are the states
-    /// that each
-    /// ego announces, 0.1 s apart; an ego with zero rows announces none.
+    /// that each ego announces, 0.1 s apart; an ego with zero rows announces none.
     #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
     fn step<'py>(
         &mut self,
@@ -96,8 +94,7 @@ impl NativeRun {
     }
 
     /// One step of each of several runs, on several threads, with the arguments of [`step`](Self::step). All
-    /// runs are
-    /// stepped or, if one is refused, none.
+    /// runs are stepped or, if one is refused, none.
     #[staticmethod]
     #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
     fn step_together<'py>(

@@ -56,10 +56,8 @@ fn opened<'py>(py: Python<'py>, read: ReadScene) -> PyResult<(NativeScene, Bound
 #[pymethods]
 impl NativeScene {
     /// The scene at an index of a file's content, and what the reader changed or left out. `path` is the
-    /// location of the
-    /// file: the name has the ending, and a recorded table may need files beside it. `around` is the circle
-    /// of a map to read:
-    /// x, y and radius.
+    /// location of the file: the name has the ending, and a recorded table may need files beside it. `around`
+    /// is the circle of a map to read: x, y and radius.
     #[staticmethod]
     #[pyo3(signature = (content, path, index, around = None))]
     fn read<'py>(

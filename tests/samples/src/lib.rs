@@ -1,10 +1,8 @@
 //! Location of recorded scenes for tests; they are not part of the repository.
 //!
 //! `DRAGTRAFFIC_SAMPLES` names a folder with `womd/train`, `womd/val` and `formats/waymo`. Setting it
-//! promises that all
-//! of them exist: a test without its files then fails. Without the variable, tests read the folder
-//! `shared/data` beside
-//! the checkout, and a test that finds no files is skipped with a printed reason.
+//! promises that all of them exist: a test without its files then fails. Without the variable, tests read the
+//! folder `shared/data` beside the checkout, and a test that finds no files is skipped with a printed reason.
 
 #![allow(
     clippy::panic,

@@ -1,6 +1,5 @@
 //! `api SCHEMATHESIS CONFIG EXAMPLES SEED`: checks the real server against its own document with
-//! Schemathesis.
-//! `cargo xtask schemathesis` builds and runs it.
+//! Schemathesis. `cargo xtask schemathesis` builds and runs it.
 
 #![allow(clippy::print_stderr, reason = "it talks to people")]
 

@@ -1,11 +1,9 @@
-//! `doubling`: core time of every operation on a map, for towns of doubling size.
-//! `cargo xtask doubling` builds and runs it.
+//! `doubling`: core time of every operation on a map, for towns of doubling size. `cargo xtask doubling`
+//! builds and runs it.
 //!
 //! Each operation must be nearly linear in the points of the map: from half of the largest town to all of it,
-//! its time
-//! rises by less than [`MOST_RISE`]. Each request has its own map, since the server caches maps. Core time is
-//! measured,
-//! so that a busy machine does not change the result.
+//! its time rises by less than [`MOST_RISE`]. Each request has its own map, since the server caches maps.
+//! Core time is measured, so that a busy machine does not change the result.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -58,8 +56,7 @@ struct Towns {
 }
 
 /// Streets of 40 pieces with a bend after each, in square blocks with a side of 20 pieces, four streets to a
-/// block.
-/// Each seed gives other streets.
+/// block. Each seed gives other streets.
 fn town(lanes: usize, piece_m: f64, seed: u64) -> Value {
     let mut random = Random::new(seed);
     let mut part = || random.below(1 << 20) as f64 / f64::from(1 << 20);

@@ -1,12 +1,9 @@
 //! `fuzz [TARGET…] [--seconds N] [--seed S]`, `fuzz READER --file PATH`: tests readers and requests with
-//! unexpected
-//! inputs. `cargo xtask fuzz` builds and runs it.
+//! unexpected inputs. `cargo xtask fuzz` builds and runs it.
 //!
 //! Each target runs in its own process with bounded memory, so that a crash is a finding like any other.
-//! Inputs come from
-//! `fuzz/corpus/TARGET`; seed and number identify each, and failing ones are written to `target/fuzz`. `cargo
-//! fuzz` (see
-//! `fuzz/`) searches deeper, with a nightly compiler.
+//! Inputs come from `fuzz/corpus/TARGET`; seed and number identify each, and failing ones are written to
+//! `target/fuzz`. `cargo fuzz` (see `fuzz/`) searches deeper, with a nightly compiler.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -276,8 +273,7 @@ fn drive(
 }
 
 /// Core time of this thread, if the system reports it, so that other load does not count. Requests run on
-/// other
-/// threads, and the server has its own limits for them.
+/// other threads, and the server has its own limits for them.
 fn worked() -> Duration {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     Duration::from_nanos(text.split(' ').next().and_then(|ns| ns.parse().ok()).unwrap_or(0))

@@ -1,10 +1,8 @@
 //! `imports [FORMAT…] [--megabytes 10]`: time and memory that readers take for a file of about that size in
-//! each format.
-//! `cargo xtask imports` builds and runs it.
+//! each format. `cargo xtask imports` builds and runs it.
 //!
 //! Files are written by the formats' own writers, from repeated copies of a demo scene. A format without a
-//! writer reads
-//! the largest file of its corpus. Each file is read in its own process.
+//! writer reads the largest file of its corpus. Each file is read in its own process.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 

@@ -1,12 +1,9 @@
 //! `slowest [--tries N] [--seed S]`: searches for the slowest valid request within the limits, and measures
-//! drags at the
-//! same time. `cargo xtask slowest` builds and runs it.
+//! drags at the same time. `cargo xtask slowest` builds and runs it.
 //!
 //! Each kind of request is first tried at its limits. Then the slowest ones are changed at random, and a
-//! change that takes
-//! longer is kept. A request counts by the core time that the server spends on it, so that other work on the
-//! machine does
-//! not matter; a drag counts by the clock.
+//! change that takes longer is kept. A request counts by the core time that the server spends on it, so that
+//! other work on the machine does not matter; a drag counts by the clock.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -134,8 +131,7 @@ fn tangle(n: &[u64]) -> Value {
 }
 
 /// Lanes to and fro across a square of this side, alternately at right angles, so that each piece of one
-/// crosses all
-/// pieces of its neighbours; cars are on and beside them.
+/// crosses all pieces of its neighbours; cars are on and beside them.
 fn combs(n: &[u64]) -> Value {
     let (lanes, points, side_m, agents) = (n[0], n[1], n[2] as f64, n[3] as usize);
     let at = |i: u64, k: u64| {

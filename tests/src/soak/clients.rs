@@ -1,6 +1,5 @@
 //! Clients of all kinds in parallel, for a given time. Every reply must follow the document and be one that
-//! this client
-//! may get, and memory must not grow.
+//! this client may get, and memory must not grow.
 
 use super::{Tell, fit};
 use crate::http::{Reply, Request};
@@ -108,8 +107,7 @@ impl Common {
     }
 
     /// Runs clients for a given time, each in its own thread, and reads the memory of the server. The first
-    /// failure stops
-    /// all of them.
+    /// failure stops all of them.
     pub(super) fn work(
         self,
         server: &Server,

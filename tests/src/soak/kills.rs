@@ -1,6 +1,5 @@
 //! Kills at any moment while six writers work, every other one while the disk fails: acknowledged writes are
-//! stored, and
-//! every other write is stored completely or not at all.
+//! stored, and every other write is stored completely or not at all.
 
 use super::Tell;
 use crate::faults::{Disk, Fault};

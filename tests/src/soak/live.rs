@@ -1,6 +1,6 @@
 //! Fifty users of one server for a given time, each with a token: some drag, more edit and save, as many
-//! read, some run
-//! scripts. Every reply must follow the document, no save may be lost, and memory must not grow.
+//! read, some run scripts. Every reply must follow the document, no save may be lost, and memory must not
+//! grow.
 
 use super::Tell;
 use super::clients::{ClientTask, Common, Report};

@@ -1,6 +1,5 @@
 //! Power cuts while six writers work, at the start, during copies and while a copy is restored: acknowledged
-//! writes are
-//! on the disk, whatever unsynced changes the disk has kept.
+//! writes are on the disk, whatever unsynced changes the disk has kept.
 
 use super::Tell;
 use crate::faults::Disk;
@@ -53,8 +52,7 @@ struct Trial {
 }
 
 /// Cuts the power this many times, and compares the store after each. With `lies`, the disk reports syncs
-/// that it did
-/// not make.
+/// that it did not make.
 ///
 /// # Errors
 /// When an acknowledged write is lost, a file is damaged, or the server does not start.
