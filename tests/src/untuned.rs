@@ -1,9 +1,12 @@
 //! Numbers of the engine outside its tables of tuned numbers, and a search for them in the sources.
 //!
-//! Reasons: an `input` is measured for the networks, a `bound` only leaves out what cannot matter, a `grid`
-//! and a `bracket` set the resolution of a search, a `divisor` keeps a division finite, `kinematics`,
-//! `geometry`, `angle` and `polynomial` follow from a formula, and a `sample` is the scene that warms the
-//! engine up.
+//! The reasons are:
+//! - `input`: measured for the networks.
+//! - `bound`: only leaves out what cannot matter.
+//! - `grid`, `bracket`: resolution of a search.
+//! - `divisor`: keeps a division finite.
+//! - `kinematics`, `geometry`, `angle`, `polynomial`: follow from a formula.
+//! - `sample`: the scene that warms the engine up.
 
 /// Floating-point constants outside `experts::tuning`: file, name, and the reason in a word.
 pub const CONSTANTS: &[(&str, &str, &str)] = &[

@@ -60,8 +60,8 @@ fn chosen(futures: &AgentFutures) -> &Future {
     &futures.modes[futures.chosen]
 }
 
-/// Checks that every changed agent except the dragged one has a cause in the answer that would meet its
-/// former motion, and that each chain of causes ends at the dragged one. Returns the number of such agents.
+/// Checks that every changed agent except the dragged one has a cause that would meet its former motion. Each
+/// chain of causes must end at the dragged one. Returns the number of changed agents.
 fn have_causes(scene: &Scene, asked: &str, sample: &Sample, what: &str) -> usize {
     for (id, futures) in sample.agents.iter().filter(|(id, _)| *id != asked) {
         let reaction = futures.reaction.as_ref().unwrap_or_else(|| panic!("{what}: {id} has no cause"));

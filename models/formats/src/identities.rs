@@ -1,5 +1,5 @@
-//! One road user under two ids: a tracker that loses a road user and finds it again gives it a second id, in
-//! the same place with the same motion, where the first track ends.
+//! Joins tracks of one road user under two ids. A tracker that loses a road user and finds it again gives it
+//! a second id, with the same place and motion, where the first track ends.
 
 use crate::problem::ImportWarning;
 use crate::sentences;

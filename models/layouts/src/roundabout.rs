@@ -9,8 +9,8 @@ use scene::Vec2;
 use scene::map::LaneType;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Greatest angle between the arm's middle and the point where an entry or exit meets the ring, radians, and
-/// its greatest share of the angle to the next arm.
+/// Greatest angle between the arm's middle and the point where an entry or exit meets the ring, radians.
+/// Below it, that angle's greatest share of the angle to the next arm.
 const ENTRY_RAD: f64 = 0.72;
 const ENTRY_SHARE: f64 = 0.46;
 /// Smallest radius of a kerb, metres.

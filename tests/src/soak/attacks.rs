@@ -1,5 +1,5 @@
-//! Attacks that each took the server down once, run beside all kinds of clients with bounded memory: maps of
-//! crossing lanes, unread pings, links between all lanes, held scenes with useless members, refused
+//! Attacks that each took the server down once, run beside all kinds of clients with bounded memory. They are
+//! maps of crossing lanes, unread pings, links between all lanes, held scenes with useless members, refused
 //! connections that stay open, forms of many parts, full lines, and the longest allowed work.
 
 use super::Tell;

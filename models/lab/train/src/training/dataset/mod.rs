@@ -1,14 +1,17 @@
 //! Training records on disk and in memory.
 //!
-//! A file has the magic bytes, ten `u32` dimensions (so that a file of other features is refused), then
-//! blocks of one tag byte, a `u32` length and that many bytes: `M` for a scene's map pieces, `R` for a record
-//! of the preceding scene, one `P` with their provenance ([`crate::provenance`], JSON), and one `E` with the
-//! counts and the BLAKE3 hash of everything before it. Numbers are little endian; arrays are `f32` in the
-//! order of the structs' fields.
+//! A file begins with the magic bytes and ten `u32` dimensions, so that a file of other features is refused.
+//! Blocks of one tag byte, a `u32` length and that many bytes follow:
+//! - `M`: a scene's map pieces.
+//! - `R`: a record of the preceding scene.
+//! - `P`: the provenance of the records ([`crate::provenance`], JSON), once.
+//! - `E`: the counts and the BLAKE3 hash of everything before it, at the end.
 //!
-//! Safetensors is no alternative: its header comes first and has every tensor's length, so scenes could not
-//! be appended as they are read, and records (0 to 24 neighbours, 0 to 48 pieces, paths of 2 to 160 points)
-//! would be padded or cut into tensors with offset tables.
+//! Numbers are little endian; arrays are `f32` in the order of the structs' fields.
+//!
+//! Safetensors is no alternative. Its header comes first and has every tensor's length, so scenes could not
+//! be appended as they are read. Records (0 to 24 neighbours, 0 to 48 pieces, paths of 2 to 160 points) would
+//! be padded or cut into tensors with offset tables.
 
 mod codec;
 mod read;
