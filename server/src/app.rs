@@ -1,4 +1,4 @@
-//! State that every handler can reach.
+//! Shared state of all handlers.
 
 use crate::generation::LaneOperations;
 use crate::http::body::{Reading, Room};
@@ -24,29 +24,29 @@ pub struct App(Arc<AppParts>);
 
 /// Parts of [`App`].
 pub struct AppParts {
-    /// Bounds.
+    /// Limits.
     pub limits: Arc<Limits>,
     /// Access rules of the server.
     pub gate: RequestGate,
-    /// Scenes and maps, wherever they are; handlers take [`Self::catalog_of`].
+    /// Scenes and maps, in all their sources; handlers use [`Self::catalog_of`].
     pub catalog: Catalog,
-    /// Users own their scenes.
+    /// Whether users own their scenes.
     pub owners: bool,
-    /// Room for bodies.
+    /// Memory budget of bodies.
     pub room: Arc<Room>,
-    /// All CPU work.
+    /// The pool for all CPU work.
     pub pool: Arc<Pool>,
-    /// The operations, for calls that people wait for.
+    /// The operations for interactive calls.
     pub operations: Operations,
-    /// The same for long calls: they leave a core to the others.
+    /// The same for long calls: they leave one core to the others.
     pub patient: Operations,
-    /// Runs that clients step.
+    /// Runs in progress.
     pub runs: RunStore,
-    /// Experts are warm.
+    /// Whether the experts are warmed up.
     pub warm: AtomicBool,
     /// Counters.
     pub metrics: PrometheusHandle,
-    /// Sources for non-commercial use are refused at import.
+    /// Whether imports whose licence allows only non-commercial use are refused.
     pub refuse_nc: bool,
 }
 
@@ -56,14 +56,14 @@ impl App {
         Self(Arc::new(inside))
     }
 
-    /// Scenes as the sender of a request may see them.
+    /// The scenes that the sender of a request may see.
     pub fn catalog_of(&self, sender: &Sender) -> Catalog {
         let viewer =
             if self.owners { Viewer::user(sender.name.clone(), sender.is_admin) } else { Viewer::default() };
         self.catalog.of(sender.party, viewer)
     }
 
-    /// Expected time to work out a map that a call needs; zero for a known one.
+    /// Expected time to prepare the map of a call; zero for a known map.
     ///
     /// # Errors
     /// A full queue.
@@ -72,7 +72,7 @@ impl App {
         self.pool.document(map_bytes(&map), move || Ok(generator.maps().cost(&map).preparation)).await
     }
 
-    /// The operations by the lane of a call.
+    /// The operations by lane of the pool.
     pub fn lanes(&self) -> LaneOperations<'_> {
         LaneOperations { quick: &self.operations, patient: &self.patient }
     }

@@ -1,6 +1,6 @@
-//! DragTraffic: the editor, its HTTP API and the same work on the command line, in one program.
+//! DragTraffic: the editor, its HTTP API and the same operations on the command line, in one program.
 //!
-//! The program calls [`run`]; so does the Python package, which has the command in its wheel.
+//! The program calls [`run`]; so does the Python package, whose wheel includes the command.
 
 mod app;
 mod cli;

@@ -1,4 +1,5 @@
-//! The program `dragtraffic`. Without a command it serves the editor; `dragtraffic --help` lists the rest.
+//! The program `dragtraffic`. Without a command it serves the editor; `dragtraffic --help` lists the
+//! commands.
 
 use std::process::ExitCode;
 
@@ -7,7 +8,7 @@ use std::process::ExitCode;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// Environment variables that the numeric libraries read at their start. One thread a call: workers already
+/// Environment variables that the numeric libraries read at start-up. One thread per call: workers already
 /// run scenes and calls in parallel, and candle's own threads cost more than they gain at this size.
 const SETTINGS: [(&str, &str); 3] =
     [("CANDLE_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "1"), ("MIMALLOC_PURGE_DELAY", "10000")];
@@ -17,8 +18,8 @@ fn main() -> ExitCode {
     ExitCode::from(dragtraffic::run(std::env::args_os()))
 }
 
-/// Starts the program again with the settings in place where they are missing; the allocator has
-/// read its own before `main`. Values that the user gave are kept.
+/// Restarts the program with missing settings, because the allocator has read its own before `main`. Values
+/// of the user are kept.
 fn with_settings() {
     if SETTINGS.iter().all(|(name, _)| std::env::var_os(name).is_some()) {
         return;
@@ -31,7 +32,7 @@ fn with_settings() {
         if let Some(name) = std::env::args_os().next() {
             command.arg0(name);
         }
-        // Returns only when it fails; the program then runs as it is, a little slower.
+        // Returns only on failure; the program then runs without the settings, slightly slower.
         let _ = command.args(std::env::args_os().skip(1)).envs(missing).exec();
     }
 }

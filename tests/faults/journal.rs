@@ -1,7 +1,7 @@
-//! The journal: every change of a file or a name below the folder, in order and with its bytes, so that it can be told
-//! afterwards what a disk has that lost its power. Records are those of `dragtraffic_tests::power`.
+//! The journal: every change of a file or a name below the folder, in order and with its bytes. From it, the
+//! state of a disk after a power cut can be derived. Records are those of `dragtraffic_tests::power`.
 //!
-//! Nothing is synced in truth while a journal is kept: what a sync is worth is told from the journal alone.
+//! Nothing is really synced while a journal is kept: the effect of a sync is derived from the journal alone.
 
 use super::{is_below, open_plainly, path_of, plan};
 use libc::{c_int, c_void, off_t, ssize_t};
@@ -15,15 +15,15 @@ const FOLDER_SYNCED: u64 = 5;
 const RENAMED: u64 = 6;
 const REMOVED: u64 = 7;
 
-/// One change at a time: the journal has them in the order of the files.
+/// Held during a change: the journal has the changes in the order of the files.
 static BUSY: AtomicBool = AtomicBool::new(false);
-/// The open journal; -1 before it is open, -2 where there is none.
+/// The open journal; -1 before it is open, -2 if there is none.
 static JOURNAL: AtomicI32 = AtomicI32::new(-1);
 
 struct Turn;
 
 impl Turn {
-    /// Waits for it. No change begins without power; one that had begun before is written down.
+    /// Waits for the lock. No change begins without power; one that began before is recorded.
     fn take() -> Self {
         while BUSY.swap(true, Ordering::Acquire) {
             std::hint::spin_loop();
@@ -37,7 +37,7 @@ impl Turn {
 
 /// Ends the process as a power cut does.
 fn end() {
-    // SAFETY: plain calls.
+    // SAFETY: calls without pointers.
     unsafe {
         libc::syscall(libc::SYS_kill, libc::syscall(libc::SYS_getpid), libc::SIGKILL);
     }
@@ -64,7 +64,7 @@ fn journal() -> Option<c_int> {
     (file >= 0).then_some(file)
 }
 
-/// Writes a record, and ends the process where the power goes.
+/// Writes a record, and ends the process when the power fails.
 fn note(journal: c_int, change: u64, (file, number): (u64, u64), first: &[u8], second: &[u8]) {
     let head = [change, file, number, first.len() as u64, second.len() as u64];
     let part =
@@ -78,15 +78,16 @@ fn note(journal: c_int, change: u64, (file, number): (u64, u64), first: &[u8], s
     let left = power
         .map(|power| power.fetch_update(Ordering::AcqRel, Ordering::Acquire, |left| left.checked_sub(1)));
     let whole = parts.iter().map(|part| part.iov_len).sum::<usize>() as i64;
-    // SAFETY: the parts are valid for their lengths. A record that is not whole ends the process, so none follows it.
+    // SAFETY: the parts are valid for their lengths. An incomplete record ends the process, so none follows
+    // it.
     let is_whole = unsafe { libc::syscall(libc::SYS_writev, journal, parts.as_ptr(), parts.len()) } == whole;
-    // Another process may have made the last change while this one was made.
+    // Another process may have made the last change during this one.
     if !is_whole || matches!(left, Some(Ok(1) | Err(_))) {
         end();
     }
 }
 
-/// Number of a file on its disk, and whether it is a folder; of one that is open.
+/// Inode number of an open file, whether it is a folder, and its length.
 fn number_of(file: c_int) -> Option<(u64, bool, off_t)> {
     // SAFETY: the kernel fills the structure, or the call fails.
     unsafe {
@@ -99,12 +100,12 @@ fn number_of(file: c_int) -> Option<(u64, bool, off_t)> {
     }
 }
 
-/// The journal, if it is to have changes of this open file.
+/// The journal, if it records changes of this open file.
 fn kept(file: c_int) -> Option<c_int> {
     journal().filter(|_| path_of(file, &mut [0; 4096]).is_some_and(is_below))
 }
 
-/// Opens a file; notes that it was made.
+/// Opens a file; records its creation.
 pub fn opened(flags: c_int, open: impl FnOnce() -> c_int) -> c_int {
     let makes = flags & (libc::O_CREAT | libc::O_TRUNC) != 0;
     let Some(journal) = journal().filter(|_| makes) else { return open() };
@@ -114,14 +115,14 @@ pub fn opened(flags: c_int, open: impl FnOnce() -> c_int) -> c_int {
     if let (true, Some(path), Some((number, _, _))) = (file >= 0, path_of(file, &mut path), number_of(file))
         && is_below(path)
     {
-        // A name that is known, with the same file, changes nothing.
+        // A known name with the same file is no change.
         let emptied = u64::from(flags & libc::O_TRUNC != 0);
         note(journal, CREATED, (number, emptied), path, &[]);
     }
     file
 }
 
-/// Writes bytes, at a place or where the file stands.
+/// Writes bytes at an offset, or at the current position of the file.
 pub fn written(
     file: c_int,
     bytes: *const c_void,
@@ -131,14 +132,14 @@ pub fn written(
     let Some(journal) = kept(file) else { return write() };
     let _turn = Turn::take();
     let Some((number, _, size)) = number_of(file) else { return write() };
-    // SAFETY: calls that only ask.
+    // SAFETY: calls that only query.
     let at = at.unwrap_or_else(|| unsafe {
         let appends = libc::fcntl(file, libc::F_GETFL) & libc::O_APPEND != 0;
         if appends { size } else { libc::lseek(file, 0, libc::SEEK_CUR) }
     });
     let done = write();
     if let (Ok(count), Ok(at)) = (usize::try_from(done), u64::try_from(at)) {
-        // SAFETY: so many bytes have just been read from there.
+        // SAFETY: that many bytes have just been read from there.
         let bytes = unsafe { std::slice::from_raw_parts(bytes.cast::<u8>(), count) };
         note(journal, WRITTEN, (number, at), bytes, &[]);
     }
@@ -156,7 +157,7 @@ pub fn resized(file: c_int, length: off_t, resize: impl FnOnce() -> c_int) -> c_
     done
 }
 
-/// Syncs a file or a folder: the journal has it, and no disk is waited for.
+/// Syncs a file or a folder: the journal records it, and no disk is waited for.
 pub fn synced(file: c_int, sync: impl FnOnce() -> c_int) -> c_int {
     let mut path = [0; 4096];
     let journal = journal().zip(path_of(file, &mut path).filter(|path| is_below(path)));
@@ -181,7 +182,7 @@ pub fn renamed(from: &[u8], to: &[u8], rename: impl FnOnce() -> c_int) -> c_int 
     done
 }
 
-/// Takes a name away.
+/// Removes a name.
 pub fn removed(path: &[u8], remove: impl FnOnce() -> c_int) -> c_int {
     let Some(journal) = journal().filter(|_| is_below(path)) else { return remove() };
     let _turn = Turn::take();

@@ -1,9 +1,10 @@
-//! Makes files fail: loaded before the system's library (`LD_PRELOAD`), it stands in for the calls that write and read
-//! files, and has some of them fail as the plan says. Only files below one folder are concerned.
+//! Makes file operations fail. The library is loaded before the system's (`LD_PRELOAD`), replaces the calls
+//! that write and read files, and fails some of them as the plan says. Only files below one folder are
+//! affected.
 //!
-//! The plan is a small file that this process and the one that makes the plans share in memory; its words are
-//! described in `dragtraffic_tests::faults`. Where `FAULTS_JOURNAL` names a file, every change is written down there,
-//! and the process ends in the middle of its work when the plan says so ([`journal`]).
+//! The plan is a small file that this process and the test map as shared memory; `dragtraffic_tests::faults`
+//! describes its words. If `FAULTS_JOURNAL` names a file, every change is recorded there, and the process
+//! ends in the middle of its work when the plan says so ([`journal`]).
 
 #![cfg(target_os = "linux")]
 #![allow(unsafe_code, reason = "it takes the place of C functions, and speaks to the kernel in their stead")]
@@ -20,19 +21,19 @@ use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
 struct Plan {
     /// Bits of the calls that fail; 0 for none.
     calls: AtomicU64,
-    /// The error that they give.
+    /// The error of a failed call.
     errno: AtomicU64,
-    /// Not 0: the first of them writes half of what it is given before the others fail.
+    /// Not 0: the first failing call writes half of its bytes before the others fail.
     short: AtomicU64,
-    /// Calls that succeed before.
+    /// Number of calls that succeed first.
     before: AtomicU64,
-    /// Calls that fail then.
+    /// Number of calls that fail then.
     failing: AtomicU64,
     /// Number of failed calls since the start.
     failed: AtomicU64,
-    /// Changes until the power goes; 0 when it is gone.
+    /// Changes until the power fails; 0 once it has failed.
     power: AtomicU64,
-    /// Not 0: the disk says that it has synced, and has not.
+    /// Not 0: the disk reports a sync that it did not make.
     lies: AtomicU64,
 }
 
@@ -44,10 +45,10 @@ const READ: u64 = 16;
 
 static PLAN: AtomicPtr<Plan> = AtomicPtr::new(std::ptr::null_mut());
 
-/// A file opened by the kernel itself, not by the functions below.
+/// Opens a file directly through the kernel, not through the functions below.
 ///
 /// # Safety
-/// The path ends with zero.
+/// The path ends with a zero byte.
 unsafe fn open_plainly(path: *const c_char, flags: c_int) -> c_int {
     // SAFETY: the caller's promise.
     unsafe { libc::syscall(libc::SYS_openat, libc::AT_FDCWD, path, flags | libc::O_CLOEXEC, 0) as c_int }
@@ -110,7 +111,7 @@ fn fate(call: u64, concerned: impl FnOnce() -> bool) -> Fate {
     Fate::Fails
 }
 
-/// The file lies below the folder that is to fail.
+/// Whether the file lies below the affected folder.
 fn is_below(path: &[u8]) -> bool {
     // SAFETY: the environment is not changed while the program runs, and its strings end with zero.
     let folder = unsafe {
@@ -131,7 +132,7 @@ fn path_of(file: c_int, path: &mut [u8; 4096]) -> Option<&[u8]> {
     if rest < 0 {
         return None;
     }
-    // Leading zeros are not understood there: the digits are put to the front afterwards.
+    // The kernel rejects leading zeros: the digits are moved to the front afterwards.
     let mut at = digits;
     loop {
         at -= 1;
@@ -148,7 +149,7 @@ fn path_of(file: c_int, path: &mut [u8; 4096]) -> Option<&[u8]> {
     usize::try_from(length).ok().map(|length| &path[..length])
 }
 
-/// The same of an open file.
+/// Whether the plan applies to an open file.
 fn is_concerned(file: c_int) -> bool {
     path_of(file, &mut [0; 4096]).is_some_and(is_below)
 }
@@ -170,7 +171,7 @@ pub unsafe extern "C" fn write(file: c_int, bytes: *const c_void, count: size_t)
         Fate::Half => count.div_ceil(2),
         Fate::Fails => return -1,
     };
-    // SAFETY: what the caller promises to the C library.
+    // SAFETY: the caller's promise to the C library.
     journal::written(file, bytes, None, || unsafe {
         libc::syscall(libc::SYS_write, file, bytes, count) as ssize_t
     })
@@ -183,7 +184,7 @@ pub unsafe extern "C" fn pwrite64(file: c_int, bytes: *const c_void, count: size
         Fate::Half => count.div_ceil(2),
         Fate::Fails => return -1,
     };
-    // SAFETY: what the caller promises to the C library.
+    // SAFETY: the caller's promise to the C library.
     journal::written(file, bytes, Some(at), || unsafe {
         libc::syscall(libc::SYS_pwrite64, file, bytes, count, at) as ssize_t
     })
@@ -199,7 +200,7 @@ pub unsafe extern "C" fn pwrite(file: c_int, bytes: *const c_void, count: size_t
 pub unsafe extern "C" fn read(file: c_int, bytes: *mut c_void, count: size_t) -> ssize_t {
     match fate(READ, || is_concerned(file)) {
         Fate::Fails => -1,
-        // SAFETY: what the caller promises to the C library.
+        // SAFETY: the caller's promise to the C library.
         _ => unsafe { libc::syscall(libc::SYS_read, file, bytes, count) as ssize_t },
     }
 }
@@ -208,7 +209,7 @@ pub unsafe extern "C" fn read(file: c_int, bytes: *mut c_void, count: size_t) ->
 pub unsafe extern "C" fn pread64(file: c_int, bytes: *mut c_void, count: size_t, at: off_t) -> ssize_t {
     match fate(READ, || is_concerned(file)) {
         Fate::Fails => -1,
-        // SAFETY: what the caller promises to the C library.
+        // SAFETY: the caller's promise to the C library.
         _ => unsafe { libc::syscall(libc::SYS_pread64, file, bytes, count, at) as ssize_t },
     }
 }
@@ -219,7 +220,7 @@ pub unsafe extern "C" fn pread(file: c_int, bytes: *mut c_void, count: size_t, a
     unsafe { pread64(file, bytes, count, at) }
 }
 
-/// Puts a file, or the names in a folder, on the disk.
+/// Syncs a file, or the names in a folder.
 fn synced(number: c_long, file: c_int) -> c_int {
     match fate(SYNC, || is_concerned(file)) {
         Fate::Fails => -1,
@@ -258,7 +259,7 @@ pub extern "C" fn ftruncate64(file: c_int, length: off_t) -> c_int {
 pub unsafe extern "C" fn rename(from: *const c_char, to: *const c_char) -> c_int {
     match fate(RENAME, || is_named(to)) {
         Fate::Fails => -1,
-        // SAFETY: what the caller promises to the C library.
+        // SAFETY: the caller's promise to the C library.
         _ => journal::renamed(named(from), named(to), || unsafe {
             libc::syscall(libc::SYS_renameat2, libc::AT_FDCWD, from, libc::AT_FDCWD, to, 0) as c_int
         }),
@@ -267,16 +268,16 @@ pub unsafe extern "C" fn rename(from: *const c_char, to: *const c_char) -> c_int
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn unlink(path: *const c_char) -> c_int {
-    // SAFETY: what the caller promises to the C library.
+    // SAFETY: the caller's promise to the C library.
     journal::removed(named(path), || unsafe {
         libc::syscall(libc::SYS_unlinkat, libc::AT_FDCWD, path, 0) as c_int
     })
 }
 
-/// The mode is there or not in C; its register can be read in any case on the machines that this runs on.
+/// The mode is optional in C; its register can be read in any case on the supported machines.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn openat(folder: c_int, path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
-    // SAFETY: what the caller promises to the C library.
+    // SAFETY: the caller's promise to the C library.
     journal::opened(flags, || unsafe {
         libc::syscall(libc::SYS_openat, folder, path, flags, c_uint::from(mode)) as c_int
     })

@@ -1,4 +1,4 @@
-//! The committed OpenAPI document as a judge: every reply and every event that a test meets is held
+//! The committed OpenAPI document as a contract: every reply and every event that a test receives is checked
 //! against the schema of its operation and status.
 
 #![allow(clippy::panic, clippy::expect_used, reason = "a reply that breaks the contract fails its test")]
@@ -26,7 +26,7 @@ fn document() -> &'static Value {
     })
 }
 
-/// The promise of an address; `None` where the document has none.
+/// The contract of an address; `None` if the document has none.
 pub fn promise(method: &str, target: &str) -> Option<Promise> {
     let path = target.split('?').next().unwrap_or_default();
     let fits = |template: &str| {
@@ -46,7 +46,7 @@ pub fn promise(method: &str, target: &str) -> Option<Promise> {
 }
 
 impl Promise {
-    /// Holds a whole reply against the promise.
+    /// Checks a whole reply against the contract.
     pub fn check(&self, reply: &Reply) {
         self.check_headers(reply);
         match reply.header("content-type") {
@@ -65,7 +65,7 @@ impl Promise {
         assert!(known, "{}: {status} is not in the document", self.name);
     }
 
-    /// Headers that clients act on are in the document.
+    /// Checks that headers that clients act on are in the document.
     fn check_headers(&self, reply: &Reply) {
         let declared = &self.operation["responses"][reply.status.to_string()]["headers"];
         for name in ["ETag", "Location", "Retry-After"] {
@@ -80,13 +80,13 @@ impl Promise {
         let schema = content.get(media).and_then(|media| media.get("schema"));
         let schema =
             schema.unwrap_or_else(|| panic!("{}: {status} {media} is not in the document", self.name));
-        // A file of another format, promised as any bytes, though it is JSON.
+        // A file of another format is declared as arbitrary bytes even if it is JSON.
         if schema["format"] != "binary" {
             self.hold(schema, body);
         }
     }
 
-    /// Holds one event of a stream against the promise.
+    /// Checks one event of a stream against the contract.
     pub fn check_event(&self, text: &str) {
         let event: Value =
             serde_json::from_str(text).unwrap_or_else(|error| panic!("{}: {error}: {text}", self.name));
@@ -106,7 +106,7 @@ impl Promise {
     }
 }
 
-/// The judge of a schema of the document, made once.
+/// The validator of a schema of the document, made once.
 fn validator(schema: &Value) -> Arc<Validator> {
     static KNOWN: OnceLock<Mutex<HashMap<String, Arc<Validator>>>> = OnceLock::new();
     let known = KNOWN.get_or_init(Mutex::default);

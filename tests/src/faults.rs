@@ -1,5 +1,5 @@
-//! Faults of the disk, on purpose: which calls of a running program fail, from when on, and with what. The library
-//! of `tests/faults` does it, loaded into the program before the system's own.
+//! Deliberate disk faults: which calls of a running program fail, from when, and with which error. The
+//! library of `tests/faults` causes them, loaded into the program before the system's own.
 
 use crate::program::{built, root};
 use crate::random::Random;
@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// A sort of call that can fail.
+/// A kind of call that can fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Call {
     /// Writing bytes.
     Write = 1,
-    /// Putting what was written on the disk.
+    /// Syncing written bytes.
     Sync = 2,
-    /// Giving a file its name.
+    /// Renaming a file.
     Rename = 4,
     /// Changing a file's length.
     Truncate = 8,
@@ -29,29 +29,29 @@ pub enum Call {
 /// Kind of failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
-    /// There is no room (ENOSPC).
+    /// There is no space (ENOSPC).
     Full,
     /// The device fails (EIO).
     Broken,
-    /// Half of the bytes are written, then there is no room.
+    /// Half of the bytes are written, then there is no space.
     Short,
 }
 
-/// One disturbance.
+/// One fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Failing call.
     pub call: Call,
-    /// With what.
+    /// Kind of its failure.
     pub how: How,
-    /// Calls of this sort that succeed before.
+    /// Number of calls of this kind that succeed first.
     pub before: u64,
-    /// Calls that fail then; `u64::MAX` until the disk is well again.
+    /// Number of calls that fail then; `u64::MAX` until the disk is repaired.
     pub failing: u64,
 }
 
 impl Fault {
-    /// Any one that can come while the store is written.
+    /// A random fault of those that can occur while the store is written.
     pub fn drawn(random: &mut Random) -> Self {
         let call = match random.below(10) {
             0..5 => Call::Write,
@@ -72,7 +72,7 @@ impl Fault {
         Self { call, how, before: random.below(24), failing }
     }
 
-    /// Everything that writes fails, until the disk is well again.
+    /// Every write fails until the disk is repaired.
     pub fn lasting(how: How) -> Self {
         Self { call: Call::Write, how, before: 0, failing: u64::MAX }
     }
@@ -87,17 +87,17 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A folder's disk with faults by plan.
+/// A folder's disk with planned faults.
 pub struct Disk {
     folder: PathBuf,
     plan: PathBuf,
     file: File,
-    /// Changes are written down there, if anywhere.
+    /// File that records the changes, if any.
     journal: Option<PathBuf>,
     own: TempDir,
 }
 
-/// Words of the plan, by their place in the file.
+/// Words of the plan, by their index in the file.
 const CALLS: u64 = 0;
 const ERRNO: u64 = 1;
 const SHORT: u64 = 2;
@@ -109,10 +109,10 @@ const LIES: u64 = 7;
 const WORDS: u64 = 8;
 
 impl Disk {
-    /// A disk that is well.
+    /// A disk without faults.
     ///
     /// # Errors
-    /// When the library cannot be built, or the plan not be made.
+    /// When the library cannot be built, or the plan cannot be made.
     pub fn of(folder: &Path) -> anyhow::Result<Self> {
         library()?;
         let own = tempfile::tempdir()?;
@@ -122,7 +122,7 @@ impl Disk {
         Ok(Self { folder: folder.canonicalize()?, plan, file, journal: None, own })
     }
 
-    /// A disk that is well, and whose every change is written down ([`crate::power`]).
+    /// A disk without faults that records every change ([`crate::power`]).
     ///
     /// # Errors
     /// As [`Disk::of`].
@@ -134,25 +134,25 @@ impl Disk {
         Ok(Self { journal: Some(journal), ..disk })
     }
 
-    /// The changes since the journal was begun.
+    /// The changes since the start of the journal.
     ///
     /// # Errors
-    /// When none is kept.
+    /// When no journal is kept.
     pub fn journal(&self) -> anyhow::Result<&Path> {
         self.journal.as_deref().context("a disk without a journal")
     }
 
-    /// Begins a new journal. No program may use the disk.
+    /// Begins a new journal. No program may use the disk meanwhile.
     ///
     /// # Errors
-    /// When none is kept.
+    /// When no journal is kept.
     pub fn begin_journal(&self) -> anyhow::Result<()> {
         File::create(self.journal()?)?;
         Ok(())
     }
 
-    /// Lets the power go in the middle of the work, with the last of so many changes from now on: programs that make
-    /// it, or try to make another one, are killed.
+    /// Cuts the power at the last of this many changes from now on: programs that make it, or try to make
+    /// another one, are killed.
     ///
     /// # Errors
     /// When the plan cannot be written.
@@ -160,7 +160,7 @@ impl Disk {
         self.set(POWER, after)
     }
 
-    /// True when the power has gone.
+    /// Whether the power has failed.
     ///
     /// # Errors
     /// When the plan cannot be read.
@@ -168,7 +168,7 @@ impl Disk {
         Ok(self.word(POWER)? == 0)
     }
 
-    /// The disk says that it has synced, and has not, as cheap ones do.
+    /// The disk reports syncs that it did not make, as cheap disks do.
     ///
     /// # Errors
     /// When the plan cannot be written.
@@ -176,7 +176,7 @@ impl Disk {
         self.set(LIES, 1)
     }
 
-    /// Lets a program use this disk.
+    /// Makes a program use this disk.
     ///
     /// # Errors
     /// When the library cannot be built.
@@ -189,7 +189,7 @@ impl Disk {
         Ok(())
     }
 
-    /// A file that is none of the disk's, for what programs say under faults: there is a lot of it.
+    /// A file outside the disk for the output of programs under faults, which is long.
     ///
     /// # Errors
     /// When it cannot be made.
@@ -208,7 +208,7 @@ impl Disk {
         Ok(self.file.write_all_at(&value.to_ne_bytes(), word * 8)?)
     }
 
-    /// A fault from now on.
+    /// Causes a fault from now on.
     ///
     /// # Errors
     /// When the plan cannot be written.
@@ -223,7 +223,7 @@ impl Disk {
         self.set(CALLS, fault.call as u64)
     }
 
-    /// No faults from now on.
+    /// Ends all faults.
     ///
     /// # Errors
     /// When the plan cannot be written.
@@ -247,7 +247,7 @@ impl Disk {
     }
 }
 
-/// The library, built now unless it is newer than its source.
+/// The library, rebuilt unless it is newer than its source.
 fn library() -> anyhow::Result<PathBuf> {
     let source = root().join("tests/faults");
     let name = format!("examples/libfaults{}", std::env::consts::DLL_SUFFIX);

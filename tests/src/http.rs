@@ -1,4 +1,4 @@
-//! A plain HTTP/1.1 client that can also send what a good client never would.
+//! A plain HTTP/1.1 client that can also send what a correct client never would.
 
 use crate::contract::{Promise, promise};
 use anyhow::{Context, bail};
@@ -7,10 +7,11 @@ use std::io::{BufRead, BufReader, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::time::Duration;
 
-/// A connection from the address 127.0.0.N of this machine, so from a party of its own. Linux has all of these.
+/// A connection from the address 127.0.0.N of this machine, so that it counts as its own party. Linux has all
+/// of these.
 ///
 /// # Errors
-/// When there is none.
+/// When the connection fails.
 pub fn connect_from(last: u8, server: SocketAddr) -> anyhow::Result<TcpStream> {
     let socket = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None)?;
     socket.bind(&SocketAddr::from((Ipv4Addr::new(127, 0, 0, last), 0)).into())?;
@@ -18,7 +19,7 @@ pub fn connect_from(last: u8, server: SocketAddr) -> anyhow::Result<TcpStream> {
     Ok(socket.into())
 }
 
-/// A request, sent on a connection of its own.
+/// A request, sent on its own connection.
 #[derive(Clone, Debug)]
 pub struct Request {
     method: String,
@@ -44,7 +45,7 @@ impl Request {
         }
     }
 
-    /// Adds a header; a Host given here replaces the right one.
+    /// Adds a header; a Host given here replaces the default one.
     #[must_use]
     pub fn header(mut self, name: &str, value: &str) -> Self {
         if name.eq_ignore_ascii_case("host") {
@@ -68,7 +69,7 @@ impl Request {
         self
     }
 
-    /// Says another Content-Length than the body has.
+    /// Sends another Content-Length than that of the body.
     #[must_use]
     pub fn length(mut self, length: &str) -> Self {
         self.length = Some(length.into());
@@ -88,7 +89,7 @@ impl Request {
         self.header("content-type", "application/json").body(body.to_string())
     }
 
-    /// The bytes on the wire.
+    /// The bytes of the request as they are sent.
     pub fn bytes(&self, address: SocketAddr) -> Vec<u8> {
         let mut head = format!("{} {} HTTP/1.1\r\n", self.method, self.path);
         if self.host {
@@ -106,7 +107,7 @@ impl Request {
         [head.as_bytes(), &self.body].concat()
     }
 
-    /// Sends the request and gives the open connection.
+    /// Sends the request and returns the open connection.
     ///
     /// # Errors
     /// When the connection fails.
@@ -119,7 +120,7 @@ impl Request {
         Ok(stream)
     }
 
-    /// Sends the request and reads the reply, which must be one that the API's document promises.
+    /// Sends the request and reads the reply, which must follow the API's document.
     ///
     /// # Errors
     /// When no reply can be read.
@@ -132,7 +133,7 @@ impl Request {
         Ok(reply)
     }
 
-    /// Sends the request and gives the reply's head and a reader of its body's lines.
+    /// Sends the request and returns the head of the reply and a reader of its body's lines.
     ///
     /// # Errors
     /// When no head can be read.
@@ -157,7 +158,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// First value of a header, empty without one.
+    /// First value of a header; empty if the header is missing.
     pub fn header(&self, name: &str) -> &str {
         self.headers.iter().find(|h| h.0 == name).map_or("", |h| h.1.as_str())
     }
@@ -167,7 +168,7 @@ impl Reply {
         String::from_utf8_lossy(&self.body).into_owned()
     }
 
-    /// The body as JSON, unpacked where it came compressed; null when it is none.
+    /// The body as JSON, decompressed if necessary; null if it is not JSON.
     pub fn json(&self) -> Value {
         let read = if self.header("content-encoding") == "gzip" {
             serde_json::from_reader(flate2::read::GzDecoder::new(self.body.as_slice()))
@@ -177,7 +178,7 @@ impl Reply {
         read.unwrap_or(Value::Null)
     }
 
-    /// The `code` of a problem, empty when it is none.
+    /// The `code` of a problem; empty for other replies.
     pub fn code(&self) -> String {
         let is_problem = self.header("content-type") == "application/problem+json";
         let code = self.json()["code"].as_str().map(str::to_owned);
@@ -202,10 +203,10 @@ impl Reply {
         }
     }
 
-    /// Reads one off a connection; `no_body` for one to HEAD.
+    /// Reads a reply from a connection; `no_body` for a reply to HEAD.
     ///
     /// # Errors
-    /// When there is none, or a part of one.
+    /// When there is no complete reply.
     pub fn read(reader: &mut impl BufRead, no_body: bool) -> anyhow::Result<Self> {
         let mut reply = Self::head(reader)?;
         if no_body || reply.status == 204 || reply.status == 304 {

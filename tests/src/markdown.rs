@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Folders without pages of our own.
+/// Folders without pages of this project.
 const FOREIGN: [&str; 4] = ["node_modules", "target", "dist", "out"];
 
 /// One page.
@@ -24,18 +24,18 @@ pub struct Block {
     pub line: usize,
     /// First word of the info string.
     pub language: String,
-    /// Reason behind `norun:`, for a block that no test runs.
+    /// Reason after `norun:`, for a block that no test runs.
     pub norun: Option<String>,
     /// Place of the body in the page's text, bytes.
     pub body: Range<usize>,
 }
 
-/// A part of a page that a command prints.
+/// A part of a page that is the output of a command.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// The command behind `made by`, without the program's name.
+    /// The command after `made by`, without the name of the program.
     pub arguments: Vec<String>,
-    /// Name behind the colon: the form that the output gets in the page.
+    /// Name after the colon: the form of the output in the page.
     pub form: Option<String>,
     /// Place of the content in the page's text, bytes.
     pub content: Range<usize>,
@@ -78,7 +78,7 @@ impl Page {
         })
     }
 
-    /// Its fenced blocks, from top to bottom.
+    /// The fenced blocks, from top to bottom.
     pub fn blocks(&self) -> Vec<Block> {
         let mut blocks = Vec::new();
         let mut open: Option<Block> = None;
@@ -97,7 +97,7 @@ impl Page {
         blocks
     }
 
-    /// Its prose: lines outside fenced blocks, with their numbers from 1, inline code taken out.
+    /// The prose: lines outside fenced blocks, with their numbers from 1 and without inline code.
     fn prose(&self) -> Vec<(usize, String)> {
         let mut fenced = false;
         let mut prose = Vec::new();
@@ -111,7 +111,7 @@ impl Page {
         prose
     }
 
-    /// Targets of its links and pictures, each with its line.
+    /// Targets of the links and pictures, each with its line.
     pub fn links(&self) -> Vec<(usize, String)> {
         let targets = |(number, line): (usize, String)| {
             let ends: Vec<(usize, String)> = line
@@ -124,7 +124,7 @@ impl Page {
         self.prose().into_iter().flat_map(targets).collect()
     }
 
-    /// Anchors of its headings, as the web page of the repository makes them.
+    /// Anchors of the headings, as the web page of the repository makes them.
     pub fn anchors(&self) -> BTreeSet<String> {
         let mut seen: BTreeMap<String, usize> = BTreeMap::new();
         let mut fenced = false;
@@ -143,7 +143,7 @@ impl Page {
         anchors
     }
 
-    /// The parts that a command prints.
+    /// The sections that are the output of a command.
     pub fn sections(&self) -> Vec<Section> {
         let mut sections = Vec::new();
         let mut open: Option<Section> = None;

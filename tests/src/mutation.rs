@@ -1,4 +1,4 @@
-//! Unexpected inputs: corpus files, damaged in the ways that break readers.
+//! Unexpected inputs: corpus files with damage of the kinds that break readers.
 //!
 //! The n-th input of a seed never changes, so two numbers identify a finding.
 
@@ -60,11 +60,11 @@ const EXTREMES: &[&str] = &[
     ",",
     ":",
 ];
-/// Lengths that lie.
+/// False lengths.
 const LENGTHS: &[u64] =
     &[0, 1, 127, 128, 255, 65_535, 65_536, 1 << 24, (1 << 31) - 1, 1 << 31, (1 << 32) - 1, 1 << 40, u64::MAX];
 
-/// Good files to begin from.
+/// Valid files that are the start of all inputs.
 pub struct Corpus {
     files: Vec<Vec<u8>>,
     /// Words and numbers of all files.
@@ -96,7 +96,7 @@ impl Corpus {
         Self { files, tokens }
     }
 
-    /// The files as they are.
+    /// The unchanged files.
     pub fn files(&self) -> &[Vec<u8>] {
         &self.files
     }
@@ -105,7 +105,7 @@ impl Corpus {
     pub fn input(&self, seed: u64, n: u64) -> Vec<u8> {
         let mut dice = Random::of_part(seed, n);
         let mut bytes = dice.pick(&self.files).clone();
-        // Half of them have one fault, which is then seen by itself.
+        // Half of the inputs have a single fault, so that other faults do not hide it.
         let changes = if dice.below(2) == 0 { 1 } else { 2 + dice.below(MOST_CHANGES - 1) };
         for _ in 0..changes {
             self.change(&mut bytes, &mut dice);
@@ -127,13 +127,13 @@ impl Corpus {
                 bytes.splice(at..at, noise);
             }
             5 => {
-                // A part again and again: long lists, deep nesting.
+                // A repeated part: long lists, deep nesting.
                 let part = bytes.get(span).unwrap_or_default().to_vec();
                 let times = (1usize << dice.below(12)).min(MOST_BYTES / part.len().max(1));
                 bytes.splice(at..at, part.repeat(times));
             }
             6 => {
-                // The head of this file, the end of another.
+                // The head of this file and the end of another.
                 let other = dice.pick(&self.files);
                 bytes.truncate(at);
                 bytes.extend_from_slice(other.get(dice.index(other.len() + 1)..).unwrap_or_default());
@@ -150,7 +150,7 @@ impl Corpus {
                 bytes.splice(at..end, varint);
             }
             9 => {
-                // Two tokens of this file change places.
+                // Two tokens of this file are exchanged.
                 let found = spans(bytes);
                 if found.len() > 1 {
                     let (a, b) = (dice.pick(&found).to_vec(), dice.pick(&found).to_vec());
@@ -164,7 +164,7 @@ impl Corpus {
         }
     }
 
-    /// Replaces the first token from a drawn place on that has a replacement.
+    /// Replaces the first token after a drawn position that has a replacement.
     fn replace(&self, bytes: &mut Vec<u8>, dice: &mut Random, with: impl Fn(&[u8]) -> Option<Vec<u8>>) {
         let found: Vec<(usize, usize)> =
             spans(bytes).iter().map(|token| (offset(bytes, token), token.len())).collect();
@@ -179,7 +179,7 @@ impl Corpus {
     }
 }
 
-/// Runs of letters, digits and what numbers are made of.
+/// Runs of letters, digits and the other characters of numbers.
 fn spans(bytes: &[u8]) -> Vec<&[u8]> {
     let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || b"_-+.".contains(byte);
     bytes.split(|byte| !is_part(byte)).filter(|token| !token.is_empty() && token.len() < 64).collect()
@@ -189,7 +189,7 @@ fn offset(whole: &[u8], part: &[u8]) -> usize {
     part.as_ptr() as usize - whole.as_ptr() as usize
 }
 
-/// As protobuf writes a whole number.
+/// A whole number in the encoding of protobuf.
 fn varint(mut value: u64) -> Vec<u8> {
     let mut bytes = Vec::new();
     while value >= 128 {

@@ -1,8 +1,8 @@
-//! Power cuts: what a disk still has of the files of a folder, told from the journal that the library of `tests/faults`
-//! keeps of every change.
+//! Power cuts: what a disk still has of the files of a folder, derived from the journal that the library of
+//! `tests/faults` keeps of every change.
 //!
-//! A file has what was written before its last sync, a name what was done to it before the last sync of its folder
-//! (POSIX promises no more). Of what came after, a disk may have all, nothing, or any sectors.
+//! A file has the bytes of its last sync, and a folder the names of its last sync (POSIX promises no more).
+//! Of later changes, a disk may have all, none, or any sectors.
 
 use crate::random::Random;
 use anyhow::{Context, bail, ensure};
@@ -12,22 +12,23 @@ use std::io::Write;
 use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 
-/// A disk writes so many bytes as a whole.
+/// A disk writes this many bytes atomically.
 const SECTOR: usize = 512;
 
-/// What a disk has of that which was not synced.
+/// Which unsynced changes a disk keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsynced {
     /// Nothing.
     Lost,
     /// All of it, as after the kill of a process.
     Kept,
-    /// Of each file any sectors, in no order; of the names the first few changes, as a journal of names has them.
+    /// Any sectors of each file, in no order; the first few changes of the names, as a journal of names has
+    /// them.
     Drawn,
 }
 
 impl Unsynced {
-    /// Any of them: each in a third of all cuts.
+    /// One of them at random, all with the same probability.
     pub fn drawn(random: &mut Random) -> Self {
         [Self::Lost, Self::Kept, Self::Drawn][random.below(3) as usize]
     }
@@ -52,7 +53,7 @@ struct FileModel {
     unsynced: Vec<ByteChange>,
 }
 
-/// Files of a folder, as the disk has them and as programs see them.
+/// Files of a folder, on the disk and as programs see them.
 #[derive(Default)]
 pub struct DiskModel {
     files: Vec<FileModel>,
@@ -66,7 +67,7 @@ pub struct DiskModel {
 }
 
 impl DiskModel {
-    /// A folder without folders in it, all of it synced.
+    /// A fully synced folder without subfolders.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -83,10 +84,10 @@ impl DiskModel {
         Ok(model)
     }
 
-    /// Takes the changes of a journal over, and returns their number.
+    /// Applies the changes of a journal, and returns their number.
     ///
     /// # Errors
-    /// When it is none.
+    /// When the file is not a journal.
     pub fn replay(&mut self, journal: &Path) -> anyhow::Result<u64> {
         let bytes = fs::read(journal)?;
         let mut rest = bytes.as_slice();
@@ -154,7 +155,7 @@ impl DiskModel {
         }
         let file = self.files.len();
         self.files.push(FileModel::default());
-        // The number of a file that is gone is given to the next one.
+        // The number of a deleted file is used again by the next one.
         self.numbers.insert(number, file);
         self.seen.insert(path.to_owned(), file);
         self.unsynced.push(NameChange::Give(path.to_owned(), file));
@@ -180,7 +181,7 @@ impl DiskModel {
         }
     }
 
-    /// The power goes: what is left is all that there is.
+    /// Cuts the power: the state that is left becomes the state on the disk.
     pub fn cut(&mut self, unsynced: Unsynced, random: &mut Random) {
         let names = std::mem::take(&mut self.unsynced);
         let kept = match unsynced {
@@ -199,7 +200,7 @@ impl DiskModel {
         }
     }
 
-    /// What programs see, by names.
+    /// Files as programs see them, by name.
     ///
     /// # Errors
     /// When a name has no file.
@@ -213,7 +214,7 @@ impl DiskModel {
         self.seen.iter().map(|(path, file)| Ok((path.clone(), bytes(file)?))).collect()
     }
 
-    /// Makes the folder what programs see after the cut.
+    /// Writes the state that programs see after the cut to the folder.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -227,8 +228,8 @@ impl DiskModel {
         Ok(())
     }
 
-    /// The journal has every change: what it says is in the files. SQLite writes the index of its log in memory, so
-    /// that one is left out; it is made anew by whoever opens a store first.
+    /// Checks that the journal has every change: its result must equal the files. SQLite writes the index of
+    /// its log in memory, so that file is left out; the first process that opens a store makes it anew.
     ///
     /// # Errors
     /// At the first file that differs.
@@ -255,7 +256,7 @@ impl FileModel {
         }
     }
 
-    /// Keeps some of the changes, and of those some sectors.
+    /// Keeps some of the changes, and some sectors of those.
     fn settle_some(&mut self, random: &mut Random) {
         for change in std::mem::take(&mut self.unsynced) {
             match (random.below(3), change) {

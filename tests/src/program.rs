@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant, SystemTime};
 use tempfile::TempDir;
 
-/// Ticks a second in which Linux counts core time.
+/// Ticks per second of Linux' core-time counters.
 const TICKS: f64 = 100.0;
 
 /// The repository's root.
@@ -18,8 +18,8 @@ pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests when it is newer than its sources
-/// (`cargo test --workspace` has just built it), else built now.
+/// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests if it is newer than its sources (`cargo
+/// test --workspace` has just built it), else a new build.
 #[allow(clippy::panic, reason = "no test can go on without it")]
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
@@ -32,17 +32,17 @@ pub fn program() -> &'static Path {
     })
 }
 
-/// The program beside the tests, when nothing it is made from has changed since.
+/// The program beside the tests, if none of its sources is newer.
 fn current() -> Option<PathBuf> {
     let sources = ["Cargo.lock", "server", "models", "assets/scenes", "web/src", "web/index.html"];
     let sources: Vec<PathBuf> = sources.iter().map(|source| root().join(source)).collect();
     built("dragtraffic", &sources)
 }
 
-/// The program that cargo built under this name beside the tests, if none of its sources is newer.
+/// The program of this name that cargo built beside the tests, if none of its sources is newer.
 pub(crate) fn built(name: &str, sources: &[impl AsRef<Path>]) -> Option<PathBuf> {
     let own = std::env::current_exe().ok()?;
-    // Tests lie in a folder of their own, programs beside it.
+    // Tests lie in their own folder, and programs in its parent.
     let path = own.ancestors().skip(1).take(2).map(|folder| folder.join(name)).find(|path| path.is_file())?;
     let made = path.metadata().and_then(|m| m.modified()).ok()?;
     let changed = sources.iter().filter_map(|source| newest(source.as_ref())).max();
@@ -83,7 +83,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Starts one with an empty store.
+    /// Starts a server with an empty store.
     ///
     /// # Errors
     /// If it does not print its address within ten seconds.
@@ -91,7 +91,7 @@ impl Server {
         Self::of(program(), flags)
     }
 
-    /// Starts one of a given program with an empty store.
+    /// Starts a given program as a server with an empty store.
     ///
     /// # Errors
     /// If it does not print its address.
@@ -103,10 +103,10 @@ impl Server {
         Ok(server)
     }
 
-    /// Starts one with an empty store, and waits until its demos are listed.
+    /// Starts a server with an empty store, and waits until its demos are listed.
     ///
     /// # Errors
-    /// When it does not start, or they are not there after ten seconds.
+    /// When it does not start, or the demos are missing after ten seconds.
     pub fn with_demos() -> anyhow::Result<Self> {
         let server = Self::start(&[])?;
         for _ in 0..200 {
@@ -118,7 +118,7 @@ impl Server {
         anyhow::bail!("demo-crossing is not listed")
     }
 
-    /// Starts one with an empty store that keeps its access lines for [`Server::log`].
+    /// Starts a server with an empty store that keeps its access log for [`Server::log`].
     ///
     /// # Errors
     /// If it does not print its address.
@@ -132,7 +132,7 @@ impl Server {
         Ok(server)
     }
 
-    /// Starts one on a given store.
+    /// Starts a server on a given store.
     ///
     /// # Errors
     /// If it does not print its address.
@@ -140,7 +140,7 @@ impl Server {
         Self::launch(Self::command(db, flags))
     }
 
-    /// The call that starts one on a given store.
+    /// The command that starts a server on a given store.
     pub fn command(db: &Path, flags: &[&str]) -> Command {
         Self::command_of(program(), db, flags)
     }
@@ -151,7 +151,7 @@ impl Server {
         command
     }
 
-    /// Starts one by a call that was made ready.
+    /// Starts a server by a prepared command.
     ///
     /// # Errors
     /// If it does not print its address.
@@ -207,7 +207,7 @@ impl Server {
         self.send(&Request::new("POST", path).json(body))
     }
 
-    /// Value of a metric: the sum over its labels, or of one series given with its labels.
+    /// Value of a metric: the sum over its labels, or one series if labels are given.
     ///
     /// # Errors
     /// When no reply can be read.
@@ -219,7 +219,7 @@ impl Server {
         Ok(lines.filter_map(|line| line.rsplit(' ').next()?.parse::<f64>().ok()).sum())
     }
 
-    /// Memory that it holds, bytes (Linux).
+    /// Memory that the server holds, bytes (Linux).
     ///
     /// # Errors
     /// If it has ended, or the system does not report it.
@@ -227,7 +227,7 @@ impl Server {
         self.status_bytes("VmRSS:")
     }
 
-    /// Most memory that it has held so far, bytes (Linux).
+    /// Peak memory of the server so far, bytes (Linux).
     ///
     /// # Errors
     /// If it has ended, or the system does not report it.
@@ -242,7 +242,7 @@ impl Server {
         Ok(kib << 10)
     }
 
-    /// Core time that it has used, seconds (Linux): other work on the machine does not matter.
+    /// Core time that the server has used, seconds (Linux); other work on the machine does not matter.
     ///
     /// # Errors
     /// If it has ended, or the system does not report it.
@@ -254,15 +254,15 @@ impl Server {
         Ok((next()? + next()?) / TICKS)
     }
 
-    /// True while it runs.
+    /// Whether the server runs.
     pub fn is_up(&mut self) -> bool {
         matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Its log, if it was started with one.
+    /// The log of the server, if it was started with one.
     ///
     /// # Errors
-    /// If it was not.
+    /// If it has none.
     pub fn log(&self) -> anyhow::Result<String> {
         let folder = self.folder.as_ref().context("no folder")?;
         Ok(std::fs::read_to_string(folder.path().join("log"))?)
@@ -273,10 +273,10 @@ impl Server {
         self.child.id()
     }
 
-    /// Kills it at once, as a power cut would.
+    /// Kills the server at once, as a power cut would.
     ///
     /// # Errors
-    /// When it is gone already.
+    /// When it has already ended.
     pub fn kill(mut self) -> anyhow::Result<()> {
         self.child.kill()?;
         self.child.wait()?;

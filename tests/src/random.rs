@@ -1,4 +1,4 @@
-//! Random numbers for tests that can be run again: one number gives all others.
+//! Reproducible random numbers for tests: a seed determines the whole sequence.
 
 /// A sequence of numbers (SplitMix64).
 #[derive(Clone, Debug)]
@@ -26,23 +26,23 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number below this one; 0 when there is none.
+    /// A number below `end`; 0 if `end` is 0.
     pub fn below(&mut self, end: u64) -> u64 {
         self.any().checked_rem(end).unwrap_or(0)
     }
 
-    /// A place in a list of this length; 0 in an empty one.
+    /// An index into a list of this length; 0 for an empty one.
     pub fn index(&mut self, length: usize) -> usize {
         self.below(length as u64) as usize
     }
 
-    /// A number below 1000, mostly a small one.
+    /// A number below 1000, usually a small one.
     pub fn small(&mut self) -> usize {
         let most = 1 << self.below(10);
         self.index(most)
     }
 
-    /// One of a list, which must not be empty.
+    /// An element of a list, which must not be empty.
     #[allow(clippy::indexing_slicing, reason = "lists that are drawn from are never empty")]
     pub fn pick<'a, T>(&mut self, list: &'a [T]) -> &'a T {
         &list[self.index(list.len())]

@@ -1,5 +1,5 @@
-//! Unexpected request bodies, sent to the real server: every reply must follow the document, and none may be
-//! a defect.
+//! Unexpected request bodies, sent to the real server: every reply must follow the document, and none may
+//! report a defect.
 
 use crate::contract::promise;
 use crate::http::{Reply, Request};
@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 const FORM: &str = "multipart/form-data; boundary=part";
 const JSON: &str = "application/json";
 
-/// One sort of request: its corpus is the folder `fuzz/corpus/request-NAME`.
+/// One kind of request: its corpus is the folder `fuzz/corpus/request-NAME`.
 pub struct Target {
     /// Name.
     pub name: &'static str,
@@ -31,7 +31,7 @@ const fn post(name: &'static str, path: &'static str, media_type: &'static str) 
     Target { name, method: "POST", path, media_type, precondition: None }
 }
 
-/// All sorts.
+/// All kinds.
 pub const TARGETS: &[Target] = &[
     post("request-generate", "/v1/generate", JSON),
     post("request-score", "/v1/score", JSON),
@@ -53,7 +53,7 @@ pub const TARGETS: &[Target] = &[
     },
 ];
 
-/// A server with bounds that keep each call short.
+/// A server with limits that keep each call short.
 ///
 /// # Errors
 /// When it does not start.
@@ -68,7 +68,7 @@ pub fn server(program: &Path) -> anyhow::Result<Server> {
     Ok(server)
 }
 
-/// One target's inputs over one connection at a time.
+/// Sends the inputs of one target, over one connection at a time.
 pub struct Caller<'a> {
     target: &'a Target,
     server: &'a Server,
@@ -77,7 +77,7 @@ pub struct Caller<'a> {
 }
 
 impl<'a> Caller<'a> {
-    /// To a server.
+    /// A caller of a server.
     ///
     /// # Errors
     /// When the target has no corpus.
@@ -91,10 +91,10 @@ impl<'a> Caller<'a> {
         &self.corpus
     }
 
-    /// Sends a body and judges the reply.
+    /// Sends a body and checks the reply.
     ///
     /// # Errors
-    /// The fault of the reply, or the lack of one.
+    /// The fault of the reply, or that there is none.
     pub fn call(&mut self, body: &[u8]) -> anyhow::Result<u16> {
         let target = self.target;
         let mut request =
@@ -107,7 +107,7 @@ impl<'a> Caller<'a> {
             bail!("{}: {}", reply.status, reply.text());
         }
         if reply.status == 201 {
-            // The store is to stay small.
+            // Deletes the new scene to keep the store small.
             let location = reply.header("location").to_owned();
             if !location.is_empty() {
                 self.server.send(&Request::new("DELETE", &location).header("if-match", "*"))?;

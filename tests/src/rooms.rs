@@ -1,8 +1,9 @@
-//! Rooms inside a crate: which module imports which, read from the sources.
+//! Module layers inside a crate, called rooms: which module imports which, read from the sources.
 //!
 //! A room is a module of a crate's root, or of a module that is a house of its own. Rooms stand on floors,
-//! and a room may import only rooms on floors below it: rooms on one floor know nothing of each other.
-//! [`rings`] looks inside rooms, file by file. Both read the text: every path outside comments and strings.
+//! and a room may import only rooms on lower floors: rooms on one floor do not depend on each other.
+//! [`rings`] looks for import cycles inside rooms, file by file. Both parse the text: every path outside
+//! comments and strings.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +20,7 @@ pub struct House {
 }
 
 impl House {
-    /// Everything that is wrong: imports that lead up, and modules without a place in the order.
+    /// All faults: imports of a higher or the same floor, and modules that the order does not name.
     ///
     /// # Errors
     /// When the sources cannot be read.
@@ -36,13 +37,13 @@ impl House {
         Ok(faults)
     }
 
-    /// Faults of one module with this path from the crate's root.
+    /// Faults of one module, given by its path from the crate's root.
     pub fn faults_of(&self, module: &[String], text: &str) -> Vec<String> {
         let inside = |path: &[String]| {
             let below = path.len() > self.module.len() && path.iter().zip(self.module).all(|(a, b)| a == b);
             below.then(|| path[self.module.len()].clone())
         };
-        // The house itself puts the rooms together.
+        // The house itself combines its rooms.
         let Some(room) = inside(module) else { return Vec::new() };
         let place = |name: &str| self.floors.iter().position(|floor| floor.contains(&name));
         let Some(own) = place(&room) else {
@@ -91,11 +92,11 @@ fn module_of(path: &Path) -> Vec<String> {
     parts
 }
 
-/// All paths in a text of a module, from the crate's root on: `use super::{b, c::D}` in `a::e` gives `a::b` and
-/// `a::c::D`. A path that begins with a plain name is taken from the module itself.
+/// All paths in the text of a module, from the crate's root: `use super::{b, c::D}` in `a::e` gives `a::b`
+/// and `a::c::D`. A path that begins with a plain name is relative to the module itself.
 fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
     let tokens = tokens(&without_words(text));
-    // The modules written out in the text, each with the depth of braces at which it opened.
+    // The inline modules of the text, each with the depth of braces at which it opened.
     let (mut inner, mut depth): (Vec<(String, usize)>, usize) = (Vec::new(), 0);
     let mut found = Vec::new();
     let mut at = 0;
@@ -142,7 +143,7 @@ fn paths(module: &[String], text: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Reads a path, or a group of them, below `base`; says where the text goes on.
+/// Reads a path, or a group of them, below `base`; returns the index after it.
 fn tree(tokens: &[String], mut at: usize, base: &[String], found: &mut Vec<Vec<String>>) -> usize {
     if tokens.get(at).is_some_and(|token| token == "{") {
         at += 1;
@@ -168,7 +169,7 @@ fn tree(tokens: &[String], mut at: usize, base: &[String], found: &mut Vec<Vec<S
     at + 1
 }
 
-/// Names, `::`, and every other character that is no space.
+/// Names, `::`, and every other character except spaces.
 fn tokens(code: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
     let mut chars = code.chars().peekable();
@@ -194,8 +195,8 @@ fn is_name(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// Rings of imports among the files of a folder below a crate's sources, each as the modules in it. `folder` is the
-/// folder's module. Types count like everything else.
+/// Import cycles among the files of a folder below a crate's sources, each as a list of modules. `folder` is
+/// the module of the folder. Imports of types count like all others.
 ///
 /// # Errors
 /// When the sources cannot be read.
@@ -209,7 +210,7 @@ pub fn rings(sources: &Path, folder: &[&str]) -> std::io::Result<Vec<Vec<String>
     Ok(rings_of(&texts))
 }
 
-/// Rings among modules, each given by its path and its text.
+/// Import cycles among modules, each given by its path and its text.
 pub fn rings_of(texts: &[(Vec<String>, String)]) -> Vec<Vec<String>> {
     let index = |path: &[String]| {
         let prefixes = (1..=path.len()).rev().filter_map(|n| path.get(..n));
@@ -236,7 +237,7 @@ pub fn rings_of(texts: &[(Vec<String>, String)]) -> Vec<Vec<String>> {
     for from in 0..texts.len() {
         let ring: Vec<usize> =
             (0..texts.len()).filter(|to| reached[from][*to] && reached[*to][from]).collect();
-        // Each ring is reported once, by its first module.
+        // Each cycle is reported once, by its first module.
         if ring.first() == Some(&from) {
             rings.push(ring.into_iter().map(|i| texts[i].0.join("::")).collect());
         }
@@ -244,7 +245,7 @@ pub fn rings_of(texts: &[(Vec<String>, String)]) -> Vec<Vec<String>> {
     rings
 }
 
-/// The text with comments and the insides of strings left out.
+/// The text without comments and without the contents of strings.
 fn without_words(text: &str) -> String {
     let mut code = String::with_capacity(text.len());
     let mut in_string = false;
@@ -254,7 +255,7 @@ fn without_words(text: &str) -> String {
             match c {
                 '\\' if in_string => drop(chars.next()),
                 '"' => in_string = !in_string,
-                // A quote as a character is no string.
+                // A quote as a character literal does not begin a string.
                 '\'' if !in_string && line.get(at..).is_some_and(|rest| rest.starts_with("'\"'")) => {
                     chars.next();
                     chars.next();
@@ -348,7 +349,7 @@ mod tests {
             ("a::d", "use super::b::B;"),
         ];
         assert_eq!(rings_of(&texts(&ring)), [["a::b", "a::c", "a::d"]]);
-        // A file that takes a type of the module that takes it.
+        // A file that imports a type of the module that contains it.
         let parent = [("a", "mod b; use b::B; struct Key;"), ("a::b", "use super::Key;")];
         assert_eq!(rings_of(&texts(&parent)), [["a", "a::b"]]);
     }

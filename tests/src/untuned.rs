@@ -1,10 +1,14 @@
-//! Numbers of the engine that stand outside its tables of tuned numbers, and how they are found in the text.
+//! Numbers of the engine outside its tables of tuned numbers, and a search for them in the sources.
 //!
-//! Reasons: an `input` is measured for the networks, a `bound` only leaves out what cannot matter, a `grid` and a
-//! `bracket` set the resolution of a search, a `divisor` keeps a division finite, `kinematics`, `geometry`, `angle` and
-//! `polynomial` follow from a formula, a `sample` is the scene that warms the engine up.
+//! The reasons are:
+//! - `input`: measured for the networks.
+//! - `bound`: only leaves out what cannot matter.
+//! - `grid`, `bracket`: resolution of a search.
+//! - `divisor`: keeps a division finite.
+//! - `kinematics`, `geometry`, `angle`, `polynomial`: follow from a formula.
+//! - `sample`: the scene that warms the engine up.
 
-/// Constants of floating point numbers that stand outside `experts::tuning`: file, name, and why in a word.
+/// Floating-point constants outside `experts::tuning`: file, name, and the reason in a word.
 pub const CONSTANTS: &[(&str, &str, &str)] = &[
     ("features/agent.rs", "BEYOND_M", "input"),
     ("features/ahead.rs", "QUEUE_M", "input"),
@@ -70,13 +74,13 @@ pub const CONSTANTS: &[(&str, &str, &str)] = &[
     ("planning/smooth.rs", "LENGTH_S", "training"),
 ];
 
-/// Folders whose numbers were trained with: the weights fit no others.
+/// Folders whose numbers were fixed during training: the weights fit no other numbers.
 pub const OF_FOLDERS: &[(&str, &str)] = &[
     ("features/", "scales and reaches of the inputs, part of the format of the weights"),
     ("net/", "architecture and initialisation"),
 ];
 
-/// Other numbers that stand outside `experts::tuning`: file, literal, and why in a word.
+/// Other numbers outside `experts::tuning`: file, literal, and the reason in a word.
 pub const LITERALS: &[(&str, &str, &str)] = &[
     ("clock.rs", "1e3", "unit"),
     ("sentences.rs", "3.6", "unit"),
@@ -126,7 +130,7 @@ pub const LITERALS: &[(&str, &str, &str)] = &[
     ("placement/speeds.rs", "1e3", "rounding"),
 ];
 
-/// Constants of floating point numbers in a text, by name; tests at its end are left out.
+/// Names of the floating-point constants in a text, without the tests at its end.
 pub fn float_constants(text: &str) -> Vec<&str> {
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);
     let declared = code.split("const ").skip(1).filter_map(|rest| rest.split_once(" ="));
@@ -137,8 +141,8 @@ pub fn float_constants(text: &str) -> Vec<&str> {
     floats.map(|(name, _)| name).collect()
 }
 
-/// Floating point literals in a text other than 0, 0.5, 1, 2 and small powers of ten, which are tolerances; left out are
-/// comments, the values of [`float_constants`], and tests at the end.
+/// Floating-point literals in a text other than 0, 0.5, 1, 2 and small powers of ten, which are tolerances.
+/// Comments, the values of [`float_constants`], and tests at the end are left out.
 pub fn float_literals(text: &str) -> Vec<String> {
     let code = text.split("\n#[cfg(test)]\nmod tests {").next().unwrap_or(text);
     let mut code: String = code
@@ -153,17 +157,17 @@ pub fn float_literals(text: &str) -> Vec<String> {
         let end = code[value..].find(';').map_or(code.len(), |i| value + i);
         code.replace_range(at..end, "");
     }
-    // Every other piece between quotation marks is a text.
+    // Every other piece between quotation marks is a string.
     code.split('"').step_by(2).flat_map(floats).collect()
 }
 
-/// Floating point numbers in code, as they are written but for their type, that must have a reason.
+/// Floating-point numbers in code that need a reason, as they are written but without their type.
 fn floats(code: &str) -> Vec<String> {
     let mut found = Vec::new();
     let (mut rest, mut before) = (code, "");
     while let Some(at) = rest.find(|c: char| c.is_ascii_digit()) {
         let head = if at == 0 { before } else { &rest[..at] };
-        // A digit of a name, or of a field by its number.
+        // A digit of a name or of a tuple field.
         let inside = head.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
             || (head.ends_with('.') && !head.ends_with(".."));
         let number = number(&rest[at..]);
@@ -177,7 +181,7 @@ fn floats(code: &str) -> Vec<String> {
     found
 }
 
-/// The number that a text begins with.
+/// The number at the beginning of a text.
 fn number(text: &str) -> &str {
     let digits = |from: usize| {
         text[from..]
@@ -197,7 +201,7 @@ fn number(text: &str) -> &str {
     &text[..end]
 }
 
-/// Numbers that need no reason: parts and doubles, and powers of ten that are tolerances.
+/// Whether a number needs no reason: simple factors, and powers of ten that are tolerances.
 fn is_plain(number: &str) -> bool {
     let value: f64 = number.replace('_', "").parse().unwrap_or(f64::NAN);
     [0.0, 0.5, 1.0, 2.0].contains(&value) || number.starts_with("1e-")

@@ -1,5 +1,5 @@
-//! Writers with a memory of the replies: each changes its own scenes by PUT, PATCH and DELETE. Each knows
-//! what the store must hold afterwards, even if the server or its disk failed.
+//! Writers that remember the replies: each changes its own scenes by PUT, PATCH and DELETE, and knows what
+//! the store must hold afterwards, even if the server or its disk failed.
 
 use crate::http::Request;
 use crate::program::Server;
@@ -26,9 +26,9 @@ pub struct Version {
 /// Knowledge about one scene.
 #[derive(Clone, Debug, Default)]
 struct Known {
-    /// As in the last reply; `None` for a scene that does not exist.
+    /// The version of the last reply; `None` for a scene that does not exist.
     sure: Option<Version>,
-    /// Versions that an unanswered or partly refused change may have left.
+    /// Versions that an unanswered or refused change may have left.
     perhaps: Vec<Option<Version>>,
     /// ETag of `sure`, if a reply had one.
     etag: Option<String>,
@@ -54,7 +54,7 @@ pub struct Tally {
     pub refused: u64,
     /// Without an answer.
     pub lost: u64,
-    /// Of those refused or without an answer: found applied whole.
+    /// Refused or unanswered changes that were found fully applied.
     pub applied: u64,
 }
 
@@ -79,7 +79,7 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// So many writers with names of their own.
+    /// This many writers, each with its own name.
     pub fn crowd(count: u64, seed: u64) -> Vec<Self> {
         let writer = |k| Self {
             name: format!("w{k}"),
@@ -136,10 +136,10 @@ impl Writer {
         Outcome::Refused(reply.status, reply.code())
     }
 
-    /// Holds what the server has against what it must have. What it has is known from then on.
+    /// Compares the server's scenes with the expected ones, and remembers what it has found.
     ///
     /// # Errors
-    /// When something that was answered is lost, or mixed with something else.
+    /// When an acknowledged write is lost, or mixed with another one.
     pub fn compare(&mut self, server: &Server) -> anyhow::Result<()> {
         for (id, known) in &mut self.scenes {
             let reply = server.get(&format!("/v1/scenes/{id}"))?;
@@ -163,12 +163,12 @@ impl Writer {
         Ok(())
     }
 
-    /// Forgets what changes without an answer might have done: after a start, what is there stays.
+    /// Forgets possible effects of unanswered changes: after a start, the stored scenes are final.
     pub fn settle(&mut self) {
         self.scenes.values_mut().for_each(|known| known.perhaps.clear());
     }
 
-    /// Ids of the scenes that must be there.
+    /// Ids of the scenes that must exist.
     pub fn present(&self) -> impl Iterator<Item = &str> {
         self.scenes.iter().filter(|(_, known)| known.sure.is_some()).map(|(id, _)| id.as_str())
     }
@@ -177,7 +177,7 @@ impl Writer {
 fn document(version: &Version) -> Value {
     let mut scene = street(version.agents, 12);
     scene["name"] = json!(version.name);
-    // Each version knows itself: a body of one and a row of another would be found.
+    // Each version names itself, so that a body with the row of another version is detected.
     scene["meta"]["notes"] = json!(version.agents.to_string());
     scene
 }
@@ -197,10 +197,10 @@ pub fn tally(writers: &[Writer]) -> Tally {
     all
 }
 
-/// Holds the server's store against all writers, and the list against what must be in it.
+/// Compares the server's store with all writers, and its list with the expected entries.
 ///
 /// # Errors
-/// When something is lost, mixed, or there and should not be.
+/// When something is lost, mixed, or present although it must not be.
 pub fn compare(writers: &mut [Writer], server: &Server) -> anyhow::Result<()> {
     for writer in writers.iter_mut() {
         writer.compare(server)?;
@@ -223,10 +223,10 @@ pub fn compare(writers: &mut [Writer], server: &Server) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Lets all writers work in parallel until a stop, or until the server is gone.
+/// Runs all writers in parallel until a stop, or until the server is gone.
 ///
 /// # Errors
-/// When a reply breaks the contract, or is a refusal that `allowed` does not know.
+/// When a reply breaks the contract, or is a refusal that `allowed` does not accept.
 pub fn work(
     writers: &mut [Writer],
     address: SocketAddr,
@@ -254,10 +254,10 @@ pub fn work(
     })
 }
 
-/// Lets all writers work for so long, and then does something to the server while they are at it.
+/// Runs all writers for this time, then does something to the server while they work.
 ///
 /// # Errors
-/// As [`work`], or as what is done.
+/// As [`work`], or those of the action.
 pub fn work_until<T>(
     writers: &mut [Writer],
     address: SocketAddr,
@@ -276,7 +276,7 @@ pub fn work_until<T>(
     })
 }
 
-/// Looks through a store's file with the database library itself.
+/// Checks the file of a store with the database library itself.
 ///
 /// # Errors
 /// When it is damaged.
@@ -290,7 +290,7 @@ pub fn sound(db: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A refusal when there is no fault anywhere: none.
+/// Allows no refusal: there is no fault.
 pub fn none(_: u16, _: &str) -> bool {
     false
 }
@@ -300,10 +300,10 @@ pub fn of_the_disk(status: u16, code: &str) -> bool {
     matches!((status, code), (507, "store-full") | (503, "store-unavailable"))
 }
 
-/// Waits until something holds.
+/// Waits until a condition holds.
 ///
 /// # Errors
-/// When it does not within half a minute.
+/// When it does not hold within half a minute.
 pub fn wait_for(what: &str, holds: impl Fn() -> bool) -> anyhow::Result<()> {
     let began = Instant::now();
     while !holds() {

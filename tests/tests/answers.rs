@@ -1,4 +1,4 @@
-//! Metadata of an answer: the code of its inputs, and what counts as an event in it.
+//! Metadata of a reply: the code of its inputs, and the events that are reported in it.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 

@@ -15,7 +15,7 @@ fn backup(db: &Path, output: &Path, flags: &[&str]) -> Output {
     command.args(["backup", "--db"]).arg(db).arg("-o").arg(output).args(flags).output().unwrap()
 }
 
-/// Exit code, and the one line that was said.
+/// Exit code, and the single line of output.
 fn told(output: &Output) -> (Option<i32>, String) {
     let said = String::from_utf8(output.stderr.clone()).unwrap();
     assert_eq!(said.lines().count(), 1, "{said}");
@@ -43,7 +43,7 @@ fn a_copy_taken_amid_writes_has_every_write_that_was_answered_before() {
     }
     let kept: Vec<(String, String)> = ids(&server);
     assert!(!kept.is_empty());
-    // These go on while it is taken.
+    // These writers go on during the copy.
     let mut amid: Vec<Writer> = Writer::crowd(6, 2).into_iter().skip(2).collect();
     let taken =
         writers::work_until(&mut amid, server.address, Duration::from_millis(100), writers::none, || {
@@ -78,7 +78,7 @@ fn a_copy_needs_no_server_and_keeps_what_is_there() {
     while crowd[0].present().next().is_none() {
         crowd[0].change(server.address);
     }
-    // A log not yet merged into the file is part of the store.
+    // A log that is not yet merged into the file is part of the store.
     server.kill().unwrap();
     assert_eq!(told(&backup(&db, &copy, &[])).0, Some(0));
     #[cfg(unix)]

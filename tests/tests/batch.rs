@@ -1,4 +1,4 @@
-//! Batches: equal results whatever the threads, shards and interruptions; failures as rows; plans that make no sense.
+//! Batches: equal results for any threads, shards and interruptions; failures as rows; invalid plans.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -11,7 +11,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Two scenes and a file that is none; 2 x (2 seeds + 6 road users x 2 speeds x 2 seeds) + 1 units.
+/// Two scenes and a file that is no scene; 2 x (2 seeds + 6 road users x 2 speeds x 2 seeds) + 1 units.
 const PLAN: &str = r#"
 scenes = ["scenes/*.json"]
 seeds = 2
@@ -53,7 +53,7 @@ fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+/// Runs the program, checks its exit code, and returns stdout and stderr.
 fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     told(&command(folder, arguments).output().unwrap(), arguments, code)
 }
@@ -65,7 +65,7 @@ fn told(output: &Output, arguments: &[&str], code: i32) -> (String, String) {
     (text(&output.stdout), told)
 }
 
-/// Every file below a folder with its bytes, hidden ones too.
+/// Every file below a folder with its bytes, including hidden files.
 fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let (mut files, mut folders) = (BTreeMap::new(), vec![folder.to_path_buf()]);
     while let Some(next) = folders.pop() {
@@ -81,7 +81,7 @@ fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files
 }
 
-/// Names of the files that differ, or that one of two trees lacks.
+/// Names of the files that differ, or exist in one tree only.
 fn differences(first: &Path, second: &Path) -> Vec<PathBuf> {
     let (first, second) = (tree(first), tree(second));
     let names = first.keys().chain(second.keys());
@@ -139,7 +139,7 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
     let status = json(&text);
     let of = |outcome: &str| status["tally"]["outcomes"][outcome].as_u64().unwrap_or(0);
     assert_eq!((status["units"].as_u64(), status["units_done"].as_u64()), (Some(UNITS), Some(UNITS)));
-    // The file that is no scene is a row.
+    // The file that is no scene becomes a row.
     assert_eq!(
         (of("failed"), status["tally"]["problems"]["malformed-json"].as_u64()),
         (1, Some(1)),
@@ -163,7 +163,7 @@ fn threads_and_shards_change_no_byte_and_a_finished_run_does_nothing() {
         let scene = format!("one/scenes/{}.json.zst", case["scene"].as_str().unwrap());
         assert!(base.join(scene).is_file(), "{line}");
     }
-    // Made again at will.
+    // Merging can be repeated.
     let merged = tree(&base.join("one"));
     ends(base, &["merge", "one"], 0);
     assert!(tree(&base.join("one")) == merged);
@@ -262,7 +262,7 @@ fn maps_are_filled_by_their_seeds() {
     let cases = std::fs::read_to_string(base.join("one/cases.jsonl")).unwrap();
     let users: Vec<f64> =
         cases.lines().map(|line| json(line)["figures"]["road_users"].as_f64().unwrap()).collect();
-    // The six cars of the file are left out; a pedestrian of the three finds no place beside the street.
+    // The six cars of the file are left out; one of the three pedestrians finds no place beside the street.
     let most = [4.0, 4.0, 3.0];
     assert!(users.len() == 3 && users.iter().zip(most).all(|(n, most)| *n > 0.0 && *n <= most), "{users:?}");
     ends(base, &["verify", "one"], 0);
@@ -271,7 +271,7 @@ fn maps_are_filled_by_their_seeds() {
     assert!(told.contains("another plan"), "{told}");
 }
 
-/// A search for cars that come close: 8 searches of 13 tries in two scenes, and a file that is none.
+/// A search for cars that come close: 8 searches of 13 tries in two scenes, and a file that is no scene.
 const SEARCH: &str = r#"
 scenes = ["scenes/*.json"]
 seeds = 2
@@ -306,12 +306,12 @@ fn a_search_is_the_same_whatever_the_threads_shards_and_interruptions() {
     assert!(kills >= 2 && tables(base) < 7, "{kills} kills, {} chunks", tables(base));
     ends(base, &["plan.toml", "-o", "out"], 0);
     assert_eq!(differences(&base.join("whole"), &base.join("out")), Vec::<PathBuf>::new());
-    // A chunk in the middle is made again from those before it.
+    // A chunk in the middle is made again from the chunks before it.
     let mut chunks: Vec<PathBuf> =
         std::fs::read_dir(base.join("out/chunks")).unwrap().map(|entry| entry.unwrap().path()).collect();
     chunks.sort();
     assert_eq!(chunks.len(), 3 * 7, "{chunks:?}");
-    // Its table: references and motions stand before it.
+    // Only its table: references and motions are written before it.
     std::fs::remove_file(&chunks[5]).unwrap();
     let (_, told) = ends(base, &["plan.toml", "-o", "out"], 0);
     assert!(told.contains("1 of 7 chunks"), "{told}");
@@ -326,7 +326,7 @@ fn a_search_is_the_same_whatever_the_threads_shards_and_interruptions() {
     assert_eq!(text, "20 units made again: all equal\n");
 }
 
-/// Starts a run and kills it without mercy once so many chunks are there; false when it had ended by itself.
+/// Starts a run and kills it once this many chunks exist; false if it had ended by itself.
 fn killed(folder: &Path, chunks: usize) -> bool {
     let mut child = started(folder);
     let running = loop {
@@ -342,7 +342,7 @@ fn killed(folder: &Path, chunks: usize) -> bool {
     running
 }
 
-/// Number of chunks that are there.
+/// Number of existing chunks.
 fn tables(folder: &Path) -> usize {
     let Ok(entries) = std::fs::read_dir(folder.join("out/chunks")) else { return 0 };
     entries.filter(|entry| entry.as_ref().unwrap().path().extension().unwrap() == "parquet").count()
@@ -356,7 +356,7 @@ fn started(folder: &Path) -> Child {
 fn a_killed_run_goes_on_and_two_at_once_agree() {
     let folder = prepared();
     let base = folder.path();
-    // Every unit is a chunk: many moments between two files.
+    // One chunk per unit: many moments between two files.
     std::fs::write(base.join("plan.toml"), PLAN.replace("chunk_units = 6", "chunk_units = 1")).unwrap();
     ends(base, &["plan.toml", "-o", "whole"], 0);
     let kills = [0, 1, 3, 4, 9, 10, 17, 26, 33].iter().filter(|chunks| killed(base, **chunks)).count();
@@ -386,7 +386,7 @@ fn a_chunk_with_other_bytes_and_another_plan_are_refused() {
     let [cases, table] = [&names[0], &names[2]];
     assert!(cases.extension().unwrap() == "jsonl" && table.extension().unwrap() == "parquet", "{names:?}");
     let good = std::fs::read(cases).unwrap();
-    // The table is not there, so the chunk is made again, and its cases are others.
+    // Without the table, the chunk is made again, and its cases are replaced.
     std::fs::write(cases, b"{}\n").unwrap();
     std::fs::remove_file(table).unwrap();
     let (_, told) = ends(base, &["plan.toml", "-o", "out"], 1);

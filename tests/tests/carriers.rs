@@ -1,4 +1,4 @@
-//! The same calls by HTTP, by the command line and directly: the same answers, byte for byte.
+//! The same calls by HTTP, by the command line and directly give the same replies, byte for byte.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -28,7 +28,7 @@ fn demo() -> Value {
     serde_json::from_slice(&std::fs::read(path()).unwrap()).unwrap()
 }
 
-/// A request and its scene, as any carrier has them: from JSON, with a home that has no scenes of its own.
+/// A request and its scene as every carrier reads them: from JSON, without stored scenes.
 fn opened<T: DeserializeOwned + AboutScene>(body: &Value) -> (T, Subject) {
     let mut request: T = serde_json::from_value(body.clone()).unwrap();
     let wanted: SceneRef = request.take_scene();
@@ -48,7 +48,7 @@ fn posted(server: &Server, path: &str, body: &Value) -> String {
     reply.text().to_string()
 }
 
-/// An answer without the times that it took and the date.
+/// A reply without its durations and its date.
 fn timeless(mut answer: Value) -> String {
     answer["timing"] = Value::Null;
     answer["generated"]["created_at"] = Value::Null;
@@ -155,7 +155,7 @@ fn conditions_of_other_road_users_are_refused() {
     let goal = json!({"x_m": -40.0, "y_m": 8.0});
     let mut body = asked("6", json!({"goal": goal}));
     assert_eq!(refused(&body), ["/conditions/6/goal"]);
-    // Road users that may react keep their motion unless another one is in the way.
+    // Road users that may react keep their motion unless another motion conflicts with it.
     for react in [json!(true), json!(["6"])] {
         body["react"] = react;
         assert_eq!(refused(&body), ["/conditions/6/goal"]);
@@ -173,7 +173,7 @@ fn conditions_of_other_road_users_are_refused() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
     assert!(told.contains("--goal 6: road user \"6\" is not in agents: add \"6\" to agents"), "{told}");
-    // Type and size count for every road user.
+    // Type and size apply to every road user.
     let output = call(&[&path(), "--agents", "7", "--steps", "0", "--size", "6=5x2"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }

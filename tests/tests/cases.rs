@@ -1,4 +1,5 @@
-//! Cases of a batch: results made again from their references, tables without near copies, coverage, and the page.
+//! Cases of a batch: results rebuilt from their references, tables without near copies, coverage, and the
+//! page.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -30,7 +31,7 @@ name = "speeds"
 agents = ["@vehicles"]
 goal = { ahead_m = { uniform = [5, 30] } }
 "#;
-/// A name that is markup where it is not escaped.
+/// A name that is markup if it is not escaped.
 const NAME: &str = "</script><b>";
 
 /// A folder with a plan, its scenes, and its results in `out`.
@@ -48,7 +49,7 @@ fn finished() -> TempDir {
     folder
 }
 
-/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+/// Runs the program, checks its exit code, and returns stdout and stderr.
 fn ends(folder: &Path, arguments: &[&str], code: i32) -> (Vec<u8>, String) {
     let output = Command::new(program())
         .args(arguments)

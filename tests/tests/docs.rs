@@ -1,6 +1,6 @@
-//! The documentation holds: its sizes, its links, the sections that a command prints, and every command that it
-//! shows. With `DOCS_ACCEPT=1` sections and shown outputs are written again. Blocks in Python are run by
-//! `python/tests/test_docs.py`.
+//! Checks the documentation: its sizes, its links, the sections that a command prints, and every command that
+//! it shows. With `DOCS_ACCEPT=1`, sections and shown outputs are rewritten. `python/tests/test_docs.py` runs
+//! the Python blocks.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -17,26 +17,26 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Most bytes of the pages that must stay short.
+/// Greatest size of the pages that must stay short, bytes.
 const SIZES: [(&str, usize); 3] =
     [("README.md", 10_240), ("ARCHITECTURE.md", 6_144), ("CONTRIBUTING.md", 8_192)];
 /// Languages of blocks: the first three are run.
 const LANGUAGES: [&str; 9] = ["sh", "js", "python", "json", "text", "rust", "toml", "nginx", "yaml"];
-/// Blocks that no test runs, each with its reason. The number changes with a decision, not by accident.
+/// Blocks that no test runs, each with its reason. This number may only change by a decision.
 const NORUN: usize = 38;
 /// Address of the server in the examples.
 const ADDRESS: &str = "127.0.0.1:8080";
 /// Time of a block before it counts as hanging.
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// A part of a page and what it should be.
+/// A part of a page and its expected text.
 type Due = (Range<usize>, String);
 
 fn accepts() -> bool {
     std::env::var_os("DOCS_ACCEPT").is_some()
 }
 
-/// Fails with these lines, unless there are none.
+/// Fails with these lines, if there are any.
 fn none(wrong: &[String]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -88,8 +88,8 @@ fn every_block_has_a_language_and_is_run_or_says_why_not() {
     assert_eq!(norun, NORUN, "blocks tagged norun");
 }
 
-/// Runs every block of every page, in the order of the page, in a folder with the example scenes, and the command of
-/// each generated section.
+/// Runs every block of every page in the order of the page, in a folder with the example scenes, and the
+/// command of each generated section.
 #[cfg(unix)]
 #[test]
 fn commands_run_and_print_what_the_pages_show() {
@@ -113,7 +113,7 @@ fn commands_run_and_print_what_the_pages_show() {
     none(&wrong);
 }
 
-/// Writes the due text into the page if requested, else reports where the page differs.
+/// Writes the expected text into the page if requested; otherwise reports where the page differs.
 fn settle(page: &Page, mut due: Vec<Due>) -> Vec<String> {
     due.retain(|(place, text)| page.text[place.clone()] != *text);
     if !accepts() {
@@ -130,7 +130,7 @@ fn settle(page: &Page, mut due: Vec<Due>) -> Vec<String> {
     Vec::new()
 }
 
-/// The first line in which a page differs from what was printed.
+/// The first line in which a page differs from the output.
 fn difference(page: &Page, (place, new): &Due) -> String {
     let old = &page.text[place.clone()];
     let line = page.text[..place.start].matches('\n').count() + 1;
@@ -145,7 +145,7 @@ fn difference(page: &Page, (place, new): &Due) -> String {
 struct Played {
     ran: usize,
     wrong: Vec<String>,
-    /// Expected blocks of text after commands.
+    /// Expected text blocks after commands.
     due: Vec<Due>,
 }
 
@@ -193,12 +193,12 @@ fn command_of(block: &Block, body: &str, folder: &Path) -> Command {
     let file = folder.join("block.mjs");
     std::fs::write(&file, body).unwrap();
     let mut command = Command::new("node");
-    // A page has sockets; Node.js has them without the flag since 22.
+    // A page has WebSockets; Node.js has them without the flag since 22.
     command.arg("--experimental-websocket").arg(file);
     command
 }
 
-/// Runs a command in a folder with the program on its path: whether it ended well, and all that it printed.
+/// Runs a command in a folder with the program on its path; returns whether it succeeded, and its output.
 fn run(mut command: Command, folder: &Path) -> (bool, String) {
     let path = format!("{}:{}", program().parent().unwrap().display(), std::env::var("PATH").unwrap());
     let printed = folder.join("printed");
@@ -325,12 +325,12 @@ fn limits(all: &Value) -> String {
     table(&["limit", "default", "meaning"], members(all).into_iter().map(row))
 }
 
-/// Members of an object by name, in whatever order the library keeps them.
+/// Members of an object, sorted by name.
 fn members(object: &Value) -> BTreeMap<&String, &Value> {
     object.as_object().unwrap().iter().collect()
 }
 
-/// A number with at most three digits behind the point; nothing for null.
+/// A number with at most three decimals; nothing for null.
 fn number(value: &Value) -> String {
     let Some(number) = value.as_f64() else { return "-".into() };
     let text = format!("{number:.3}");

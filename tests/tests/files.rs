@@ -1,4 +1,4 @@
-//! Files in and out over HTTP and on the command line.
+//! Import and export of files over HTTP and on the command line.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Real Waymo Open Motion scenes, when this machine has them.
+/// Real Waymo Open Motion scenes, if this machine has them.
 fn womd() -> Option<PathBuf> {
     samples::folder("womd/val", ".tfrecord")
 }
@@ -186,7 +186,7 @@ fn scoring_takes_given_motion() {
     let server = Server::start(&[]).unwrap();
     let steps = 90;
     let still = vec![0.0; steps];
-    // Car 0 stands where car 2 drives.
+    // Car 0 stands in the way of car 2.
     let body = json!({"scene": street(4, 91), "trajectories": {"0": {"first_step": 1,
         "x_m": vec![-30.0; steps], "y_m": still, "heading_rad": still, "vx_mps": still, "vy_mps": still}}});
     let score = server.post("/v1/score", &body).unwrap();
@@ -198,7 +198,7 @@ fn scoring_takes_given_motion() {
     assert_eq!(server.post("/v1/score", &stranger).unwrap().code(), "unknown-agent");
 }
 
-/// A trial of a form with parts of these names.
+/// A trial import of a form with parts of these names.
 fn form(parts: &[(&str, &str)]) -> Request {
     form_to("/v1/import?dry_run=true", parts)
 }
@@ -230,7 +230,7 @@ fn sumo_files_are_imported_with_their_network() {
     assert!(!scenes[0]["scene"]["map"]["lanes"].as_array().unwrap().is_empty());
     let wrong = server.send(&form(&[("net", &net), ("file", &net)])).unwrap();
     assert_eq!((wrong.status, wrong.code()), (422, "invalid-field".to_owned()));
-    // A second network is refused, not passed over.
+    // A second network is refused, not ignored.
     let two = server.send(&form(&[("net", &net), ("net", &net), ("file", &fcd)])).unwrap();
     assert_eq!((two.status, two.code()), (422, "invalid-field".to_owned()));
     assert_eq!(two.json()["errors"][0]["pointer"], "/net");
@@ -251,7 +251,7 @@ fn several_files_of_a_form_are_told_one_by_one() {
         let files = reply["files"].as_array().unwrap().iter();
         files.map(|file| file[member].as_str().unwrap_or_default().to_owned()).collect::<Vec<_>>()
     };
-    // A trial says of each what the scenes are, and so does the store.
+    // A trial reports the scenes of each file, and so does the store.
     let tried = server.send(&form(&parts)).unwrap();
     assert_eq!(tried.status, 200, "{}", tried.text());
     let tried = tried.json();
@@ -268,7 +268,7 @@ fn several_files_of_a_form_are_told_one_by_one() {
     for id in &ids {
         assert_eq!(server.get(&format!("/v1/scenes/{id}")).unwrap().status, 200);
     }
-    // Nothing can be read: the call is refused, with each reason.
+    // If nothing can be read, the call is refused, with each reason.
     let none = server.send(&form(&[("file", "not a scene"), ("file", BROKEN)])).unwrap();
     let pointers: Vec<Value> =
         none.json()["errors"].as_array().unwrap().iter().map(|error| error["pointer"].clone()).collect();
@@ -356,7 +356,8 @@ fn a_part_of_a_map_is_read_on_request() {
     assert!(String::from_utf8_lossy(&made.stderr).contains("within 150 m of 400, 0: lanes kept 1"));
 }
 
-/// Recordings 00 and 01 in the form of inD with the map of their place: a truck that drives in the middle of the lane.
+/// Recordings 00 and 01 in the form of inD with the map of their place: a truck that drives in the middle of
+/// the lane.
 fn recordings(folder: &Path) {
     for recording in ["00", "01"] {
         let heading = "recordingId,trackId,frame,xCenter,yCenter,heading,width,length,xVelocity,yVelocity";
@@ -398,7 +399,7 @@ fn a_recording_of_a_folder_is_read_with_its_tables_and_map() {
     assert!(said.contains(files) && said.contains("100 % of the vehicle positions"), "{said}");
     is_whole(&json(at("out.json")));
     std::fs::remove_file(at("out.json")).unwrap();
-    // A folder is its recordings; the map is no scene of its own.
+    // A folder gives its recordings; the map is not a scene of its own.
     let whole = folder.path().to_str().unwrap();
     let converted = run(&["convert", whole, "-o", &at("scenes/")]);
     assert_eq!(converted.status.code(), Some(0), "{}", String::from_utf8_lossy(&converted.stderr));
@@ -412,7 +413,7 @@ fn a_recording_of_a_folder_is_read_with_its_tables_and_map() {
     let scored = run(&["score", "--json", &at("01_tracks.csv")]);
     let line: Value = serde_json::from_slice(&scored.stdout).unwrap();
     assert_eq!(line["scene"]["off_road"].as_array().map(Vec::len), Some(0), "{line}");
-    // With the columns of another set nothing is taken.
+    // With the columns of another data set, nothing is read.
     let alone = run(&["convert", &at("00_tracks.csv"), "--columns", "highd", "-o", &at("out.json")]);
     assert_eq!(alone.status.code(), Some(3), "{}", String::from_utf8_lossy(&alone.stderr));
 }
@@ -442,7 +443,7 @@ fn the_data_folder_has_recordings_with_their_tables_and_maps() {
     let first = server.get("/v1/scenes/file-00_tracks-0").unwrap();
     assert_eq!(first.status, 200, "{}", first.text());
     is_whole(&first.json());
-    // The scene is that of all its files: when one has changed, it is gone.
+    // A scene depends on all its files: when one has changed, the scene is gone.
     std::fs::write(folder.path().join("01_tracksMeta.csv"), "trackId,class\n0,car\n").unwrap();
     assert_eq!(server.get("/v1/scenes/file-01_tracks-0").unwrap().code(), "not-found");
 }

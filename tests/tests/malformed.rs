@@ -1,5 +1,5 @@
-//! Requests that no good client sends: each is refused with its code, and the server lives on.
-//! `cargo test -p dragtraffic-tests --test malformed -- --nocapture` prints the table.
+//! Requests that no correct client sends: each is refused with its code, and the server stays up. `cargo test
+//! -p dragtraffic-tests --test malformed -- --nocapture` prints the table.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -23,7 +23,7 @@ fn post(path: &str) -> Request {
     Request::new("POST", path).header("content-type", "application/json")
 }
 
-/// A generate body with one member replaced; `text` is put in as it is.
+/// A generate body with one member replaced by a value.
 fn with(pointer: &str, value: Value) -> Request {
     let mut body = generate(2);
     set(&mut body, pointer, value);
@@ -379,7 +379,7 @@ fn import_cases() -> Vec<Case> {
     let upload = |body: Vec<u8>| {
         Request::new("POST", "/v1/import").header("content-type", "application/octet-stream").body(body)
     };
-    // A TFRecord's head: length, its checksum, then data that is not there or does not fit.
+    // The head of a TFRecord: length, its checksum, then missing or wrong data.
     let mut truncated = 1_000u64.to_le_bytes().to_vec();
     truncated.extend([1, 2, 3, 4, 5]);
     let mut huge = (u64::MAX / 2).to_le_bytes().to_vec();
@@ -490,7 +490,7 @@ fn every_call_about_a_scene_can_name_its_version() {
     }
 }
 
-/// Status and pointer of the refusal of a misshapen member.
+/// Status and pointer of the refusal of a malformed member.
 fn place_of_fault(request: &Request, server: &Server) -> (u16, String) {
     let reply = server.send(request).unwrap();
     let pointer = reply.json().pointer("/errors/0/pointer").and_then(Value::as_str).map(str::to_owned);

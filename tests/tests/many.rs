@@ -1,5 +1,5 @@
-//! The command line over many files: the documented task, conditions on scores, values that make no sense, and what is
-//! said meanwhile.
+//! The command line over many files: the documented task, conditions on scores, invalid values, and the
+//! messages meanwhile.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -13,7 +13,7 @@ fn run_in(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(program()).args(arguments).current_dir(folder).output().unwrap()
 }
 
-/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+/// Runs the program, checks its exit code, and returns stdout and stderr.
 fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let output = run_in(folder, arguments);
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
@@ -31,9 +31,9 @@ fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
 }
 
-/// The lines of a table behind its heading, each by column.
+/// The lines of a table after its heading, each by column.
 fn table(text: &str) -> Vec<std::collections::BTreeMap<String, String>> {
-    // Cells with commas stand in quotes; the columns that are looked at come before those.
+    // Cells with commas are quoted; the tested columns come before those.
     let mut lines = text.lines();
     let heading: Vec<&str> = lines.next().unwrap().split(',').collect();
     let row = |line: &str| {
@@ -294,7 +294,7 @@ fn many_files_have_one_verdict_each() {
     );
     assert_eq!(ends(folder.path(), &["-q", "convert", "in", "--to", "csv", "-o", "t.csv"], 0).1, "");
     assert_eq!(std::fs::read_to_string(at("t.csv")).unwrap(), csv);
-    // One bad file fails without the others, and the message names it.
+    // One bad file fails alone, and the message names it.
     std::fs::write(at("in/bad.json"), "{").unwrap();
     let (text, told) = ends(folder.path(), &["score", "in", "--csv", "scores.csv"], 4);
     assert!(

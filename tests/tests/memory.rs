@@ -45,7 +45,7 @@ fn record(number: u64) -> Vec<u8> {
     file
 }
 
-/// A recording of many positions that packs well.
+/// A recording of many positions that compresses well.
 fn recording(steps: u64) -> Vec<u8> {
     let step = |step: u64| {
         let cars = (0..200).map(|car| {
@@ -61,10 +61,10 @@ fn recording(steps: u64) -> Vec<u8> {
     gzip(std::iter::once(head).chain((0..steps).map(step)).chain([tail]))
 }
 
-/// A document with the longest text of nothing that its ratio allows.
+/// A document with the longest whitespace that the compression ratio allows.
 fn hollow() -> Vec<u8> {
     let head = br#"{"format":"dragtraffic.scene","version":1,"time":{"steps":9},"#.to_vec();
-    // Blanks, line ends and tabs in an order that packs about 20 to 1.
+    // Blanks, line ends and tabs in an order that compresses about 20 to 1.
     let blank = |i: u64| b"  \n \t\r  "[(i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 61) as usize];
     let mixed: Vec<u8> = (0..4_096).map(blank).collect();
     let space = (0..3_600u64).map(|i| {
@@ -78,7 +78,7 @@ fn hollow() -> Vec<u8> {
 /// Four uploads at once; refused ones are repeated. Returns the memory above the initial level: the peak, and
 /// the rest after its release or one minute.
 fn four(file: &[u8], query: &str, encoding: Option<&str>) -> (u64, u64) {
-    // One caller has half of the places.
+    // One caller may use half of the places.
     let server = Server::start(&["--limit", "uploads=8"]).unwrap();
     server.wait_ready().unwrap();
     let before = resident(&server, "VmRSS");

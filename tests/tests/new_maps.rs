@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Off-road driving among all states that futures on a template may have at most, over all of them.
+/// Greatest share of off-road states in all futures on templates.
 const MOST_OFF_ROAD: f64 = 0.03;
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
@@ -89,7 +89,7 @@ fn a_map_is_made_over_http_and_on_the_command_line_alike() {
     let again = server.post("/v1/map", &file["x_layout"]).unwrap();
     let again: Value = serde_json::from_slice(&again.body).unwrap();
     assert_eq!(again["scene"]["map"], file["map"]);
-    // And it can be kept, with what it was made from.
+    // The scene can be saved with the parameters of its map.
     let saved = server.post("/v1/scenes", &made["scene"]).unwrap();
     assert_eq!(saved.status, 201, "{}", saved.text());
     let id = serde_json::from_slice::<Value>(&saved.body).unwrap()["id"].as_str().unwrap().to_owned();

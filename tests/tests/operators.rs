@@ -1,4 +1,5 @@
-//! Commands and bounds for the operators of a server: doctor, health, export-all, the mode of the token file, memory.
+//! Commands and limits for operators of a server: doctor, health, export-all, the mode of the token file,
+//! memory.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
@@ -104,7 +105,7 @@ fn a_copy_takes_the_place_of_a_store_that_nobody_uses() {
         server.get(&format!("/v1/scenes/{}", id.as_str().unwrap())).unwrap().status
     };
     assert_eq!((status(&server, &first), status(&server, &second)), (200, 200));
-    // What a kill leaves in the log is part of the store that goes, not of the copy.
+    // The log that a kill leaves belongs to the replaced store, not to the copy.
     server.kill().unwrap();
     let (code, _, told) = run(&["restore", &copy, "--db", &db, "--force"], &[]);
     assert!(code == Some(0) && told.contains("1 scenes, sound"), "{told}");
@@ -117,7 +118,7 @@ fn a_copy_takes_the_place_of_a_store_that_nobody_uses() {
     assert!(!Path::new(&at("newer.sqlite")).exists());
 }
 
-/// Findings of the doctor by what they are about, with its exit code.
+/// Findings of the doctor by subject, with its exit code.
 fn doctor(flags: &[&str]) -> (Option<i32>, Vec<(String, String, String)>) {
     let (code, text, _) = run(&[&["doctor", "--json"], flags].concat(), &[]);
     let report: Value = serde_json::from_str(&text).unwrap();
@@ -188,7 +189,7 @@ fn every_scene_of_a_store_is_written_as_a_file() {
         let made = server.post("/v1/scenes", &scene).unwrap();
         ids.push(made.json()["id"].as_str().unwrap().to_owned());
     }
-    // Beside the running server, which has the newest of it in its log.
+    // Beside the running server, whose log has the newest scene.
     let (code, _, told) = run(&["export-all", &at("scenes.sqlite"), "-o", &at("out")], &[]);
     assert!(code == Some(0) && told.contains("3 scenes"), "{told}");
     let list = std::fs::read_to_string(folder.path().join("out/scenes.ndjson")).unwrap();
@@ -219,7 +220,7 @@ fn every_scene_of_a_store_is_written_as_a_file() {
 #[cfg(target_os = "linux")]
 #[test]
 fn what_does_not_fit_into_the_memory_is_refused_and_the_server_goes_on() {
-    // The least that a server takes: 128 MB for requests.
+    // The least memory of a server: 128 MB for requests.
     let flags = ["--memory", "384m", "--limit", "body_grace_s=120", "--limit", "body_read_s=120"];
     let server = Server::start(&flags).unwrap();
     server.wait_ready().unwrap();
@@ -229,7 +230,7 @@ fn what_does_not_fit_into_the_memory_is_refused_and_the_server_goes_on() {
         body
     });
     assert_eq!(held.unwrap().status, 200);
-    // Bodies that are long on their way: each has sent 15 MB of 16.
+    // Bodies that take long: each has sent 15 MB of 16.
     let part = vec![b' '; 15 << 20];
     let long = Request::new("POST", "/v1/generate").header("content-type", "application/json");
     let long = long.body(part).length("16000000");
@@ -259,7 +260,7 @@ fn what_does_not_fit_into_the_memory_is_refused_and_the_server_goes_on() {
         server.post("/v1/export", &small["scene"]).unwrap().status == 200
     });
     assert!(free, "the memory is given back");
-    // What can never fit: half of the budget is for one import.
+    // A file that can never fit: half of the budget is for one import.
     let file = vec![b'x'; 129 << 20];
     let upload =
         Request::new("POST", "/v1/import?dry_run=true").header("content-type", "text/csv").body(file);

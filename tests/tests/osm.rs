@@ -15,7 +15,7 @@ fn extract() -> String {
     std::fs::read_to_string(root().join("models/formats/tests/fixtures/crossing.osm")).unwrap()
 }
 
-/// `dragtraffic convert` of this text, with what to set in the environment.
+/// `dragtraffic convert` with this text, and `set` for its environment.
 fn convert(folder: &Path, text: &str, set: &dyn Fn(&mut Command)) -> Output {
     std::fs::write(folder.join("town.osm"), text).unwrap();
     let mut command = Command::new(program());

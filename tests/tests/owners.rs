@@ -1,4 +1,5 @@
-//! Scenes with owners (`--owners`): others see what is shared, and change what is shared for that; quotas.
+//! Scenes with owners (`--owners`): other users see shared scenes, and change those that are shared for
+//! changes; quotas.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
@@ -54,7 +55,7 @@ impl Group {
     }
 }
 
-/// What each user gets for each way to a scene.
+/// The status that a user gets for each access to a scene.
 fn ways(group: &Group, who: &str, id: &str) -> Vec<u16> {
     let path = format!("/v1/scenes/{id}");
     let about = json!({"scene_id": id});
@@ -85,7 +86,7 @@ fn a_scene_is_its_owners_until_it_is_shared() {
     assert_eq!((&own["owner"], &own["shared"]), (&json!("anna"), &json!("nobody")));
     assert!(group.listed("maria").is_empty() && group.listed("guest").is_empty());
     assert_eq!(group.listed("boss").len(), 1, "an administrator sees all");
-    // As if there were none.
+    // As if the scene did not exist.
     assert_eq!(ways(&group, "maria", &id), [404; 10]);
     assert!(group.send("maria", "GET", "/v1/maps", None).json()["maps"].as_array().unwrap().is_empty());
     assert_eq!(group.send("anna", "GET", "/v1/maps", None).json()["maps"].as_array().unwrap().len(), 1);
@@ -111,7 +112,7 @@ fn a_scene_is_its_owners_until_it_is_shared() {
     );
     share("nobody");
     assert_eq!(group.send("maria", "GET", &format!("/v1/scenes/{id}"), None).status, 404);
-    // Under the id of a scene that she does not see she makes nothing.
+    // She cannot create a scene under the id of a scene that she does not see.
     let put =
         Request::new("PUT", &format!("/v1/scenes/{id}")).header("if-none-match", "*").json(&street(1, 20));
     let put = put.header("authorization", &format!("Bearer {}", token("maria")));

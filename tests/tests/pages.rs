@@ -92,7 +92,7 @@ fn a_head_that_dribbles_is_cut_off() {
 
 #[test]
 fn half_open_connections_do_not_stop_a_client() {
-    // None of them ends by itself while the client is served.
+    // No connection ends by itself while the client is served.
     let server = Server::start(&["--limit", "connections=16", "--limit", "header_read_s=600"]).unwrap();
     let idle: Vec<TcpStream> = (0..200)
         .map(|_| {

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
-/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+/// Runs the program, checks its exit code, and returns stdout and stderr.
 fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let output = Command::new(program()).args(arguments).current_dir(folder).output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -83,7 +83,7 @@ fn a_plan_varies_a_pattern_at_every_place() {
     let ids: BTreeSet<&str> =
         case["agents"].as_array().unwrap().iter().map(|a| a["id"].as_str().unwrap()).collect();
     assert_eq!(ids, BTreeSet::from(["target", "vut"]), "those of the map are left out");
-    // The ego has no goal, and a future all the same.
+    // The ego has no goal, but a future.
     let futures = case["generated"]["samples"][0]["agents"].as_object().unwrap();
     let moving: BTreeSet<&str> = futures.keys().map(String::as_str).collect();
     assert_eq!(moving, ids, "all of the pattern are generated");

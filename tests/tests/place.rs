@@ -31,7 +31,7 @@ fn outline(agent: &Value, step: usize, margin_m: f64) -> Option<[f64; 5]> {
     Some([of("x_m")?, of("y_m")?, of("heading_rad")?, half("length_m"), half("width_m")])
 }
 
-/// Two rectangles share area: no side of either parts them.
+/// Whether two rectangles share area: no side of either separates them.
 fn touch(a: &[f64; 5], b: &[f64; 5]) -> bool {
     let apart = |a: &[f64; 5], b: &[f64; 5]| {
         let (c, s) = (a[2].cos(), a[2].sin());
@@ -149,7 +149,7 @@ fn centres_lie_in_the_region_and_the_seed_repeats_them() {
     let mut other = body.clone();
     other["seed"] = json!(12);
     assert_ne!(place(&server, &other)["agents"], reply["agents"]);
-    // A circle off the road has no place, which is no error.
+    // A circle off the road has no free place, which is no error.
     let nowhere = json!({"scene_id": "demo-crossing", "density": {"count": 3},
         "region": {"circle": {"x_m": 90.0, "y_m": 90.0, "radius_m": 2.0}}});
     let nothing = place(&server, &nowhere);
@@ -163,7 +163,7 @@ fn centres_lie_in_the_region_and_the_seed_repeats_them() {
 #[test]
 fn kept_road_users_are_in_the_way_and_types_are_as_asked() {
     let server = Server::start(&[]).unwrap();
-    // 13 cars on each of two lanes: nearly full. With all of them kept there is less room than without.
+    // 13 cars on each of two lanes: nearly full. If all of them are kept, there is less room.
     let scene = street(26, 20);
     let all = json!({"scene": scene, "density": {"count": 200}, "types": {"vehicle": 1.0}, "min_gap_m": 2});
     let among = place(&server, &all)["agents"].as_array().unwrap().len();
@@ -179,7 +179,7 @@ fn kept_road_users_are_in_the_way_and_types_are_as_asked() {
     for agent in reply["agents"].as_array().unwrap() {
         assert_eq!(agent["track"]["first_step"], 10);
     }
-    // The scene may hold 256; three are there.
+    // The scene may hold 256 road users, and has three.
     let mut full = json!({"scene": street(26, 20), "density": {"count": 256}, "types": {"vehicle": 1.0}});
     full["min_gap_m"] = json!(0);
     let reply = place(&server, &full);
@@ -232,7 +232,7 @@ fn drivers_wait_at_red_lights() {
     assert!(red < 0.6 * green, "{red} at red, {green} at green");
 }
 
-/// A map made from a template, as a scene of so many steps.
+/// A map made from a template, as a scene with this many steps.
 fn made(server: &Server, template: &str, parameters: &Value, steps: usize) -> Value {
     let reply = server.post("/v1/map", &json!({"template": template, "parameters": parameters})).unwrap();
     assert_eq!(reply.status, 200, "{}", reply.text());

@@ -43,7 +43,7 @@ fn moving(scene: &Scene) -> Vec<(String, State)> {
     ends.collect()
 }
 
-/// Boxes at each third step: by a future, else by the scene.
+/// Boxes at each third step: of a future, otherwise of the scene.
 fn boxes(scene: &Scene, id: &str, future: Option<&Future>) -> SweptBoxes {
     let agent = scene.agent(id).unwrap();
     let states: Vec<Option<State>> = (3..=90)
@@ -60,8 +60,8 @@ fn chosen(futures: &AgentFutures) -> &Future {
     &futures.modes[futures.chosen]
 }
 
-/// Every agent but the dragged one has a cause in the answer that would meet its former motion, and each
-/// chain of causes ends at the dragged one. Returns the number of such agents.
+/// Checks that every changed agent except the dragged one has a cause that would meet its former motion. Each
+/// chain of causes must end at the dragged one. Returns the number of changed agents.
 fn have_causes(scene: &Scene, asked: &str, sample: &Sample, what: &str) -> usize {
     for (id, futures) in sample.agents.iter().filter(|(id, _)| *id != asked) {
         let reaction = futures.reaction.as_ref().unwrap_or_else(|| panic!("{what}: {id} has no cause"));
@@ -120,7 +120,7 @@ fn picking_another_future_changes_those_alone_that_it_meets() {
         let states = futures.modes[picked].states.clone();
         let request = dragged(scene.clone(), "8", Goal::default());
         let answer = answer(Request { pinned: [("8".to_owned(), states)].into(), ..request });
-        // The picked one is given, so it is no part of the answer.
+        // The kept future is given, so it is not part of the answer.
         let mut sample = answer.samples[0].clone();
         let kept = AgentFutures { chosen: picked, ..futures.clone() };
         assert!(!sample.agents.contains_key("8"));
@@ -149,7 +149,7 @@ fn what_was_answered_before_is_kept_unless_something_new_is_in_the_way() {
 #[test]
 fn who_comes_in_later_brakes_for_what_stands_in_its_way() {
     let mut scene = demo("motorway");
-    // One that drives on, and is first seen a good way behind where another comes to stand.
+    // A road user that drives on, and is first seen far behind the place where another one stops.
     let (id, _) = moving(&scene).into_iter().find(|(_, end)| end.speed_mps() > 15.0).unwrap();
     let log = scene.agent(&id).unwrap().track.clone();
     let size = scene.agent(&id).unwrap().size;
@@ -159,7 +159,7 @@ fn who_comes_in_later_brakes_for_what_stands_in_its_way() {
     late.track.first_step = 30;
     late.size = size;
     scene.agents.push(late);
-    // Half of its way: as far as braking evenly to a halt takes it.
+    // The middle of its path: as far as it gets by braking evenly to a stop.
     let half_way = scene.agent(&id).unwrap().state_at(45).unwrap();
     let stops = Goal { position: Some(half_way.position()), speed_mps: Some(0.0), ..Goal::default() };
     let answer = answer(dragged(scene.clone(), &id, stops));

@@ -12,7 +12,7 @@ fn ask(server: &Server, feedback: Value) -> Value {
     reply.json()
 }
 
-/// A card as it is sent back.
+/// A card as a client sends it back.
 fn said(card: &Value, verdict: &str) -> Value {
     json!({"features": card["features"], "places": card["places"], "verdict": verdict})
 }

@@ -1,5 +1,5 @@
-//! The arrows between crates, and between the rooms inside them, as the architecture draws them: a new one
-//! fails here first.
+//! The dependencies between crates, and between the rooms inside them, as the architecture shows them: a new
+//! one fails here first.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-/// Crate, by its name without the product's before it, and the crates of this workspace that it may import.
+/// A crate, by its name without the product's prefix, and the crates of this workspace that it may import.
 const ARROWS: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("formats", &["scene"]),
@@ -46,7 +46,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tests", &["formats"]),
     ("xtask", &[]),
 ];
-/// Libraries with one home: name, and the crates that may import it.
+/// Libraries that only some crates may import: name, and these crates.
 const HOMES: &[(&str, &[&str])] = &[
     ("candle-core", &["experts", "lab-train"]),
     ("candle-nn", &["experts"]),
@@ -56,9 +56,9 @@ const HOMES: &[(&str, &[&str])] = &[
     ("blake3", &["scene", "lab-train"]),
     ("axum", &["base", "dragtraffic"]),
     ("tokio", &["work", "dragtraffic"]),
-    // Tests look into the store with the library itself; logs of nuPlan are read with it.
+    // Tests read the store with the library itself; nuPlan logs are read with it.
     ("rusqlite", &["dragtraffic", "formats", "tests"]),
-    // Only tests of `work` have it.
+    // Only tests of `work` use it.
     ("shuttle", &[]),
     ("hyper", &["dragtraffic"]),
     ("rmcp", &["dragtraffic"]),
@@ -70,12 +70,12 @@ const HOMES: &[(&str, &[&str])] = &[
     ("xodr", &["formats"]),
     ("i_overlay", &["formats"]),
     ("parquet", &["formats"]),
-    // XML is read by the scanner of `formats::xml`, which says why.
+    // The scanner of `formats::xml` reads XML, and explains why.
     ("roxmltree", &[]),
     ("quick-xml", &[]),
 ];
 /// Crates with modules on floors, the lowest first: a module may import only modules on lower floors. A crate
-/// gets a line here when its rooms are free of rings.
+/// gets a line here once its rooms are free of import cycles.
 const HOUSES: &[House] = &[
     House {
         name: "formats",
@@ -273,7 +273,7 @@ fn crates_import_what_the_architecture_allows() {
     }
 }
 
-/// Type names below a folder, each with the files that declare it; tests and benches are left out.
+/// Type names below a folder, each with the files that declare it, without tests and benches.
 fn type_homes(sources: &str) -> BTreeMap<String, BTreeSet<String>> {
     let mut homes: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for file in files(&root().join(sources)).unwrap() {
@@ -307,7 +307,7 @@ fn type_names_of_the_engine_are_unique() {
     assert!(shared.is_empty(), "{shared:?}");
 }
 
-/// Type names that several files of the program declare. The number may only fall.
+/// Number of type names that several files of the program declare. It may only fall.
 const SHARED_TYPE_NAMES: usize = 32;
 
 #[test]
@@ -389,7 +389,7 @@ fn only_the_labs_commands_of_the_server_know_the_lab() {
     }
 }
 
-/// Paths that only a carrier of the operations may use.
+/// Paths that only a transport of the operations may use.
 const OF_CARRIERS: &[&str] = &[
     "std::fs",
     "std::thread",

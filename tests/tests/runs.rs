@@ -1,4 +1,4 @@
-//! Runs over HTTP: begun, stepped, asked what-if, saved, taken up again and forgotten; and what is refused.
+//! Runs over HTTP: begun, stepped, peeked, saved, restored and forgotten; and what is refused.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -15,7 +15,7 @@ fn begun(server: &Server, more: &Value) -> Value {
     reply.json()
 }
 
-/// Car 2 after so many steps of 0.1 s while it brakes by 4 m/s2.
+/// Car 2 after this many steps of 0.1 s while it brakes with 4 m/s2.
 fn braking(number: u64) -> Value {
     let t = (0.1 * number as f64).min(2.5);
     let x_m = -45.0 + 10.0 * t - 2.0 * t * t;
@@ -43,7 +43,7 @@ fn a_run_is_stepped_peeked_saved_and_forgotten() {
         let reply = step(&server, &run, number);
         assert_eq!((reply.status, &reply.json()["number"]), (200, &json!(number)), "{}", reply.text());
     }
-    // A lost reply is asked for again; any other number is out of order.
+    // A lost reply can be requested again; any other number is out of order.
     let again = step(&server, &run, 5);
     assert_eq!((again.status, again.text()), (200, step(&server, &run, 5).text()));
     for wrong in [4, 7] {
@@ -51,7 +51,7 @@ fn a_run_is_stepped_peeked_saved_and_forgotten() {
         assert_eq!((reply.status, reply.code().as_str()), (409, "step-order"), "{}", reply.text());
         assert_eq!(reply.json()["message"]["values"]["next"].as_f64(), Some(6.0));
     }
-    // What if it drove on as it does?
+    // What if the car keeps its velocity?
     let column = |of: &dyn Fn(f64) -> f64| (1..=90).map(|i| of(0.1 * f64::from(i))).collect::<Vec<_>>();
     let still = column(&|_| 0.0);
     let x_m = column(&|t| -40.0 + 8.0 * t);
@@ -60,7 +60,7 @@ fn a_run_is_stepped_peeked_saved_and_forgotten() {
     let peek = server.post(&path("/peek"), &json!({"plans": {"2": on}})).unwrap();
     assert_eq!(peek.status, 200, "{}", peek.text());
     assert_eq!(peek.json()["futures"]["0"]["x_m"].as_array().unwrap().len(), 90);
-    // A copy goes on with the same bytes.
+    // A restored copy continues with the same bytes.
     let saved = server.send(&Request::new("POST", &path("/snapshot"))).unwrap();
     assert_eq!(saved.status, 200, "{}", saved.text());
     let body = json!({"scene": street(4, 20), "snapshot": saved.json()["snapshot"]});
@@ -73,7 +73,7 @@ fn a_run_is_stepped_peeked_saved_and_forgotten() {
         assert_eq!((one.status, one.text()), (200, other.text()), "step {number}");
         assert_eq!(one.json()["faults"], json!([]), "step {number}");
     }
-    // The car behind has answered: it stands or is all but.
+    // The following car has reacted: it stands or nearly does.
     let last = step(&server, &run, 40).json();
     assert!(
         last["states"]["0"]["vx_mps"].as_f64().is_none_or(|v| v < 9.0) || last["states"]["0"]["y_m"] != 0.0
@@ -146,11 +146,11 @@ fn a_run_is_looked_at_and_followed_while_somebody_else_steps_it() {
     assert!(seen["unused_s"].as_u64().unwrap() <= 4, "{seen}");
     let scene = server.get(&format!("{path}/scene")).unwrap();
     assert_eq!((scene.status, scene.json()["agents"].as_array().unwrap().len()), (200, 4));
-    // Server-sent events begin with the run as it is now.
+    // Server-sent events begin with the present state of the run.
     let mut sse = follow("text/event-stream");
     let head: Vec<String> = sse.by_ref().take(2).collect();
     assert_eq!(head, ["event: run", "id: 3"]);
-    // Who looks on does not use the run: it is forgotten, and that is the end.
+    // Watching does not count as use: the run is forgotten, and the stream ends.
     std::thread::sleep(std::time::Duration::from_millis(4_500));
     for what in ["", "/scene"] {
         let gone = server.get(&format!("{path}{what}")).unwrap();

@@ -1,5 +1,5 @@
-//! The command line as scripts use it: edits that follow each other, files that stay safe, data that fit, licences
-//! that travel.
+//! The command line in scripts: consecutive edits, files that stay intact, data that fit, licences that are
+//! passed on.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -15,7 +15,7 @@ fn run(arguments: &[&str]) -> Output {
     Command::new(program()).args(arguments).output().unwrap()
 }
 
-/// Runs it and says how it ended where that was not as expected.
+/// Runs the program, checks its exit code, and returns stderr.
 fn ends(arguments: &[&str], code: i32) -> String {
     let output = run(arguments);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -169,7 +169,7 @@ fn licences_travel_and_wrong_data_is_refused() {
     ends_of(train("vehicle", &["--steps", "1"]), 8);
     let told = ends_of(train("vehicle", &["--steps", "2", "--resume"]), 1);
     assert!(told.contains("another number of steps"), "{told}");
-    // The same weights under another name, then under their own beside the shipped ones.
+    // The same weights under another name, then under their own name beside the shipped ones.
     let shipped = root().join("models/experts/weights");
     for name in ["pedestrian", "cyclist"] {
         let file = format!("{name}.safetensors");
@@ -204,7 +204,7 @@ fn a_stopped_training_keeps_its_checkpoint_and_no_half_files() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // The first line says that it trains.
+    // The first line reports that the training runs.
     let mut line = String::new();
     std::io::BufRead::read_line(&mut std::io::BufReader::new(child.stderr.as_mut().unwrap()), &mut line)
         .unwrap();
@@ -248,7 +248,7 @@ fn the_paper_is_reproduced_by_one_command() {
         assert!(tables.contains(part), "{part}: {tables}");
     }
     assert!(read("figure.html").contains("<svg") && read("table-2.csv").contains("Rollout Interval"));
-    // Again, on what is there: nothing is trained, and the same comes out.
+    // Again with existing results: nothing is trained, and the result is the same.
     let told = run(&["--only", "tables"], 0);
     assert!(!told.contains("steps") && read("tables.md") == tables, "{told}");
     let told = run(&["--seed", "2"], 8);

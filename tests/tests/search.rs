@@ -1,4 +1,4 @@
-//! Searches over HTTP: tries as they come, results that can be made again, an end at once, and what is refused.
+//! Searches over HTTP: tries as they come, results that can be rebuilt, an immediate end, and refusals.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -6,7 +6,7 @@ use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Car 4 of the crossing, at a speed and a place that are searched for.
+/// Car 4 of the crossing; speed and position are searched.
 fn body(more: &Value) -> Value {
     let mut body = json!({
         "scene_id": "demo-crossing", "where": "actor.min_ttc_s < 2.5", "tries": 8,
@@ -36,7 +36,7 @@ fn tries_come_as_events_and_are_made_again_by_their_requests() {
     let last = &all[all.len() - 1];
     let tries = last["tries"].as_array().unwrap();
     assert_eq!((tries.len(), &last["ended"]), (8, &json!("tries")));
-    // The order of the tries is that of the events, and the found ones hold the condition.
+    // The tries are in the order of the events, and the found ones satisfy the condition.
     for (i, of) in tries.iter().enumerate() {
         assert_eq!((&of["number"], &of["drawn"]), (&json!(i), &all[i + 1]["drawn"]));
         let ttc_s = of["figures"]["actor.min_ttc_s"].as_f64();
@@ -62,7 +62,7 @@ fn tries_come_as_events_and_are_made_again_by_their_requests() {
 #[test]
 fn a_search_ends_with_what_was_wanted_or_when_its_client_leaves() {
     let server = Server::start(&[]).unwrap();
-    // Every result holds this.
+    // Every result satisfies this condition.
     let one = json!({"found": 3, "tries": 1000, "where": "collisions >= 0", "method": "random"});
     let reply = server.post("/v1/search", &body(&one)).unwrap().json();
     assert_eq!((&reply["ended"], &reply["found"]), (&json!("found"), &json!([0, 1, 2])), "{reply}");

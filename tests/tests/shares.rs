@@ -1,4 +1,4 @@
-//! Shares of parties: one caller with many connections leaves the others theirs.
+//! Fair shares: a caller with many connections does not take those of the others.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
@@ -14,14 +14,14 @@ fn small(agent: &str) -> Value {
     json!({"scene_id": "demo-crossing", "agents": [agent], "score": false, "futures": "compact"})
 }
 
-/// Sends one request over and over on a connection of its own from an address, without pause.
+/// Sends one request repeatedly on its own connection from an address, without pause.
 fn pester((from, request): (u8, &Request), server: SocketAddr, over: &AtomicBool) {
     let request = request.bytes(server);
     while !over.load(Ordering::Relaxed) {
         let stream = connect_from(from, server).unwrap();
         let mut reader = BufReader::new(stream.try_clone().unwrap());
         let mut stream = stream;
-        // The server ends a connection that it refuses to make room for others.
+        // The server closes a connection that it refuses to make room for others.
         while !over.load(Ordering::Relaxed)
             && stream.write_all(&request).is_ok()
             && Reply::read(&mut reader, false).is_ok()
@@ -29,7 +29,7 @@ fn pester((from, request): (u8, &Request), server: SocketAddr, over: &AtomicBool
     }
 }
 
-/// How many of 40 drags are refused beside 60 connections from an address that repeat a request.
+/// Number of refused drags of 40 beside 60 connections from an address that repeat a request.
 fn refused_drags(server: &Server, neighbour: (u8, &Request), drag: &Request) -> usize {
     let over = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -91,7 +91,7 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
             });
         }
         std::thread::sleep(Duration::from_secs(1));
-        // From the same address, so without a share of their own.
+        // From the same address, so without their own share.
         let asked = [
             Request::new("GET", "/healthz"),
             Request::new("GET", "/v1/info"),
@@ -108,7 +108,7 @@ fn a_newcomer_is_answered_beside_six_hundred_refused_connections() {
     }
 }
 
-/// Waits as long as a refusal says.
+/// Waits as long as a refusal demands.
 fn obey(refusal: &Reply) {
     std::thread::sleep(Duration::from_millis(refusal.json()["retry_after_ms"].as_u64().unwrap()));
 }
@@ -135,7 +135,7 @@ fn a_token_beyond_its_rate_is_told_when_to_ask_again() {
     if began.elapsed() < Duration::from_millis(400) {
         assert_eq!((statuses, refused.status), (vec![200; 6], 429), "six at once, and no more");
     }
-    // Beyond what is sent at once the rate counts, whatever the speed of this machine.
+    // After the initial burst the rate counts, whatever the speed of this machine.
     let refused = (0..40).map(|_| info(&anna)).find(|reply| reply.status == 429).unwrap();
     assert_eq!((refused.code().as_str(), &refused.json()["limit"]), ("too-many-requests", &json!(2)));
     let wait_ms = refused.json()["retry_after_ms"].as_u64().unwrap();

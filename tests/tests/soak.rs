@@ -1,4 +1,4 @@
-//! A little of each trial that `cargo xtask soak` runs without an end.
+//! A short run of each trial of `cargo xtask soak`.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed test panics")]
@@ -18,7 +18,7 @@ fn tell(line: &str) {
 
 #[test]
 fn nothing_that_was_answered_is_lost_by_kills() {
-    // A write is refused by a failing disk alone.
+    // Only a failing disk refuses a write.
     let report = kills::kills(8, 11, &tell).unwrap();
     assert!(report.writes.kept > 0 && report.kills == 8 && report.on_a_failing_disk > 0, "{report:?}");
 }
@@ -30,7 +30,7 @@ fn nothing_that_was_answered_is_lost_by_power_cuts() {
     assert!(report.at_the_start.min(report.at_a_copy).min(report.at_a_return) > 0, "{report:?}");
 }
 
-/// What the trial above would find.
+/// A defect that the trial above must detect.
 #[test]
 fn a_disk_that_only_says_that_it_syncs_loses_what_was_answered() {
     let lost = power::power(12, 3, true, &tell).unwrap_err();
@@ -81,7 +81,7 @@ fn a_disk_without_power_has_what_was_synced_under_names_that_were_synced() {
     run(&format!("unlink {}/empty", folder.path().canonicalize().unwrap().display()));
     let left = cut(Unsynced::Kept);
     assert_eq!((left.len(), &left["whole"]), (1, &vec![b'b'; 2000]));
-    // Sectors are whole, and any of them may be there.
+    // Sectors are whole, and any of them may be present.
     let seen: BTreeSet<Vec<u8>> = (0..40)
         .map(|_| {
             write("c", "whole", "conv=notrunc");
@@ -103,7 +103,7 @@ fn a_failing_disk_is_told_and_survived() {
     assert_eq!(report.writes.lost, 0, "{report:?}");
 }
 
-/// The log lies on the disk that is full.
+/// The log is on the full disk.
 #[test]
 fn a_log_that_cannot_be_written_stops_nothing() {
     let folder = tempfile::tempdir().unwrap();

@@ -114,7 +114,7 @@ fn lists_come_in_pages() {
 fn a_signal_stops_it_in_order() {
     let folder = tempfile::tempdir().unwrap();
     let db = folder.path().join("scenes.sqlite");
-    // Far less than what running work would get: there is none.
+    // Far less than the grace period of running work, because there is none.
     let server = Server::start_at(&db, &["--limit", "shutdown_s=600"]).unwrap();
     saved(&server, "kept", &street(1, 5));
     let (code, took) = server.stop().unwrap();
@@ -145,7 +145,7 @@ fn trouble_at_the_start_has_its_exit_code() {
     assert_eq!(run(&["serve", "--port", "0", "--db", broken.to_str().unwrap()]).status.code(), Some(1));
 }
 
-/// A small disk of its own; `None`, and why, where this may not be mounted.
+/// A small separate disk; `None`, with a printed reason, if mounting is not allowed.
 #[cfg(target_os = "linux")]
 fn small_disk(folder: &Path, size: &str) -> Option<SmallDisk> {
     let mount = std::process::Command::new("mount")
@@ -186,7 +186,7 @@ fn where_disks_can_be_mounted_a_full_one_lets_scenes_be_deleted_and_saved_again(
     let full = loop {
         let k = etags.len();
         let mut scene = street(20, 90);
-        // Text that does not pack well, so that a few scenes fill the disk.
+        // Text that compresses badly, so that a few scenes fill the disk.
         let noise: String = (0..9_000u32)
             .map(|i| char::from(b'!' + (i.wrapping_mul(2_654_435_761 + k as u32) >> 25) as u8 % 90))
             .collect();
@@ -210,7 +210,7 @@ fn where_disks_can_be_mounted_a_full_one_lets_scenes_be_deleted_and_saved_again(
     assert_eq!(ready(), 200);
 }
 
-/// Scenes with maps of their own until the disk is full: their ETags.
+/// Saves scenes with their own maps until the disk is full; returns their ETags.
 #[cfg(target_os = "linux")]
 fn fill(server: &Server, seed: u64) -> Vec<String> {
     let mut random = Random::new(seed);
@@ -238,7 +238,7 @@ fn where_disks_can_be_mounted_a_store_alone_on_a_full_one_frees_all_of_it_again(
     let db = folder.path().join("scenes.sqlite");
     let mut counts = Vec::new();
     for round in 0..3 {
-        // A start finds what the one before has left.
+        // A new server finds the scenes of the previous one.
         let server = Server::start_at(&db, &[]).unwrap();
         server.wait_ready().unwrap();
         let etags = fill(&server, round);

@@ -113,7 +113,7 @@ fn small_calls_are_answered_while_long_ones_run_and_wait() {
     callers.into_iter().for_each(|caller| caller.join().unwrap());
 }
 
-/// A street under lanes whose points lie anywhere on a square: they cross each other everywhere.
+/// A street under lanes with random points on a square, so that they cross each other everywhere.
 fn tangled(lanes: usize, points: usize, side_m: f64) -> Value {
     let mut random = Random::new(11);
     let mut at = || side_m * (random.below(10_000) as f64 / 10_000.0 - 0.5);
@@ -361,11 +361,11 @@ fn health_is_answered_and_others_are_refused_while_all_places_are_at_work() {
         assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
         assert!(refused.json()["retry_after_ms"].is_u64());
     }
-    // One that asks nothing for long is told so as well, in place of being closed unheard.
+    // A refused connection that sends nothing also gets the reason, instead of a silent close.
     let late = TcpStream::connect(server.address).unwrap();
     let told = Reply::read(&mut BufReader::new(late), false).unwrap();
     assert_eq!((told.status, told.code().as_str()), (503, "busy"));
-    // Another machine takes a place from the one that has them all.
+    // A client of another address takes a place from the one that has all of them.
     let other = socket2::Socket::new(socket2::Domain::IPV4, socket2::Type::STREAM, None).unwrap();
     other.bind(&std::net::SocketAddr::from(([127, 0, 0, 2], 0)).into()).unwrap();
     other.connect(&server.address.into()).unwrap();
@@ -491,7 +491,7 @@ fn scenes_are_held_without_what_no_answer_depends_on() {
     assert!(server.peak_memory().unwrap() < 300 << 20, "{:?}", server.peak_memory());
 }
 
-/// Lanes that each lead to 30 others: a file of many links.
+/// Lanes that each lead to 30 others: a file with many links.
 fn linked() -> Value {
     const LANES: usize = 1_000;
     let mut scene = street(2, 20);

@@ -7,7 +7,7 @@ use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Only long calls: their bodies are read in another lane.
+/// Only long calls: their bodies are read in another queue.
 const RUNNING: &str = "dragtraffic_running{lane=\"patient\"}";
 const WAITING: &str = "dragtraffic_queue_length{lane=\"patient\"}";
 
@@ -43,7 +43,7 @@ fn endless(client: &str, revision: u64) -> Value {
     body
 }
 
-/// A drag brings its surroundings along once, and names them afterwards.
+/// A drag sends its surroundings once, and refers to them afterwards.
 #[test]
 fn a_scene_is_held_for_the_calls_that_follow() {
     let server = Server::start(&[]).unwrap();
@@ -191,7 +191,7 @@ fn twenty_seconds_are_planned_window_after_window() {
             .all(|w| w[0]["window"].as_u64() <= w[1]["window"].as_u64() || w[1]["window"].is_null())
     );
     assert_eq!(lines.last().unwrap()["samples"], last["samples"]);
-    // Kept with its scene, written as a record of 20 s, and read again.
+    // Saved with its scene, exported as a record of 20 s, and read again.
     let mut scene = body["scene"].clone();
     scene["generated"] = last["generated"].clone();
     scene["generated"]["samples"] = last["samples"].clone();
@@ -295,12 +295,12 @@ fn a_job_is_cancelled_by_its_id() {
 /// Occupies the only worker and the only place in the queue of a server started with
 /// `running=1` and `queue=1`, until what is returned is dropped.
 fn fill_queue(server: &Server) -> impl Sized + use<> {
-    // No client reads this one: its worker waits as soon as the sockets are full.
+    // No client reads this reply: its worker waits as soon as the sockets are full.
     let running = ask(&endless("a", 1), "application/x-ndjson").open(server.address).unwrap();
     while server.metric(RUNNING).unwrap() < 1.0 {
         std::thread::sleep(Duration::from_millis(10));
     }
-    // As long as the first: a shorter one would be let go before it.
+    // As long as the first one: a shorter one would be preferred to it.
     let waiting = ask(&endless("b", 1), "application/x-ndjson").open(server.address).unwrap();
     while server.metric(WAITING).unwrap() < 1.0 {
         std::thread::sleep(Duration::from_millis(10));

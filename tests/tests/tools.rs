@@ -1,5 +1,5 @@
-//! `dragtraffic mcp` holds against what a client may send: paths that lead out, names of nothing, lines that are no
-//! messages, and more scenes than may be open. Standard output has messages alone.
+//! `dragtraffic mcp` withstands anything that a client may send: paths that leave the folder, unknown names,
+//! lines that are no messages, and too many open scenes. Standard output contains messages only.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -23,7 +23,7 @@ struct Client {
 }
 
 impl Client {
-    /// Starts a server and greets it.
+    /// Starts a server and initializes it.
     fn start(flags: &[&str]) -> Self {
         let mut command = Command::new(program());
         command.arg("mcp").args(flags).env("DRAGTRAFFIC_LOG", "error");
@@ -72,14 +72,14 @@ impl Client {
         }
     }
 
-    /// Calls a tool: its result.
+    /// Calls a tool; returns its result.
     fn call(&mut self, tool: &str, arguments: &Value) -> Value {
         let answer = self.ask("tools/call", &json!({"name": tool, "arguments": arguments}));
         assert!(answer["error"].is_null(), "{tool}: {answer}");
         answer["result"].clone()
     }
 
-    /// The code with which a tool refuses.
+    /// The code of a tool's refusal.
     fn refused(&mut self, tool: &str, arguments: &Value) -> String {
         let result = self.call(tool, arguments);
         assert_eq!(result["isError"], true, "{tool} {arguments}: {result}");
@@ -119,7 +119,7 @@ fn lines_that_are_no_messages_leave_the_server_at_work() {
         assert!(message["error"]["code"].is_i64(), "{message}");
         told.push(message["id"].clone());
     }
-    // A line of 40 MB is passed over, and nothing of it is kept.
+    // A line of 40 MB is skipped, and nothing of it is kept.
     client.say(&format!("{{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"{}\"}}", "x".repeat(40 << 20)));
     assert_ne!(client.opened("demo-crossing")["isError"], true);
     for arguments in
@@ -176,7 +176,7 @@ fn a_client_reaches_its_folders_and_nothing_else() {
     assert_eq!(std::fs::read(inside.path().join("mine.json")).unwrap(), std::fs::read(&example).unwrap());
     assert_eq!(client.end(), Some(0));
 
-    // Without a folder there are the examples alone.
+    // Without a folder, only the examples are available.
     let mut client = Client::start(&[]);
     let file = shown(&inside.path().join("mine.json"));
     assert_eq!(client.refused("open_scene", &json!({"file": file})), "not-found");
@@ -198,7 +198,7 @@ fn scenes_memory_and_time_are_bounded() {
     let code = client.refused("generate_futures", &large);
     assert!(["store-full", "generate-timeout"].contains(&code.as_str()), "{code}");
     assert_eq!(client.call("describe_scene", &json!({"scene": "demo-crossing"})), before);
-    // A search ends with what it has before its time is over.
+    // A search ends with its results so far before its time is over.
     let search =
         json!({"scene": "demo-crossing", "where": "collisions > 1000", "seeds": 200, "picture": false});
     let result = client.call("search_futures", &search);

@@ -5,12 +5,12 @@ use std::time::Duration;
 /// Monotonic time since an arbitrary moment.
 pub type Clock = fn() -> Duration;
 
-/// A clock that stands: every span is zero.
+/// A clock that never advances: every measured time is zero.
 pub(crate) fn standing() -> Duration {
     Duration::ZERO
 }
 
-/// Milliseconds that a clock has gone since it showed `since`.
+/// Milliseconds since the clock read `since`.
 pub(crate) fn milliseconds(clock: Clock, since: Duration) -> f64 {
     clock().saturating_sub(since).as_secs_f64() * 1e3
 }

@@ -1,4 +1,4 @@
-//! Generator and placer from one set of weights files, over the same maps.
+//! A generator and a placer from one set of weights files, with one cache of maps.
 
 use crate::generator::Generator;
 use crate::maps::Maps;
@@ -7,7 +7,7 @@ use crate::weights::{Files, WeightsError};
 use std::path::Path;
 use std::sync::Arc;
 
-/// All that weights are good for. Take it apart where one of the two is enough.
+/// Generator and placer from one set of weights. Its fields can be moved out where one of the two is enough.
 pub struct Engine {
     /// Scenes and conditions to futures.
     pub generator: Generator,

@@ -11,23 +11,23 @@ use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Maps kept, the least recently used one goes first.
+/// Number of maps kept; the least recently used one is dropped first.
 const MOST: NonZeroUsize = NonZeroUsize::new(32).unwrap();
-/// Most bytes of all maps kept but the newest.
+/// Limit of the bytes of all kept maps except the newest.
 const MOST_BYTES: usize = 128 << 20;
-/// About how many bytes of memory a map takes for each cell of a piece: points, arc lengths and headings of lanes, and
-/// pieces and cells of two indexes.
+/// Approximate bytes of memory per cell of a piece: points, arc lengths and headings of lanes, and pieces and
+/// cells of two indexes.
 const CELL_BYTES: usize = 300;
 
 /// Derived data of a map.
 pub(crate) struct KnownMap {
-    /// How crowded its lines are.
+    /// Density of its lines.
     crowding: Crowding,
     /// Lanes with their links.
     pub(crate) graph: Arc<LaneGraph>,
     /// Where vehicles may drive.
     pub(crate) drivable: Arc<Drivable>,
-    /// Of all its lines; `None` without any.
+    /// Rectangle around all its lines; `None` if it has none.
     pub(crate) extent: Option<Extent>,
 }
 
@@ -45,21 +45,21 @@ impl KnownMap {
 
 /// Pieces in one cell on crowded maps of streets.
 const USUAL_CROWD: f64 = 200.0;
-/// Time to work out a map, for each cell of a piece and for each pair of pieces in a cell. Measured on one core of
-/// 2.6 GHz.
+/// Time to process a map, per cell of a piece and per pair of pieces in a cell. Measured on one core of 2.6
+/// GHz.
 const CELL_NS: f64 = 1_500.0;
 const PAIR_NS: f64 = 12.0;
 
-/// What work on a map costs.
+/// Cost of work on a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapCost {
-    /// About how long it takes to work out its lanes and ground; zero once they are known.
+    /// Approximate time to compute its lanes and ground; zero once they are cached.
     pub preparation: Duration,
-    /// Time of a search at its most crowded place, compared with a map of streets; 1 or more.
+    /// Time of a search at its densest place, relative to a map of streets; 1 or more.
     pub crowded: f64,
 }
 
-/// About how long it takes one thread to work out the lanes and the ground of a map that is not known.
+/// Approximate time for one thread to compute the lanes and the ground of a map that is not cached.
 pub fn preparation(map: &LaneMap) -> Duration {
     preparation_of(&Crowding::of(map.outlines()))
 }
@@ -69,7 +69,7 @@ fn preparation_of(crowding: &Crowding) -> Duration {
     Duration::from_nanos(nanoseconds as u64)
 }
 
-/// Known maps, a bounded number of them. A map's content never changes, so nothing is ever out of date.
+/// A bounded cache of known maps. A map is addressed by its content, so nothing in it becomes stale.
 pub struct Maps(Mutex<LruCache<ContentHash, Arc<KnownMap>>>);
 
 impl Default for Maps {
@@ -91,7 +91,7 @@ impl Maps {
         if let Some(known) = self.cached().get(&hash) {
             return Some(known.clone());
         }
-        // Not under the lock: others may go on with maps that are known.
+        // Computed outside the lock: other calls may continue on known maps.
         let graph = LaneGraph::unless(map, &|| cancel.is_cancelled())?;
         let known = Arc::new(KnownMap::of(map, graph));
         let mut cached = self.cached();
@@ -106,7 +106,7 @@ impl Maps {
         Some(known)
     }
 
-    /// What work on a map costs.
+    /// Cost of work on a map; its preparation is zero if the map is cached.
     pub fn cost(&self, map: &Shared<LaneMap>) -> MapCost {
         let known = self.cached().peek(&map.hash()).map(|known| known.crowding);
         let (crowding, preparation) = known.map_or_else(
@@ -129,12 +129,12 @@ impl Maps {
         self.known(map).graph.clone()
     }
 
-    /// Forgets all: the next call on each map works it out again.
+    /// Empties the cache: the next call on each map computes it again.
     pub fn forget(&self) {
         self.cached().clear();
     }
 
-    /// Nothing in the cache is ever half done, so a panic elsewhere does not spoil it.
+    /// Locks the cache. Its entries are always complete, so a panic elsewhere does not corrupt it.
     fn cached(&self) -> MutexGuard<'_, LruCache<ContentHash, Arc<KnownMap>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn large_maps_are_few() {
         let maps = Maps::default();
-        // Lanes of 4 km with a point each 2 m, side by side: a tenth of the bytes that all may take.
+        // Lanes of 4 km with a point every 2 m, side by side: a tenth of the cache's byte limit.
         let large = |seed: usize| -> Shared<LaneMap> {
             let line = |y: usize| {
                 (0..2_000).map(|i| Vec2::new(2.0 * i as f64, (10 * y + seed) as f64)).collect::<Vec<_>>()

@@ -19,15 +19,16 @@ pub enum React {
     /// None: all others keep their log or chosen future.
     #[default]
     Nobody,
-    /// All whose motion comes near a regenerated one.
+    /// All agents whose motion comes near a regenerated one.
     Everyone,
     /// Only these.
     Only(BTreeSet<AgentId>),
 }
 
-/// Samples of a round's draw, fewest and most.
+/// Fewest and most samples of a round's draw.
 const ROUND_SAMPLES: (usize, usize) = (12, 32);
-/// Road users of all samples of a round together, from which on it draws fewer: a round takes some seconds at most.
+/// Road users over all samples of a round above which it draws fewer samples, so that a round takes a few
+/// seconds.
 const ROUND_AGENTS: usize = 2_000;
 
 /// One call of the generator. The scene's agents carry the conditions that hold for this call.
@@ -35,48 +36,49 @@ const ROUND_AGENTS: usize = 2_000;
 pub struct Request {
     /// Map, signals, road users with their conditions, and futures that kept road users follow.
     pub scene: Arc<Scene>,
-    /// Road users to regenerate; `None` means all that can be.
+    /// Road users to regenerate; `None` means all that can be regenerated.
     pub agents: Option<BTreeSet<AgentId>>,
     /// Agents that may react.
     pub react: React,
     /// Scene step at which the window starts.
     pub start_step: usize,
-    /// Steps to generate, 1..=[`scene::MAX_HORIZON_STEPS`]; fewer than a window's 90 are a window cut short.
+    /// Steps to generate, 1..=[`scene::MAX_HORIZON_STEPS`]; fewer than 90 cut a window short.
     pub horizon_steps: usize,
-    /// Replan every so many steps from the states reached (1..=90); `None` replans after each 90.
+    /// Number of steps (1..=90) after which the call replans from the reached states; `None` replans after
+    /// 90.
     pub replan_steps: Option<usize>,
-    /// Repeats the answer.
+    /// Equal seeds give equal answers.
     pub seed: u64,
     /// Independent joint scenes, 1..=32.
     pub samples: usize,
     /// Alternatives kept per road user, 1..=6.
     pub modes: usize,
-    /// Scale of the draw's noise, 0..=2; 0 uses the initializer's modes as they are. Some noise makes seeds
-    /// differ at a centimetre or two of error.
+    /// Scale of the draw's noise, 0..=2; 0 uses the initializer's modes unchanged. Some noise makes seeds
+    /// differ, at a centimetre or two of error.
     pub diversity: f64,
     /// Denoising steps, 0..=100; 0 returns the initializer's modes.
     pub steps: usize,
-    /// Drafts carry all modes; otherwise only the likeliest one in answers with many agents.
+    /// Drafts carry all modes; otherwise, in answers with many agents, only the likeliest.
     pub stream_all: bool,
-    /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
-    /// so the picked motion itself is given).
+    /// Futures that the user picked, which are kept. The motion itself is given, because an index into the
+    /// last answer's modes may have become invalid.
     pub pinned: BTreeMap<AgentId, Vec<State>>,
     /// The futures shown last, while the user drags. The first sample keeps one unless another is better by
     /// `switching`.
     pub shown: BTreeMap<AgentId, ShownLast>,
-    /// The motions in `shown` are being driven: each is a candidate, and leaving it costs less than while the user
-    /// drags.
+    /// The motions in `shown` are being driven. Each is a candidate, and leaving it costs less than while the
+    /// user drags.
     pub under_way: bool,
-    /// Verdicts on earlier cards: the answer is the next round of `modes` cards out of a wide draw, in place
-    /// of `samples`. [`Request::round`] sets it.
+    /// Verdicts on earlier cards. The answer is then the next round of `modes` cards from a wide draw, and
+    /// `samples` is ignored. [`Request::round`] sets it.
     pub feedback: Option<Feedback>,
     /// Thresholds of the reported faults. They change no motion.
     pub thresholds: Thresholds,
-    /// Parts that run; all of them but in an evaluation.
+    /// Stages that run; all of them except in an evaluation.
     pub stages: Stages,
 }
 
-/// The future of a road user that a person has seen last.
+/// The future of a road user that the user saw last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShownLast {
     /// Its [`scene::Future::anchor`].
@@ -85,37 +87,37 @@ pub struct ShownLast {
     pub places: Vec<Vec2>,
 }
 
-/// Which parts of a call run. An evaluation leaves some out to see what each brings; users get all.
+/// Which stages of a call run. An evaluation switches some off to measure their effect; users get all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stages {
     /// Which future of each road user is shown.
     pub shown: Shown,
-    /// Futures in conflict are pushed apart and offered to the choice.
+    /// Conflicting futures are pushed apart and offered to the choice.
     pub guidance: bool,
     /// Agents that keep their motion count as obstacles. An evaluation that withholds their motion turns this
     /// off, because an extrapolated motion would be an obstacle that does not exist.
     pub background_in_the_way: bool,
-    /// Of futures that coincide one takes another course; otherwise both stay as the initializer has them.
+    /// Of two coinciding futures one is changed; otherwise both stay as the initializer made them.
     pub parted: bool,
     /// Report the faults of each future.
     pub judged: bool,
     /// How each road user's futures are planned. The choice knows the whole map either way.
     pub planning: Planning,
-    /// How refinement goes about its steps.
+    /// How refinement runs.
     pub refining: Refining,
 }
 
-/// How refinement goes about its steps.
+/// How refinement runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refining {
-    /// Noise level, of 100, at which it begins; with more steps than that, as many levels as steps.
+    /// Noise level, of 100, at which refinement begins; with more steps than that, as many levels as steps.
     pub start: usize,
-    /// The networks are shown the way downhill in the scene's energy and take their share of it.
+    /// The networks see the descent direction of the scene's energy and apply their learned share of it.
     pub repulsion: bool,
     /// The networks attend to the drafts of the agents that each draft meets.
     pub attention: bool,
-    /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
-    /// those of a first sample that is chosen.
+    /// After the last step, drawn futures that still conflict are moved down the energy gradient without the
+    /// networks. A chosen first sample is left out.
     pub resolve_overlaps: bool,
 }
 
@@ -142,7 +144,7 @@ impl Default for Stages {
 /// How the shown future of each road user is picked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
-    /// One future each so that the scene is coherent.
+    /// One future per road user so that the scene is coherent.
     #[default]
     Chosen,
     /// The most probable one, whatever the others do.
@@ -203,13 +205,13 @@ impl Request {
         }
     }
 
-    /// A road user is driving a motion that the call knows.
+    /// Whether a road user is driving a motion that the call knows.
     pub(crate) fn drives(&self, agent: &str) -> bool {
         self.under_way && self.shown.contains_key(agent)
     }
 
-    /// The next round of cards out of a wide draw, given verdicts on earlier cards. Each verdict changes the
-    /// seed of the draw, so that new futures come up. The more road users are regenerated, the fewer samples are drawn.
+    /// The next round of cards from a wide draw, given verdicts on earlier cards. Each verdict changes the
+    /// seed of the draw, so that new futures appear. More regenerated road users mean fewer drawn samples.
     #[must_use]
     pub fn round(self, feedback: Feedback) -> Self {
         let asked = self.agents.as_ref().map_or(self.scene.agents.len(), BTreeSet::len);
@@ -475,7 +477,7 @@ pub struct Accepted {
     pub warnings: Vec<Warning>,
 }
 
-/// Futures that are not settled yet stand: [`crate::Generation::drafted`] has them.
+/// A draft event. It carries no futures: [`crate::Generation::drafted`] makes them on request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     /// Planning window, from 0. Its futures begin one step after the window's start.
@@ -503,25 +505,25 @@ pub struct Timings {
 /// Last event of a call that succeeded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// One coherent scene each. A chosen future runs through all windows to the end of the horizon; its
-    /// alternatives are those of the first window and end with that window's plan. A kept future of the scene
-    /// that ends before the horizon is extended, and so part of the answer. In a call for all agents the same
-    /// holds for an agent that enters later and whose log ends; its future begins after it has entered.
+    /// One coherent scene per sample. A chosen future runs through all windows to the end of the horizon; its
+    /// alternatives belong to the first window and end with that window's plan. A kept future of the scene
+    /// that ends before the horizon is extended, and is then part of the answer. In a call for all agents the
+    /// same holds for an agent that enters later and whose log ends; its future begins after it has entered.
     pub samples: Vec<Sample>,
     /// Planning windows that were run, one after the other.
     pub windows: usize,
-    /// By regenerated or reacting road user that was there at the start.
+    /// Report by regenerated or reacting road user that was present at the start.
     pub resolved: BTreeMap<AgentId, Resolved>,
-    /// Unlikely things.
+    /// Unlikely conditions of the request.
     pub warnings: Vec<Warning>,
-    /// Where the time went.
+    /// Durations of the stages.
     pub timings: Timings,
-    /// What the cards are like and what was learned, where feedback was given: of one road user each future is a
-    /// card, of several each sample.
+    /// Traits of the cards and what was learned, if feedback was given. With one road user each future is a
+    /// card, with several each sample.
     pub round: Option<Round>,
 }
 
-/// What [`crate::Generator::start`] yields, in order: accepted, then per window the drafts of the first
+/// The items of [`crate::Generator::start`], in order: accepted, then per window the drafts of the first
 /// sample, then one answer.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "few exist at a time")]
@@ -545,15 +547,15 @@ pub enum GenerateError {
     UnknownArm {
         /// The requested arm.
         arm: String,
-        /// The ids of all arms, in one text.
+        /// The ids of all arms, as one text.
         known: String,
     },
-    /// A start field is free and neither log nor default fills it.
+    /// A start field is free, and neither log nor default provides it.
     #[error("{agent}: start field {field} is free and nothing fills it")]
     StartMissing {
-        /// The agent without it.
+        /// The agent whose field is missing.
         agent: AgentId,
-        /// Which.
+        /// The missing field.
         field: &'static str,
     },
     /// More than 128 road users to regenerate.
@@ -564,10 +566,10 @@ pub enum GenerateError {
         /// Allowed.
         most: usize,
     },
-    /// A network gave a number that is not finite.
+    /// A network returned a number that is not finite.
     #[error("step {step}: the expert gave a number that is not finite for {agent}")]
     NonFinite {
-        /// 0 for the initializer.
+        /// The refinement step; 0 for the initializer.
         step: usize,
         /// The agent of the future.
         agent: AgentId,
@@ -575,10 +577,10 @@ pub enum GenerateError {
     /// The caller cancelled.
     #[error("cancelled")]
     Cancelled,
-    /// A part of a call ran before its window was planned; a defect of the program.
+    /// A stage of a call ran before its window was planned; a defect of the program.
     #[error("no window is planned")]
     NoWindow,
-    /// Anything the tensor library reports; a defect of the program or its weights.
+    /// An error of the tensor library; a defect of the program or its weights.
     #[error("expert failed: {0}")]
     Expert(String),
 }

@@ -15,7 +15,7 @@ pub mod kind {
     pub const VEHICLE: Word = Word { code: "vehicle", english: "vehicle" };
 }
 
-/// A speed in a sentence, m/s: on foot in m/s, else in km/h.
+/// A speed in a sentence: in m/s on foot, otherwise in km/h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
     /// Metres per second.
@@ -36,12 +36,12 @@ impl Placeholder for Speed {
     }
 }
 
-/// What a goal would take, in a sentence of its own; nothing where that is unknown.
+/// What a goal would take, as a separate sentence; empty if that is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Need {
     /// The amount in `unit`.
     pub amount: Option<f64>,
-    /// As it is written.
+    /// The unit as text.
     pub unit: &'static str,
 }
 
@@ -60,7 +60,7 @@ impl Placeholder for Need {
     }
 }
 
-/// The sentence holds from a scene time on, seconds.
+/// Makes a sentence hold from a scene time on, seconds.
 pub fn since(mut message: Message, since_s: f64) -> Message {
     message.values.insert("since_s", MessageValue::Number(since_s));
     message.english = format!("From {since_s:.1} s on: {message}");

@@ -1,5 +1,5 @@
-//! Weights files as bytes: built into the program, from a folder, or random. What reads a folder stands apart
-//! from what builds from bytes: a home without files hands in the bytes itself.
+//! Weights files as bytes: built into the program, from a folder, or random. Reading a folder is separate
+//! from building, so that a host without files can pass the bytes itself.
 
 use crate::net::{Expert, NetError};
 use scene::{AgentType, ContentHash};
@@ -10,7 +10,7 @@ use std::path::Path;
 pub const EXPERTS: [(AgentType, &str); 3] =
     [(AgentType::Vehicle, "vehicle"), (AgentType::Pedestrian, "pedestrian"), (AgentType::Cyclist, "cyclist")];
 
-/// Name of the placement weights' file, beside those of the experts.
+/// Name of the file with placement weights, beside those of the experts.
 pub const PLACEMENT_FILE: &str = "placement.json";
 
 /// Why weights cannot be used.
@@ -39,7 +39,7 @@ pub struct WeightsInfo {
 }
 
 impl WeightsInfo {
-    /// Facts about the weights that these bytes are and that `expert` was made of.
+    /// Facts about the weights in these bytes, from which `expert` was made.
     pub(crate) fn of(name: &str, bytes: &[u8], expert: &Expert) -> Self {
         Self {
             name: name.to_owned(),
@@ -57,14 +57,14 @@ impl WeightsInfo {
 /// The bytes of all weights files.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// In the order of [`EXPERTS`].
+    /// Bytes of the experts' files, in the order of [`EXPERTS`].
     pub experts: [Cow<'static, [u8]>; EXPERTS.len()],
-    /// `None` where road users are placed evenly along lanes.
+    /// Bytes of the placement file; `None` places road users evenly along lanes.
     pub placement: Option<Cow<'static, [u8]>>,
 }
 
 impl Files {
-    /// The files inside the program.
+    /// The files that are built into the program.
     pub fn built_in() -> Self {
         let experts: [&'static [u8]; EXPERTS.len()] = [
             include_bytes!("../weights/vehicle.safetensors"),
@@ -75,8 +75,8 @@ impl Files {
         Self { experts: experts.map(Cow::Borrowed), placement: Some(Cow::Borrowed(placement)) }
     }
 
-    /// `vehicle.safetensors`, `pedestrian.safetensors` and `cyclist.safetensors` of a folder, and
-    /// `placement.json` where it is there.
+    /// Reads `vehicle.safetensors`, `pedestrian.safetensors` and `cyclist.safetensors` of a folder, and
+    /// `placement.json` if it exists.
     ///
     /// # Errors
     /// When a file is missing or cannot be read.
@@ -98,7 +98,7 @@ impl Files {
     /// Random experts, for tests of everything but quality; no placement weights.
     ///
     /// # Errors
-    /// When memory for them cannot be had.
+    /// When memory for them cannot be allocated.
     pub fn random(seed: u64) -> Result<Self, WeightsError> {
         let mut experts = [const { Cow::Borrowed(&[] as &[u8]) }; EXPERTS.len()];
         for (i, (bytes, (_, name))) in experts.iter_mut().zip(EXPERTS).enumerate() {

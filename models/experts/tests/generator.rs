@@ -1,4 +1,4 @@
-//! The generator's promises, with random weights: they hold whatever the networks say.
+//! The generator's guarantees, tested with random weights: they hold whatever the networks return.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use crossing::{agent, crossing};
@@ -201,10 +201,10 @@ fn a_small_move_of_the_goal_moves_the_answer_by_centimetres() {
         let mut scene = crossing();
         scene.agents[0].conditions.goal = Goal { position: Some(Vec2::new(x, -1.9)), ..Goal::default() };
         let mut request = ask(scene, Some(&["1"]));
-        // Without obstacles; clearing an overlap would move the future by more than centimetres.
+        // Without obstacles, because clearing an overlap would move the future by more than centimetres.
         request.stages.background_in_the_way = false;
         let answer = run(&GENERATOR, request);
-        // Followed by its anchor: probabilities of other ideas may change places.
+        // Identified by its anchor, because probabilities of other modes may change their order.
         let modes = &answer.samples[0].agents["1"].modes;
         modes.iter().find(|m| m.anchor == Some(0)).unwrap().clone()
     };
@@ -229,7 +229,7 @@ fn a_round_leaves_the_cards_of_a_wide_draw() {
         futures.modes.len() > 1 && futures.modes.windows(2).all(|w| w[0].probability >= w[1].probability)
     );
     assert_eq!(run(&GENERATOR, request()).samples, answer.samples);
-    // What was rejected is not among the next ones.
+    // The rejected card is not among the next ones.
     let rejected = &round.cards[0];
     let places = rejected
         .places
@@ -244,7 +244,7 @@ fn a_round_leaves_the_cards_of_a_wide_draw() {
     let next = ask(crossing(), Some(&["1"])).round(Feedback { answers: vec![said], ..Feedback::default() });
     let next = run(&GENERATOR, next).round.unwrap();
     assert!(next.cards.iter().all(|card| card.places != rejected.places));
-    // Of several, each sample is a card.
+    // With several road users each sample is a card.
     let both = run(&GENERATOR, ask(crossing(), Some(&["1", "2"])).round(Feedback::default()));
     assert_eq!(both.samples.len(), both.round.unwrap().cards.len());
     assert!(both.samples.iter().all(|sample| sample.agents.len() == 2));

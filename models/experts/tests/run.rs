@@ -1,4 +1,5 @@
-//! What a run promises: the others answer, keep their limits, come and go, and the same run gives the same bytes.
+//! The guarantees of a run: the others react, keep their limits, enter and leave, and equal runs give equal
+//! bytes.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use experts::run::{DepartureReason, SnapshotError};
@@ -48,7 +49,7 @@ fn step(run: &mut Run, egos: &[EgoState]) -> experts::run::RunStep {
     run.step(&ENGINE, egos, &Cancel::default()).unwrap()
 }
 
-/// A car to the east that brakes at this rate from `from_s` on.
+/// A car going east that brakes at this rate from `from_s` on.
 fn braking(x_m: f64, speed_mps: f64, brake_mps2: f64, from_s: f64, t: f64) -> State {
     let late = (t - from_s).clamp(0.0, speed_mps / brake_mps2);
     let (x_m, vx_mps) = (x_m + speed_mps * t.min(from_s + late), speed_mps - brake_mps2 * late);
@@ -67,7 +68,7 @@ fn a_minute_of_a_crossing_is_smooth_and_without_collisions() {
             let Some((_, was)) = before.iter().find(|(other, _)| other == id) else { continue };
             let agent = scene.agent(id).unwrap();
             let limits = Limits::of(agent.kind(), agent.subtype, agent.size.length_m);
-            // On wheels the box centre swings out in a bend: what counts is the speed along the heading.
+            // In a bend the box centre swings out, so the speed along the heading counts for vehicles.
             let along = |s: &State| match agent.kind() {
                 AgentType::Pedestrian => s.speed_mps(),
                 _ => s.velocity().dot(&scene::geometry::direction(s.heading_rad)),
@@ -129,7 +130,7 @@ fn road_users_reach_where_their_recordings_end_and_do_nothing_wrong() {
 fn a_planner_of_twenty_lines_drives_among_others_who_do_not_run_into_it() {
     let scene = example("demo-crossing");
     let graph = LaneGraph::new(&scene.map);
-    // The car with the longest way ahead among those that move.
+    // The moving car with the longest path ahead.
     let moving = scene.agents.iter().filter(|a| a.kind() == AgentType::Vehicle);
     let moving = moving.filter_map(|a| Some((a, a.state_at(0).filter(|s| s.speed_mps() > 4.0)?)));
     let ego = moving.min_by(|a, b| a.0.id.cmp(&b.0.id)).map(|(a, _)| a.id.clone()).unwrap();
@@ -139,7 +140,7 @@ fn a_planner_of_twenty_lines_drives_among_others_who_do_not_run_into_it() {
     let path = best_route_ahead(&graph, pose, AgentType::Vehicle, 400.0).unwrap().path;
     let (mut s_m, mut speed) = (path.project(first.position()).s_m, first.speed_mps());
     for _ in 0..200 {
-        // IDM behind the nearest road user on the own lane.
+        // IDM behind the nearest road user on the same lane.
         let (mut gap_m, mut ahead_mps) = (f64::INFINITY, 0.0);
         for (id, other) in run.present().states {
             let at = path.project(other.position());
@@ -170,7 +171,7 @@ fn a_planner_of_twenty_lines_drives_among_others_who_do_not_run_into_it() {
 #[test]
 fn those_behind_brake_when_an_ego_brakes_without_a_word() {
     let mut scene = street(&[("ego", 100.0, 0, 14.0), ("near", 78.0, 0, 14.0), ("far", 56.0, 0, 14.0)]);
-    // With a second lane they go past it.
+    // With a second lane they would pass it.
     scene.map.lanes.truncate(1);
     let scene = Arc::new(scene);
     let mut run = begun(&scene, &["ego"]);
@@ -194,7 +195,7 @@ fn a_cut_in_that_nobody_announced_makes_room_for_itself() {
     let mut slowest_mps: f64 = 14.0;
     for i in 1..=80 {
         let t = 0.1 * f64::from(i);
-        // Aside within two seconds, from half a second on.
+        // Moves aside within two seconds, from half a second on.
         let share = ((t - 0.5) / 2.0).clamp(0.0, 1.0);
         let y_m = 3.5 * (1.0 - share * share * (3.0 - 2.0 * share));
         let vy_mps = if share > 0.0 && share < 1.0 { -3.5 * 3.0 * share * (1.0 - share) } else { 0.0 };
@@ -226,7 +227,7 @@ fn a_plan_that_is_announced_is_answered_before_it_is_driven_and_a_peek_changes_n
     assert_eq!((cause(&goes), stops.futures["behind"].len()), (None, 90));
     assert!(stops.futures["behind"][89].speed_mps() < 0.5 && goes.futures["behind"][89].speed_mps() > 6.0);
     assert!(stops.faults.is_empty(), "{:?}", stops.faults);
-    // Announced, it is answered in the first step.
+    // If it is announced, the others react in the first step.
     let told = EgoState { id: "ego".into(), state: plan[0], plan: plan[1..].to_vec() };
     let step = step(&mut run, &[told]);
     assert_eq!(step.changes.first().map(|c| c.reaction.cause.as_str()), Some("ego"));
@@ -254,7 +255,7 @@ fn road_users_come_in_where_there_is_room_and_leave_where_the_road_or_their_way_
         left.extend(step.left.into_iter().map(|d| (d.agent, d.reason)));
         assert!(step.faults.is_empty(), "{:?}", step.faults);
     }
-    // One comes in at its time, one once the car that stands in its place has moved off.
+    // One enters at its time, one once the car in its place has moved off.
     assert_eq!(entered.first(), Some(&("late".to_owned(), 20)));
     let blocked = entered.get(1).filter(|(id, _)| id == "blocked");
     assert!(blocked.is_some_and(|(_, step)| *step > 30), "{entered:?}");
@@ -272,7 +273,7 @@ fn equal_runs_give_equal_bytes_over_threads_after_restore_and_in_branches() {
     let mut one = begun_with(&scene, &[], settings);
     let mut other = Run::new(scene.clone(), &[], settings, &two, &Cancel::default()).unwrap();
     for i in 0..40 {
-        // At twenty moments.
+        // At every second moment, twenty in all.
         if i % 2 == 1 {
             let bytes = other.snapshot();
             other = Run::restore(scene.clone(), &bytes).unwrap();
@@ -292,7 +293,7 @@ fn equal_runs_give_equal_bytes_over_threads_after_restore_and_in_branches() {
 
 #[test]
 fn a_full_street_begins_in_parts_and_goes_on() {
-    // More than plan at once, close enough to answer to each other.
+    // More than can plan at once, close enough to react to each other.
     let cars: Vec<(String, f64, usize, f64)> = (0..70)
         .map(|i| (i.to_string(), 15.0 + 14.0 * f64::from(i / 2), i as usize % 2, 5.0 + f64::from(i % 5)))
         .collect();
@@ -371,7 +372,7 @@ fn bytes_that_are_no_snapshot_are_refused_with_their_place() {
     }
     let other = Arc::new(street(&[("ego", 100.0, 0, 10.0), ("a", 61.0, 0, 10.0)]));
     assert_eq!(Run::restore(other, &bytes).map(drop), refused(SnapshotError::OtherScene).map(drop));
-    // Any byte may be another: it is read or refused, and what is read is what is written.
+    // Every byte is changed: the result is either refused, or reads and writes back unchanged.
     for at in 40..bytes.len() {
         let mut broken = bytes.clone();
         broken[at] ^= 0xff;

@@ -1,7 +1,7 @@
-//! The part of a map that is read: what lies within a circle.
+//! The part of a map that is read: everything within a circle.
 //!
-//! A reader passes over what lies wholly outside, so that its bounds hold for the part. Lanes that leave the circle
-//! are cut later ([`crate::cut`]).
+//! A reader skips what lies entirely outside, so that its limits apply to the part only. Lanes that leave the
+//! circle are cut later ([`crate::cut`]).
 
 use crate::refusals::{self, wanted, what};
 use scene::Vec2;
@@ -10,9 +10,10 @@ use std::str::FromStr;
 
 /// Least and greatest radius, metres.
 const RADIUS_M: (f64, f64) = (10.0, 5_000.0);
-/// Farthest a circle may lie from the origin of a file, metres.
+/// Greatest distance of a circle from the origin of a file, metres.
 const FARTHEST_M: f64 = 1e8;
-/// Roads and lanes this far outside of the circle are still taken, so that what begins inside is whole, metres.
+/// Roads and lanes up to this far outside the circle are read too, so that those that begin inside are
+/// complete, metres.
 const BESIDE_M: f64 = 60.0;
 /// Metres of a degree of latitude.
 const DEGREE_M: f64 = 111_320.0;
@@ -44,13 +45,13 @@ impl FromStr for Around {
     }
 }
 
-/// What a reader takes of a file: all, or what lies near a circle.
+/// What a reader takes from a file: everything, or what lies near a circle.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chosen {
     around: Option<Around>,
-    /// Corners of all that was asked for, in the coordinates of the file.
+    /// Bounding box of everything that was asked for, in the coordinates of the file.
     corners: Option<(Vec2, Vec2)>,
-    /// Things that lie outside, as the reader counts them.
+    /// Number of things outside, as the reader counts them.
     pub left_out: usize,
 }
 
@@ -59,12 +60,12 @@ impl Chosen {
         Self { around, ..Self::default() }
     }
 
-    /// Whether a part is read.
+    /// Whether only a part is read.
     pub fn is_part(&self) -> bool {
         self.around.is_some()
     }
 
-    /// Whether a line in metres is taken. All are where no part is read.
+    /// Whether a line in metres is taken; every line is if the whole file is read.
     pub fn takes(&mut self, line: &[Vec2]) -> bool {
         let Some(around) = self.around else { return true };
         self.see(line);
@@ -72,14 +73,14 @@ impl Chosen {
         reaches(line.iter().map(|p| p - middle), around.radius_m + BESIDE_M)
     }
 
-    /// Whether what lies within some metres of a place may be taken.
+    /// Whether something within this distance of a place may be taken.
     pub fn takes_near(&mut self, at: Vec2, within_m: f64) -> bool {
         let Some(around) = self.around else { return true };
         self.see(&[at]);
         (at - Vec2::new(around.x, around.y)).norm() <= around.radius_m + BESIDE_M + within_m
     }
 
-    /// Whether a line of degrees (longitude, latitude) is taken that comes this near to the circle, metres.
+    /// Whether a line in degrees (longitude, latitude) that comes this near to the circle is taken, metres.
     pub fn takes_degrees(&mut self, line: &[Vec2], beside_m: f64) -> bool {
         let Some(around) = self.around else { return true };
         self.see(line);
@@ -96,19 +97,20 @@ impl Chosen {
         }
     }
 
-    /// The part about the origin of a map, which lies at `origin` of the file. `what` names the things left out.
+    /// The part in the frame of a map whose origin lies at `origin` of the file. `what` names the omitted
+    /// things.
     pub fn part(&self, origin: Vec2, what: Word) -> Option<MapPart> {
         let around = self.around?;
         let middle = Vec2::new(around.x, around.y) - origin;
         Some(MapPart { middle, around, left_out: self.left_out, what })
     }
 
-    /// The place of the circle, whole metres: the origin of a map that is read in part.
+    /// Centre of the circle in whole metres: the origin of a map that is read in part.
     pub fn origin(&self) -> Option<Vec2> {
         self.around.map(|around| Vec2::new(around.x.round(), around.y.round()))
     }
 
-    /// Why nothing of a file is taken, if it lies elsewhere.
+    /// The reason if nothing of a file is taken because it lies elsewhere.
     pub fn nothing(&self) -> Option<Message> {
         let (around, (low, high)) = (self.around?, self.corners?);
         let [x, y] = [(low.x, high.x), (low.y, high.y)].map(|(low, high)| format!("{low} to {high}"));
@@ -119,11 +121,11 @@ impl Chosen {
 /// A part of a map, in the frame of the map.
 #[derive(Clone, Debug)]
 pub(crate) struct MapPart {
-    /// Middle of the circle, metres.
+    /// Centre of the circle, metres.
     pub middle: Vec2,
     /// The circle in the coordinates of the file.
     pub around: Around,
-    /// Things that the reader passed over, and what they are.
+    /// Number of things that the reader skipped, and their kind.
     pub left_out: usize,
     pub what: Word,
 }

@@ -1,14 +1,14 @@
-//! Which road edges bound which lanes, found from where they lie.
+//! Which road edges bound which lanes, derived from their positions.
 
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::map::{Boundary, LaneMap};
 
-/// An edge this near to a lane's side bounds it, metres.
+/// An edge within this distance of a lane's side bounds it, metres.
 const NEAR_M: f64 = 0.3;
 
-/// Says of lanes that have no line at a side which road edges run there.
+/// Assigns road edges to lanes that have no line at a side.
 pub(crate) fn by_edges(map: &mut LaneMap) {
     let edges = map.road_edges.iter().zip(0..).flat_map(|(edge, i)| pieces(&edge.points.xy, i)).collect();
     let index = SegmentIndex::new(edges);

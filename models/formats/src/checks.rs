@@ -50,15 +50,15 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("sniff", sniff),
 ];
 
-/// A document that is read writes back to an equal scene, and then to the same bytes.
+/// A document that is read is written as an equal scene, and then always as the same bytes.
 ///
 /// # Panics
-/// When it does not.
+/// When it is not.
 pub fn native(bytes: &[u8]) -> bool {
     let Ok(scene) = native::read(bytes) else { return false };
     let written = native::write(&scene);
     let again = native::read(&written).expect("what was written is read");
-    // Futures are rounded by the first writing; from then on nothing changes.
+    // The first write rounds futures; from then on nothing changes.
     assert_eq!(native::write(&again), written, "writing is not stable");
     true
 }
@@ -74,18 +74,18 @@ pub fn osm(bytes: &[u8]) -> bool {
     true
 }
 
-/// Whatever map a document has, its lane graph is built, it is known where it can be driven, and its road users
-/// are scored there.
+/// For any map of a document, the lane graph and the drivable area can be built, and its road users can be
+/// scored.
 ///
 /// # Panics
-/// When something cannot be worked out.
+/// When something cannot be derived.
 pub fn map(bytes: &[u8]) -> bool {
     let Ok(scene) = native::read(bytes) else { return false };
     works(&scene);
     true
 }
 
-/// Derives everything that is derived from each opened scene.
+/// Computes everything that is derived from an opened scene.
 fn works(scene: &Scene) {
     LaneGraph::new(&scene.map);
     let drivable = Drivable::new(&scene.map);
@@ -93,11 +93,11 @@ fn works(scene: &Scene) {
     score(&ScoreInput::of_sample(scene, chosen, &drivable));
 }
 
-/// A record that is read writes back to an equal scene. Checksums are not verified, so that a fuzzer gets
+/// A record that is read is written back as an equal scene. Checksums are not verified, so that a fuzzer gets
 /// past them.
 ///
 /// # Panics
-/// When it does not.
+/// When it is not.
 pub fn womd(bytes: &[u8]) -> bool {
     let options =
         Options { verify_crc: false, max_scenes: 4, max_decoded_bytes: 16 << 20, ..Options::default() };
@@ -113,7 +113,7 @@ pub fn womd(bytes: &[u8]) -> bool {
     read
 }
 
-/// A network or a recording of SUMO that is read is a scene that the native format holds.
+/// A SUMO network or recording that is read is a scene that the native format can hold.
 ///
 /// # Panics
 /// When it is not.
@@ -121,7 +121,7 @@ pub fn sumo(format: &str, bytes: &[u8]) -> bool {
     imported(format, bytes, None)
 }
 
-/// A recording in the format with this id that is read is a scene that the native format holds.
+/// A recording that is read in the format with this id is a scene that the native format can hold.
 ///
 /// # Panics
 /// When it is not.
@@ -135,30 +135,30 @@ fn parts(bytes: &[u8]) -> (&[u8], &[u8]) {
     (parts.next().unwrap_or_default(), parts.next().unwrap_or_default())
 }
 
-/// A recording and, before it and a zero byte, the network or map it belongs to.
+/// A recording and its network or map, which comes first and ends with a zero byte.
 ///
 /// # Panics
-/// When a scene is read that the native format does not hold.
+/// When a scene is read that the native format cannot hold.
 pub fn pair(format: &str, bytes: &[u8]) -> bool {
     let (net, file) = parts(bytes);
     imported(format, file, Some(net))
 }
 
-/// A table in CSV and, before it and a zero byte, what its columns are.
+/// A table in CSV and the meaning of its columns, which comes first and ends with a zero byte.
 ///
 /// # Panics
-/// When a scene is read that the native format does not hold.
+/// When a scene is read that the native format cannot hold.
 pub fn columns_pair(bytes: &[u8]) -> bool {
     let (columns, file) = parts(bytes);
     let columns = Some(Arc::new(columns.to_vec()) as Arc<dyn Source>);
     read("csv", file, &ImportOptions { max_scenes: 4, columns, ..ImportOptions::default() })
 }
 
-/// A table in CSV in its folder. Zero bytes stand between what its columns are (nothing: as they are found), the table
-/// and the other files of the folder; each file begins with its name and a line feed.
+/// A table in CSV in its folder. Zero bytes separate the meaning of its columns (empty: to be detected), the
+/// table and the other files of the folder; each file begins with its name and a line feed.
 ///
 /// # Panics
-/// When a scene is read that the native format does not hold, or a file is taken that is not beside the table.
+/// When a scene is read that the native format cannot hold, or a file is used that is not beside the table.
 pub fn folder(bytes: &[u8]) -> bool {
     let mut parts = bytes.split(|byte| *byte == 0);
     let columns = parts.next().filter(|columns| !columns.is_empty());
@@ -182,7 +182,7 @@ pub fn folder(bytes: &[u8]) -> bool {
     read("csv", &file, &ImportOptions { max_scenes: 4, columns, folder, ..ImportOptions::default() })
 }
 
-/// A map in the format with this id that is read is a scene that the native format holds.
+/// A map that is read in the format with this id is a scene that the native format can hold.
 ///
 /// # Panics
 /// When it is not.
@@ -190,7 +190,7 @@ pub fn map_of(format: &str, bytes: &[u8]) -> bool {
     imported(format, bytes, None)
 }
 
-/// A scenario in the format with this id that is read is a scene that the native format holds; what is written of it
+/// A scenario that is read in the format with this id is a scene that the native format can hold; its export
 /// is read again with as many road users.
 ///
 /// # Panics
@@ -203,10 +203,10 @@ pub fn both_ways(format: &str, bytes: &[u8]) -> bool {
         native::read(&native::write(&scene)).expect("what was written is read");
         works(&scene);
         let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
-        // A scene without a map may be one that the format has no place for.
+        // The format may be unable to hold a scene without a map.
         if let Ok(file) = format.export(&[&scene], &options) {
             let again = format.import(&file.bytes, &ImportOptions::default()).pop();
-            // A map just within the bound may be beyond it once its points are rounded.
+            // A map just within the limit may exceed it once its points are rounded.
             let too_complex = |error: &ReadError| error.problems.iter().all(|p| p.code == "map-too-complex");
             let is_read = again.as_ref().is_some_and(|again| again.as_ref().err().is_none_or(too_complex));
             assert!(is_read, "what was written is not read: {again:?}");
@@ -223,7 +223,7 @@ fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {
 
 fn read(format: &str, bytes: &[u8], options: &ImportOptions) -> bool {
     let mut read = false;
-    // Maps that come with a table are laid by the registry.
+    // The registry adds maps that come with a table.
     let scenes = registry::import(bytes, "", format, options).into_iter().flatten();
     for (scene, _) in scenes.flatten() {
         native::read(&native::write(&scene)).expect("what was written is read");
@@ -236,12 +236,12 @@ fn read(format: &str, bytes: &[u8], options: &ImportOptions) -> bool {
 /// Reads an uploaded file of unknown format in the format that detection chose.
 ///
 /// # Panics
-/// If a reader returns a scene that the native format cannot hold.
+/// When a reader returns a scene that the native format cannot hold.
 pub fn sniff(bytes: &[u8]) -> bool {
     registry::sniff(bytes, "").is_some_and(|format| imported(format.info().id, bytes, None))
 }
 
-/// Conditions that resolve are within their ranges and resolve to themselves when written.
+/// Resolved conditions are within their ranges, and resolve to themselves after they are written.
 ///
 /// # Panics
 /// When they are not.

@@ -1,4 +1,4 @@
-//! Cuts a map to a circle: lanes and lines that leave it end there, and what refers to them follows.
+//! Cuts a map to a circle: lanes and lines that leave it end there, and references to them are adapted.
 
 use crate::around::MapPart;
 use crate::polyline::length;
@@ -13,13 +13,13 @@ use scene::{Signal, Vec2};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
-/// Shortest stretches of lanes and of lines that are kept, metres.
+/// Lengths below which stretches of lanes and of lines are dropped, metres.
 const LEAST_LANE_M: f64 = 1.0;
 const LEAST_LINE_M: f64 = 0.3;
-/// Corners of the circle that areas are cut with.
+/// Corners of the polygon that stands for the circle when areas are cut.
 const CORNERS: u32 = 96;
 
-/// Keeps what lies within the circle of a part, and says how much that is.
+/// Keeps what lies within the circle of a part, and reports how much that is.
 pub(crate) fn cut(map: &mut LaneMap, signals: &mut Vec<Signal>, part: &MapPart) -> ImportWarning {
     let circle = CutCircle { middle: part.middle, radius_m: part.around.radius_m };
     let lanes = map.lanes.len();
@@ -43,7 +43,7 @@ pub(crate) fn cut(map: &mut LaneMap, signals: &mut Vec<Signal>, part: &MapPart) 
         known && signal.stop.is_none_or(|stop| circle.holds(stop))
     });
     let ended = stretches.values().filter(|stretch| stretch.is_cut()).count();
-    // Lanes that a reader took beside the circle count as those that it passed over.
+    // Lanes that a reader took beside the circle count as skipped.
     let beside = if part.what == what::LANES { lanes - map.lanes.len() } else { 0 };
     let around = part.around;
     let message = sentences::cut_around(
@@ -69,7 +69,7 @@ impl CutCircle {
         (p - self.middle).norm() <= self.radius_m
     }
 
-    /// Part of a segment inside, as shares of it.
+    /// The part of a segment inside, as shares of its length.
     fn within(&self, a: Vec2, b: Vec2) -> Option<(f64, f64)> {
         let (from, along) = (a - self.middle, b - a);
         let square = along.norm_squared();
@@ -102,7 +102,7 @@ impl CutCircle {
     }
 }
 
-/// A stretch of a line, in numbers of its points and shares of the pieces between them.
+/// A stretch of a line, in indices of its points and shares of the segments between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CutStretch {
     from: f64,
@@ -148,7 +148,7 @@ impl CutStretch {
         Points { xy: xy.collect(), z_m: line.z_m.as_ref().map(height) }
     }
 
-    /// New numbers of a range of points, as far as it lies in the stretch.
+    /// New indices of a range of points, as far as it lies in the stretch.
     fn renumbered(&self, (from, to): (usize, usize)) -> Option<(usize, usize)> {
         let (low, high) = ((from as f64).max(self.from), (to as f64).min(self.to));
         let count = self.to.ceil() as usize - self.from.floor() as usize;
@@ -160,7 +160,7 @@ impl CutStretch {
     }
 }
 
-/// Cuts lanes; of one that enters the circle several times the longest stretch is kept.
+/// Cuts lanes; a lane that enters the circle several times keeps its longest stretch.
 fn cut_lanes(map: &mut LaneMap, circle: CutCircle) -> HashMap<String, CutStretch> {
     let mut kept = HashMap::new();
     map.lanes.retain_mut(|lane| {
@@ -179,7 +179,7 @@ fn cut_lanes(map: &mut LaneMap, circle: CutCircle) -> HashMap<String, CutStretch
     kept
 }
 
-/// Pieces of lines that were cut: the id of the whole, and the id and the points of the piece.
+/// Pieces of lines that were cut: the id of the whole line, and the id and the points of the piece.
 type Pieces = Vec<(String, String, Vec<Vec2>)>;
 
 /// Cuts lines. A line may have several pieces; the first keeps its id.
@@ -204,7 +204,7 @@ fn cut_lines(lines: &mut Vec<TypedLine>, circle: CutCircle) -> Pieces {
     pieces
 }
 
-/// A new id after that of the whole.
+/// A new id derived from that of the whole.
 fn fresh(id: &str, taken: &mut HashSet<String>) -> String {
     let stem: String = id.chars().take(50).collect();
     let mut count = 2;
@@ -217,7 +217,7 @@ fn fresh(id: &str, taken: &mut HashSet<String>) -> String {
     }
 }
 
-/// Links, sides and neighbours after the cut.
+/// Adapts links, sides and neighbours after the cut.
 fn refer(map: &mut LaneMap, stretches: &HashMap<String, CutStretch>, pieces: &Pieces) {
     let mut by_line: HashMap<&str, Vec<(&str, &[Vec2])>> = HashMap::new();
     for (whole, id, points) in pieces {
@@ -263,7 +263,7 @@ fn refer(map: &mut LaneMap, stretches: &HashMap<String, CutStretch>, pieces: &Pi
     }
 }
 
-/// The parts of an area inside, under its id.
+/// The parts of an area inside, all with its id.
 fn cut_area(area: Area, circle: CutCircle) -> Vec<Area> {
     let rings = || std::iter::once(&area.polygon).chain(&area.holes);
     if rings().all(|ring| ring.xy.iter().all(|p| circle.holds(*p))) {
@@ -287,7 +287,7 @@ fn cut_area(area: Area, circle: CutCircle) -> Vec<Area> {
     parts.collect()
 }
 
-/// Gives parts of one area different ids.
+/// Gives different ids to parts of one area.
 fn name_apart(lists: [&mut Vec<Area>; 2]) {
     let mut taken = HashSet::new();
     for area in lists.into_iter().flatten() {

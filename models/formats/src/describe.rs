@@ -1,13 +1,13 @@
-//! Names and notes of a scene, cut to what a scene can hold: files from other tools hold more.
+//! Names and notes of a scene, shortened to what a scene can hold: files from other tools hold more.
 
 use crate::problem::{FieldProblem, ReadError};
 use crate::refusals::{self, what};
 use scene::Meta;
 
-/// Most bytes of a text about where a scene comes from, and most entries of a list of road users.
+/// Most bytes of a text about the source of a scene, and most entries of a list of road users.
 const MAX_TEXT: usize = 256;
 const MAX_ENTRIES: usize = 256;
-/// Farthest that the origin of a scene may lie from that of its source, metres.
+/// Greatest distance between the origin of a scene and that of its source, metres.
 const MAX_ORIGIN_M: f64 = 1e9;
 
 fn cut(text: &mut String) {
@@ -15,7 +15,7 @@ fn cut(text: &mut String) {
     text.truncate(end.unwrap_or_default());
 }
 
-/// The same with texts and lists cut to what a scene holds.
+/// The same metadata with shortened texts and lists.
 ///
 /// # Errors
 /// `out-of-range` for an origin beyond all coordinates.

@@ -1,16 +1,16 @@
-//! The side of the road that traffic keeps to, found from the lanes of a map.
+//! The driving side of a map, found from its lanes.
 
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::map::{Lane, LaneMap};
 
-/// Oncoming traffic is looked for up to this far beside a lane, metres.
+/// Distance from a lane up to which oncoming traffic is searched, metres.
 const BESIDE_M: f64 = 8.0;
-/// Most lanes that are looked at: those of a large map agree long before.
+/// Most lanes that are examined: those of a large map agree long before.
 const MOST_LANES: usize = 2_000;
 
-/// Whether oncoming traffic lies to the right of most lanes; false for a map that does not show it.
+/// Whether most lanes have oncoming traffic to their right; false if the map does not show it.
 pub(crate) fn keeps_left(map: &LaneMap) -> bool {
     let driven = |lane: &Lane| lane.lane_type.carries_vehicles() && !lane.interpolating;
     let lanes: Vec<&Lane> = map.lanes.iter().filter(|lane| driven(lane)).collect();

@@ -1,21 +1,21 @@
-//! Text of XML files as UTF-8, whatever encoding their byte order mark or their declaration states.
+//! Decodes XML files to UTF-8 from the encoding of their byte order mark or their declaration.
 
 use encoding_rs::{CoderResult, Decoder, Encoding, UTF_16BE, UTF_16LE};
 use std::io::{self, BufRead, Read};
 
-/// Bytes at the beginning in which the declaration ends.
+/// Bytes at the beginning that contain the declaration.
 const HEAD: usize = 512;
 /// Bytes of text that are decoded at a time.
 const PIECE: usize = 16 << 10;
 
-/// A reader of UTF-8 over a file of any encoding; a file of UTF-8 passes through unchanged.
+/// A reader that gives UTF-8 for a file of any encoding; UTF-8 passes through unchanged.
 pub(crate) struct Utf8<R> {
     inner: R,
     /// The beginning, which was read to find the encoding, and how much of it is used.
     head: Vec<u8>,
     used: usize,
     begun: bool,
-    /// Nothing where the file is UTF-8.
+    /// Decoder; nothing for UTF-8.
     decoder: Option<Decoder>,
     decoded: Vec<u8>,
     given: usize,
@@ -43,7 +43,7 @@ impl<R: BufRead> Utf8<R> {
         Ok(())
     }
 
-    /// Decodes on until there is text or the file ends.
+    /// Decodes until there is text or the file ends.
     fn decode(&mut self) -> io::Result<()> {
         let Some(decoder) = &mut self.decoder else { return Ok(()) };
         while self.given == self.decoded.len() && !self.ended {
@@ -95,7 +95,7 @@ impl<R: BufRead> Read for Utf8<R> {
     }
 }
 
-/// The encoding of a file that begins so; nothing for UTF-8 and for what is not known.
+/// The encoding of a file with this beginning; nothing for UTF-8 and for an unknown encoding.
 fn encoding(head: &[u8]) -> Option<&'static Encoding> {
     let found = match head {
         [0, b'<', ..] => Some(UTF_16BE),
@@ -120,7 +120,7 @@ fn declared(head: &[u8]) -> Option<&'static Encoding> {
 mod tests {
     use super::*;
 
-    /// Read in pieces of three bytes, as from a slow connection.
+    /// Reads in pieces of three bytes, as from a slow connection.
     fn text(bytes: &[u8]) -> String {
         let mut text = String::new();
         let mut reader = Utf8::new(io::BufReader::with_capacity(3, bytes));
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(text(long.as_bytes()), long);
         let latin: Vec<u8> = with("latin1", &[0xfc].repeat(40_000));
         assert_eq!(text(&latin).matches('ü').count(), 40_000);
-        // A name that nobody knows, and UTF-16 declared in single bytes, are read as UTF-8.
+        // An unknown encoding name, and UTF-16 declared in single bytes, are read as UTF-8.
         assert!(text(&with("klingon", "ß".as_bytes())).ends_with("<a n='ß'/>"));
         assert!(text(&with("utf-16", "ß".as_bytes())).ends_with("<a n='ß'/>"));
     }

@@ -1,4 +1,4 @@
-//! Files on disk: whole or not there at all, and nothing replaced that is no plain file.
+//! Files on disk: each appears completely or not at all, and only plain files are replaced.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -12,27 +12,28 @@ fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
     UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is half written: for a process that is about to end.
+/// Removes partial files of this process before it ends.
 pub fn abandon() {
     for path in under_way().drain(..) {
         discard(&path);
     }
 }
 
-/// A failure means that it is gone already or cannot be removed; neither can be handled here.
+/// A failure means that the file is already gone or cannot be removed; neither can be handled here.
 fn discard(partial: &Path) {
     let is_folder = fs::symlink_metadata(partial).is_ok_and(|found| found.is_dir());
     let _ = if is_folder { fs::remove_dir_all(partial) } else { fs::remove_file(partial) };
 }
 
-/// What is written under a name beside its own until it is whole. It is removed unless it was put in place.
+/// A file or folder under a temporary name beside its own until it is complete. It is removed unless it was
+/// put in place.
 struct Partial {
     path: PathBuf,
     in_place: bool,
 }
 
 impl Partial {
-    /// The name beside a target.
+    /// The temporary name beside a target.
     fn beside(target: &Path) -> PathBuf {
         let name = target.file_name().unwrap_or_default().to_string_lossy();
         target.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
@@ -59,18 +60,18 @@ impl Drop for Partial {
     }
 }
 
-/// A folder being filled. It appears under its name, with all its files on the disk, when [`WholeFolder::finish`]
-/// has succeeded.
+/// A folder being filled. It appears under its name, with all its files on the disk, once
+/// [`WholeFolder::finish`] has succeeded.
 pub struct WholeFolder {
     target: PathBuf,
     partial: Partial,
 }
 
 impl WholeFolder {
-    /// Begins a folder where nothing is yet; folders above it that are missing are made.
+    /// Begins a folder that does not exist yet; missing parents are made.
     ///
     /// # Errors
-    /// `AlreadyExists` when something has the name, or another process fills it; when it cannot be made.
+    /// `AlreadyExists` when the name is taken, or another process fills the folder; when it cannot be made.
     pub fn create(path: &Path) -> io::Result<Self> {
         if fs::symlink_metadata(path).is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
@@ -87,17 +88,17 @@ impl WholeFolder {
     /// Writes a new file of this name.
     ///
     /// # Errors
-    /// When there is one already, or it cannot be written.
+    /// When it exists already, or cannot be written.
     pub fn add(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let mut file = File::create_new(self.partial.path.join(name))?;
         file.write_all(bytes)?;
         file.sync_all()
     }
 
-    /// Puts the folder in its place.
+    /// Puts the folder in place.
     ///
     /// # Errors
-    /// When something has taken the name in the meantime, or the disk refuses.
+    /// When the name was taken in the meantime, or the disk refuses.
     pub fn finish(self) -> io::Result<()> {
         if cfg!(unix) {
             File::open(&self.partial.path)?.sync_all()?;
@@ -111,29 +112,29 @@ impl WholeFolder {
     }
 }
 
-/// There is something that writing would replace. Devices and pipes take what comes and lose nothing.
+/// Whether writing would replace something. Devices and pipes accept what is written and lose nothing.
 pub fn would_replace(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| found.is_file() || found.is_dir())
 }
 
-/// A file being written. It appears under its name, or takes the place of the one of before, when
-/// [`Whole::finish`] has succeeded. A link is followed; a device or a pipe is written straight into.
+/// A file being written. It appears under its name, or replaces the old file, once [`Whole::finish`] has
+/// succeeded. A link is followed; a device or a pipe is written directly.
 pub struct Whole {
     target: PathBuf,
-    /// `None` where there is nothing to put in place.
+    /// `None` if there is nothing to put in place.
     partial: Option<Partial>,
     file: BufWriter<File>,
 }
 
 impl Whole {
-    /// Begins a file; folders that are missing are made.
+    /// Begins a file; missing folders are made.
     ///
     /// # Errors
     /// When it cannot be created.
     pub fn create(path: &Path) -> io::Result<Self> {
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let found = fs::metadata(&target);
-        // A link to nowhere is followed by opening it.
+        // A dangling link is followed by opening it.
         let dangling = found.is_err() && fs::symlink_metadata(path).is_ok();
         if dangling || found.as_ref().is_ok_and(|found| !found.is_file()) {
             let file = File::options().write(true).create(dangling).truncate(dangling).open(path)?;
@@ -155,10 +156,10 @@ impl Whole {
         self.partial.as_ref().map(|partial| partial.path.as_path())
     }
 
-    /// Puts the file in its place.
+    /// Puts the file in place.
     ///
     /// # Errors
-    /// When what was written cannot be kept; the file of before is then still there.
+    /// When the written bytes cannot be kept; the old file is then unchanged.
     pub fn finish(mut self) -> io::Result<()> {
         self.file.flush()?;
         let Some(partial) = self.partial else { return Ok(()) };
@@ -177,10 +178,10 @@ impl Write for Whole {
     }
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// When it cannot be written; the file of before is then still there.
+/// When it cannot be written; the old file is then unchanged.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = Whole::create(path)?;
     file.write_all(bytes)?;

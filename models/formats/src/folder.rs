@@ -1,28 +1,29 @@
-//! Files that several processes put into one folder: each appears whole, under its name, and is never replaced.
+//! Files that several processes put into one folder: each appears complete, under its name, and is never
+//! replaced.
 //!
-//! There is no lock. Equal work gives equal bytes, so whoever comes second finds its own bytes there.
+//! There is no lock. Equal work gives equal bytes, so a process that comes second finds its own bytes there.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// How an attempt to create a file ended.
+/// Result of an attempt to create a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Creation {
-    /// It is there now.
+    /// It was created.
     New,
-    /// It was there, with the same bytes.
+    /// It existed with the same bytes.
     Equal,
-    /// It was there, with other bytes, and stays as it was.
+    /// It existed with other bytes, and is unchanged.
     Different,
 }
 
-/// Names that are tried for a partial file.
+/// Number of names that are tried for a partial file.
 const TRIES: usize = 1_000;
 
-/// Creates a file with these bytes where none has its name. The bytes are on the disk before the name is. A process
-/// that is killed leaves nothing behind where the file system has files without a name (`O_TMPFILE`); elsewhere it may
-/// leave a partial file, which [`sweep`] removes. Folders that are missing are made.
+/// Creates a file with these bytes if its name is free. The bytes are on the disk before the name is. A
+/// killed process leaves nothing behind if the file system supports unnamed files (`O_TMPFILE`); otherwise it
+/// may leave a partial file, which [`sweep`] removes. Missing folders are made.
 ///
 /// # Errors
 /// When it cannot be written.
@@ -38,7 +39,7 @@ pub fn create(path: &Path, bytes: &[u8]) -> io::Result<Creation> {
             File::open(folder)?.sync_all()?;
             Ok(Creation::New)
         }
-        // A partial file that another process swept away had its name taken before.
+        // If another process swept the partial file away, the name was already taken.
         Err(error) if matches!(error.kind(), ErrorKind::AlreadyExists | ErrorKind::NotFound) => {
             let equal = fs::read(path)? == bytes;
             Ok(if equal { Creation::Equal } else { Creation::Different })
@@ -47,7 +48,7 @@ pub fn create(path: &Path, bytes: &[u8]) -> io::Result<Creation> {
     }
 }
 
-/// Through a file that has no name until it is whole.
+/// Creates the file through an unnamed file, which gets its name once it is complete.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
@@ -68,13 +69,14 @@ fn unnamed(_: &Path, _: &Path, _: &[u8]) -> io::Result<()> {
     Err(ErrorKind::Unsupported.into())
 }
 
-/// Has the file system, or the system, no files without a name? A kernel that does not know them opens the folder.
+/// Whether the file system or the system lacks unnamed files. A kernel that does not know them opens the
+/// folder.
 fn lacks_support(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::IsADirectory | ErrorKind::InvalidInput)
         || error.kind() == ErrorKind::NotFound && !Path::new("/proc/self/fd").exists()
 }
 
-/// Through a partial file with a name of its own.
+/// Creates the file through a partial file with its own name.
 fn by_link(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
     let (partial, mut file) = partial(folder, path)?;
     let written = file.write_all(bytes).and_then(|()| file.sync_all());
@@ -87,7 +89,7 @@ fn by_link(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 fn partial(folder: &Path, path: &Path) -> io::Result<(PathBuf, File)> {
     let (name, process) = (path.file_name().unwrap_or_default().to_string_lossy(), std::process::id());
-    // Processes of two machines may have one number.
+    // Processes of two machines may have the same number.
     for number in 0..TRIES {
         let partial = folder.join(format!(".{name}.{process}-{number}{PARTIAL}"));
         match File::options().write(true).create_new(true).open(&partial) {
@@ -101,10 +103,10 @@ fn partial(folder: &Path, path: &Path) -> io::Result<(PathBuf, File)> {
     ))
 }
 
-/// End of the name of a partial file.
+/// Suffix of the name of a partial file.
 const PARTIAL: &str = ".tmp";
 
-/// Removes the partial files of a folder whose file is there: nobody needs them any more.
+/// Removes the partial files of a folder whose final file exists: they are useless.
 ///
 /// # Errors
 /// When the folder cannot be read.
@@ -114,7 +116,7 @@ pub fn sweep(folder: &Path) -> io::Result<()> {
         let name = name.to_string_lossy();
         let whole = name.strip_prefix('.').and_then(|rest| rest.strip_suffix(PARTIAL)?.rsplit_once('.'));
         if whole.is_some_and(|(whole, _)| folder.join(whole).exists()) {
-            // Another process may sweep too.
+            // Another process may sweep at the same time.
             let _ = fs::remove_file(folder.join(&*name));
         }
     }

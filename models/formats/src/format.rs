@@ -44,15 +44,15 @@ pub struct Info {
 /// Options for reading a file of any format.
 #[derive(Clone, Debug)]
 pub struct ImportOptions {
-    /// Scenes to pass over.
+    /// Number of scenes to skip.
     pub skip: usize,
-    /// Most scenes to give.
+    /// Greatest number of scenes to read.
     pub max_scenes: usize,
-    /// Licence of the scenes in place of the format's own.
+    /// Licence of the scenes instead of that of the format.
     pub licence: Option<String>,
-    /// Check the checksums that the format has.
+    /// Whether to verify the checksums of the format.
     pub verify: bool,
-    /// Join the tracks of road users that a recording has under two ids.
+    /// Whether to join the tracks of a road user that a recording has under two ids.
     pub join_identities: bool,
     /// The network of a recording, for formats whose info has `takes_net`: a SUMO `net.xml`, plain or gzip,
     /// or the map of an Argoverse scenario. Faults in it are reported under [`NET_POINTER`].
@@ -66,7 +66,7 @@ pub struct ImportOptions {
     pub folder: Option<FolderFiles>,
     /// Maps that may lie under the road users of the file ([`crate::registry::grounded`]).
     pub ground: Arc<GroundMaps>,
-    /// The part of a map that is read, for formats of maps ([`Format::takes_around`]). All of it when absent.
+    /// The part of a map to read, for formats of maps ([`Format::takes_around`]); the whole map if absent.
     pub around: Option<Around>,
 }
 
@@ -98,13 +98,13 @@ impl Default for ImportOptions {
 pub enum ExportedMotion {
     /// The recorded tracks.
     Log,
-    /// The chosen future where there is one, after the log up to its first step.
+    /// The chosen future if there is one, after the log up to its first step.
     #[default]
     Chosen,
 }
 
 impl ExportedMotion {
-    /// A road user as a file has it: as it is shown, or as it was recorded.
+    /// The motion of a road user that is written: as it is shown, or as it was recorded.
     pub(crate) fn of<'a>(self, scene: &Scene, agent: &'a Agent) -> Shown<'a> {
         match self {
             Self::Chosen => scene.shown(agent),
@@ -114,8 +114,8 @@ impl ExportedMotion {
         }
     }
 
-    /// All road users as a file has them, and steps until the last of them ends: what was made may go on when the
-    /// scene is over.
+    /// The motion of all road users, and the steps until the last of them ends: generated motion may go on
+    /// after the end of the scene.
     pub(crate) fn all(self, scene: &Scene) -> (Vec<Shown<'_>>, usize) {
         let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| self.of(scene, agent)).collect();
         let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
@@ -127,15 +127,15 @@ impl ExportedMotion {
 /// Options for writing a file of any format.
 #[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
-    /// Which motion, where the format has room for one only.
+    /// The motion to write, if the format has room for one only.
     pub motion: ExportedMotion,
-    /// Compress, where the format knows gzip.
+    /// Whether to compress, if the format supports gzip.
     pub gzip: bool,
-    /// The one sample to write, where the format has room for several.
+    /// The single sample to write, if the format has room for several.
     pub sample: Option<usize>,
     /// Name of the scene in a table of several scenes; its own name when absent.
     pub label: Option<String>,
-    /// The file already has scenes, so no heading is written.
+    /// Whether the file already has scenes, so that no heading is written.
     pub continued: bool,
     /// Most bytes of the file; unbounded when absent.
     pub most_bytes: Option<u64>,
@@ -159,7 +159,7 @@ pub struct Exported {
     pub losses: Vec<Loss>,
 }
 
-/// A file of a folder by its name there, and the other files of the folder that are read with it.
+/// Name of a file in a folder, and the other files of the folder that are read with it.
 #[derive(Clone, Debug)]
 pub struct FolderFiles {
     /// The name of the file itself.
@@ -176,28 +176,28 @@ pub type NamedSources<'a> = Vec<(String, Box<dyn Source + 'a>)>;
 pub struct MapFiles<'a> {
     /// The files.
     pub files: NamedSources<'a>,
-    /// What is said of those that are left out.
+    /// Warnings about maps that are left out.
     pub warnings: Vec<ImportWarning>,
 }
 
 /// Maps that may lie under the road users of a file.
 #[derive(Debug, Default)]
 pub struct GroundMaps {
-    /// Scenes whose maps they are.
+    /// Scenes with the maps.
     pub maps: Vec<Scene>,
-    /// What was said while they were read.
+    /// Warnings of their readers.
     pub warnings: Vec<ImportWarning>,
 }
 
 /// Scenes of a file, read one at a time on demand; a broken scene does not end the iteration.
 pub type Scenes<'a> = Box<dyn Iterator<Item = Result<Imported, ReadError>> + 'a>;
 
-/// A file that holds one scene, or none that can be read.
+/// The scenes of a file that holds one, or an error.
 pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
     Box::new(std::iter::once(scene))
 }
 
-/// The scene of a file that holds one, read only if it is wanted.
+/// The scene of a file that holds one, read on demand.
 pub(crate) fn only<'a>(
     options: &ImportOptions,
     read: impl FnOnce() -> Result<Imported, ReadError>,
@@ -208,19 +208,19 @@ pub(crate) fn only<'a>(
 /// Role of the ego: the vehicle that recorded a scene or whose motion is predicted.
 pub(crate) const EGO: &str = "ego";
 
-/// Steps of a window of a longer recording: 9.1 s, as recordings of other sources have.
+/// Steps of a window of a longer recording: 9.1 s, as in the recordings of other sources.
 pub(crate) const RECORDED_STEPS: usize = 91;
-/// The step of a window that is its present, as in recordings of other sources.
+/// The present step of a window, as in the recordings of other sources.
 pub(crate) const NOW_STEP: usize = 10;
 /// Time of a scene imported from a map without recording: one past second and eight future ones.
 pub(crate) const MAP_TIMING: Timing = Timing { steps: RECORDED_STEPS, now_step: NOW_STEP };
 
-/// Refusal of a writer that there is not.
+/// Refusal of an export: the format can only be read.
 pub(crate) fn only_read(info: &Info) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, refusals::only_read(info.name))
 }
 
-/// Refusal of a reader that there is not.
+/// Refusal of an import: the format can only be written.
 pub(crate) fn written_only<'a>(info: &Info) -> Scenes<'a> {
     let message = refusals::only_written(info.name);
     one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, message).into()))
@@ -229,7 +229,7 @@ pub(crate) fn written_only<'a>(info: &Info) -> Scenes<'a> {
 /// The scene of a file that has room for one.
 ///
 /// # Errors
-/// `InvalidInput` for more of them, or none.
+/// `InvalidInput` for several scenes, or none.
 pub(crate) fn one_scene<'a>(scenes: &[&'a Scene]) -> io::Result<&'a Scene> {
     match scenes {
         [scene] => Ok(scene),
@@ -239,7 +239,7 @@ pub(crate) fn one_scene<'a>(scenes: &[&'a Scene]) -> io::Result<&'a Scene> {
 
 /// A reader and writer of one format.
 pub trait Format: Sync {
-    /// The table's row.
+    /// Its row in the table of formats.
     fn info(&self) -> Info;
 
     /// Confidence that a file with this beginning has this format: 0 none, 1 by name, 2 by content.
@@ -248,23 +248,24 @@ pub trait Format: Sync {
         0
     }
 
-    /// May come with names of columns ([`ImportOptions::columns`]).
+    /// Whether it may come with names of columns ([`ImportOptions::columns`]).
     fn takes_columns(&self) -> bool {
         false
     }
 
-    /// A part of its map can be read ([`ImportOptions::around`]).
+    /// Whether a part of its map can be read ([`ImportOptions::around`]).
     fn takes_around(&self) -> bool {
         false
     }
 
-    /// Reads the scenes of a file. Tables have the map of the options under each on which most of its vehicles are.
+    /// Reads the scenes of a file. Each recording of a table gets the map of the options on which most of its
+    /// vehicles are.
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a>;
 
     /// Maps that come with a file of road users, with their names.
     ///
     /// # Errors
-    /// A file that holds them and is broken.
+    /// A broken file that should contain them.
     fn maps<'a>(
         &self,
         _file: &'a dyn Source,

@@ -1,26 +1,26 @@
-//! The unit of headings: what moving road users agree on, and headings outside of a turn.
+//! The unit of headings: the vote of moving road users, and headings outside one turn.
 
 use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::{Agent, STEP_S, State, Vec2, geometry, wrap_angle};
 use std::f64::consts::TAU;
 
-/// Above this speed motion follows the heading, m/s.
+/// Above this speed, the motion follows the heading, m/s.
 pub(crate) const MOVES_MPS: f64 = 1.0;
-/// Least mean cosine of heading and motion of a road user that goes along its heading, and least difference to the
-/// other unit's: a road user that both units suit has no vote.
+/// Least mean cosine between heading and motion of a road user that moves along its heading, and least
+/// difference to that of the other unit: a road user that suits both units has no vote.
 const ALONG: f64 = 0.8;
 const CLEAR: f64 = 0.2;
 
-/// Least number of moving states that overrule what a format usually has.
+/// Least number of moving states that overrule the usual unit of a format.
 const ENOUGH: usize = 10;
 
-/// The unit of headings as far as the format states it.
+/// The unit of headings as far as the format defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HeadingUnit {
     /// Radians, by the format's definition.
     Radians,
-    /// Either, and usually radians or degrees: the file decides.
+    /// Either unit, usually radians or degrees: the file decides.
     UsuallyRadians,
     UsuallyDegrees,
 }
@@ -30,15 +30,15 @@ pub(crate) enum HeadingUnit {
 pub(crate) struct Votes {
     degrees: usize,
     radians: usize,
-    /// Moving states of those that degrees suit, and radians.
+    /// Moving states of the road users that suit degrees, and radians.
     states: [usize; 2],
-    /// Road users with a heading, and those of them with most headings outside of a turn in radians.
+    /// Road users with a heading, and the number of them with most headings outside one turn in radians.
     found: usize,
     outside: usize,
     any_outside: bool,
 }
 
-/// The motion of a road user at a step, m/s: as stated, else to its next place.
+/// The velocity of a road user at a step, m/s: as stated, otherwise towards its next position.
 pub(crate) fn motion(states: &[Option<State>], at: usize) -> Option<Vec2> {
     let state = states.get(at)?.as_ref()?;
     let next = || states.get(at + 1)?.as_ref().map(|next| (next.position() - state.position()) / STEP_S);
@@ -57,7 +57,7 @@ impl Votes {
         votes
     }
 
-    /// Adds a road user: its headings, each with its motion where it moves.
+    /// Adds a road user: its headings, each with its motion if it moves.
     pub fn add(&mut self, states: impl Iterator<Item = (f64, Option<Vec2>)>) {
         let (mut count, mut degrees, mut radians) = (0.0, 0.0, 0.0);
         let (mut known, mut outside) = (0, 0);
@@ -81,8 +81,9 @@ impl Votes {
         }
     }
 
-    /// Whether there is nothing to decide: no heading is outside of a turn, and the format has radians. Where it only
-    /// usually has, a car that reverses to the east votes for degrees, too: one alone says nothing within a turn.
+    /// Whether nothing has to be decided: no heading is outside one turn, and the format defines radians. If
+    /// the format only usually has radians, a car that reverses to the east votes for degrees too: a single
+    /// vote within one turn means nothing.
     pub fn is_quiet(&self, unit: HeadingUnit) -> bool {
         !self.any_outside
             && match unit {
@@ -100,7 +101,7 @@ impl Votes {
         ImportWarning::new("headings-in-degrees", message)
     }
 
-    /// Whether headings are degrees: the majority decides, then the size of headings, then what is usual.
+    /// Whether headings are degrees: the majority decides, then the size of headings, then the usual unit.
     pub fn in_degrees(&self, unit: HeadingUnit) -> bool {
         let by_size = 2 * self.outside > self.found;
         let (degrees, radians) = (self.degrees > self.radians, self.radians > self.degrees);
@@ -112,7 +113,7 @@ impl Votes {
     }
 }
 
-/// Turns headings to radians within a turn, by the votes of the road users that move.
+/// Converts headings to radians within one turn, by the votes of the moving road users.
 pub(crate) fn settle(agents: &mut [Agent], unit: HeadingUnit) -> Vec<ImportWarning> {
     let votes = Votes::of(agents);
     if votes.is_quiet(unit) {
@@ -130,7 +131,7 @@ pub(crate) fn settle(agents: &mut [Agent], unit: HeadingUnit) -> Vec<ImportWarni
         warnings.push(ImportWarning::new("headings-in-radians", message));
     }
     let mut wrapped = 0;
-    // Tracks are shared: one that stays as it is keeps its hash.
+    // Tracks are shared: an unchanged one keeps its hash.
     for agent in agents.iter_mut().filter(|agent| is_outside(agent)) {
         for state in agent.track.states.iter_mut().flatten().filter(|state| state.heading_rad.abs() > TAU) {
             wrapped += 1;
@@ -141,12 +142,12 @@ pub(crate) fn settle(agents: &mut [Agent], unit: HeadingUnit) -> Vec<ImportWarni
     warnings
 }
 
-/// Says how many headings were wrapped.
+/// Reports how many headings were wrapped.
 pub(crate) fn said_wrapped(count: usize) -> Option<ImportWarning> {
     (count > 0).then(|| ImportWarning::new("headings-wrapped", sentences::headings_wrapped(count)))
 }
 
-/// Whether a heading is outside of a turn in radians; one that is no number is refused later.
+/// Whether a heading is outside one turn in radians; one that is not a number is refused later.
 fn is_outside(agent: &Agent) -> bool {
     let far = |state: &State| state.heading_rad.is_finite() && state.heading_rad.abs() > TAU;
     agent.track.states.iter().flatten().any(far)
@@ -176,7 +177,7 @@ mod tests {
     #[test]
     fn the_road_users_that_move_decide_the_unit() {
         let moving = |unit: f64| vec![user(0.3, 0.3 * unit, 8.0), user(-2.0, -2.0 * unit, 8.0)];
-        // One heading past a turn does not make all others degrees.
+        // One heading beyond a turn does not make all others degrees.
         let odd = [moving(1.0), vec![user(1.487, 7.77, 8.0)]].concat();
         let (found, codes) = read(odd, false);
         assert!((found[0] - 0.3).abs() < 1e-9 && (found[2] - (7.77 - TAU)).abs() < 1e-9, "{found:?}");
@@ -185,9 +186,9 @@ mod tests {
         let (found, codes) = read([moving(degrees), vec![user(0.0, 400.0, 0.0)]].concat(), false);
         assert!((found[1] + 2.0).abs() < 1e-9 && (found[2] - 40.0_f64.to_radians()).abs() < 1e-9);
         assert_eq!(codes, ["headings-in-degrees"]);
-        // Where degrees are usual, the moving ones overrule that too.
+        // If degrees are usual, the moving road users overrule that too.
         assert_eq!(read(moving(1.0), true), (vec![0.3, -2.0], vec!["headings-in-radians"]));
-        // Nobody moves: the size of most headings decides, or what is usual.
+        // Nobody moves: the size of most headings decides, or the usual unit.
         let still = |heading| user(0.0, heading, 0.0);
         assert_eq!(read(vec![still(90.0), still(180.0), still(1.0)], false).1, ["headings-in-degrees"]);
         assert_eq!(read(vec![still(9.0), still(2.0), still(1.0)], false).1, ["headings-wrapped"]);

@@ -1,5 +1,5 @@
-//! One road user under two ids: a tracker that loses a road user and finds it again gives it a second id, in
-//! the same place with the same motion, where the first one ends.
+//! Joins tracks of one road user under two ids. A tracker that loses a road user and finds it again gives it
+//! a second id, with the same place and motion, where the first track ends.
 
 use crate::problem::ImportWarning;
 use crate::sentences;
@@ -10,7 +10,7 @@ use scene::{Agent, STEP_S, Scene, State, wrap_angle};
 /// stands at the end of one and the beginning of the other may be unseen for longer, because no other takes
 /// its place.
 const MOST_STEPS: usize = 10;
-/// Slower than this stands, m/s.
+/// Below this speed, a road user stands, m/s.
 const STANDING_MPS: f64 = 0.5;
 /// Boxes of one road user share at least this much.
 const LEAST_IOU: f64 = 0.4;
@@ -27,7 +27,7 @@ pub fn join(scene: &mut Scene) -> Option<ImportWarning> {
     let mut joined = Vec::new();
     while let Some((first, second)) = find(&scene.agents) {
         let second = scene.agents.remove(second);
-        // The first one moves up where the second was listed before it.
+        // The first one moves up if the second was listed before it.
         let at = scene.agents.iter().position(|agent| agent.id == first)?;
         let first = &mut scene.agents[at];
         joined.push(format!("{} and {}", first.id, second.id));
@@ -62,7 +62,7 @@ fn unique<T>(list: &mut Vec<T>, key: impl Fn(&T) -> String) {
     list.retain(|item| seen.insert(key(item)));
 }
 
-/// The id of a road user, and the place of another in the list that is the same one later.
+/// The id of a road user, and the index of the later track of the same road user.
 fn find(agents: &[Agent]) -> Option<(String, usize)> {
     for first in agents {
         let Some(end) = first.track.last_valid_step() else { continue };
@@ -81,19 +81,19 @@ fn find(agents: &[Agent]) -> Option<(String, usize)> {
     None
 }
 
-/// The second track begins about where the first one ends.
+/// Whether the second track begins about when the first one ends.
 fn in_time(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
     let stands = |state: Option<&State>| state.is_some_and(|s| s.speed_mps() < STANDING_MPS);
     let waits = || begin > end && stands(first.track.at(end)) && stands(second.track.at(begin));
     begin.abs_diff(end) <= MOST_STEPS || waits()
 }
 
-/// Where both tracks have states they coincide; otherwise the first extrapolates to the position of the
+/// Whether both tracks coincide where both have states, or the first extrapolates to the position of the
 /// second.
 fn is_same(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
     if begin > end {
         let (Some(last), Some(next)) = (first.track.at(end), second.track.at(begin)) else { return false };
-        // A creeping road user, unseen for seconds, cannot be extrapolated reliably.
+        // A creeping road user that is unseen for seconds cannot be extrapolated reliably.
         let stands = last.speed_mps() < STANDING_MPS && next.speed_mps() < STANDING_MPS;
         if stands {
             return coincide((last, first), (next, second));
@@ -182,7 +182,7 @@ mod tests {
         };
         let (scene, warning) = joined(vec![stands("1", 0..20), stands("2", 70..91)]);
         assert!(scene.agents.len() == 1 && warning.is_some());
-        // One that drives through the same place seconds later is another.
+        // A road user that drives through the same place seconds later is another one.
         let mut passing = tracked("2", 40..91, 0.0);
         passing.track.states.iter_mut().flatten().for_each(|state| state.x_m -= 28.0);
         let (scene, _) = joined(vec![stands("1", 0..20), passing]);

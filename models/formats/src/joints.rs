@@ -1,5 +1,5 @@
-//! Connections of lanes: which lane leads into which, and which lane ends share a junction. Used by the
-//! writers of formats whose roads end at junctions.
+//! Connections of lanes: which lane leads into which, and which lane ends share a junction. Writers of
+//! formats whose roads end at junctions use them.
 
 use crate::polyline::length;
 use scene::map::LaneMap;
@@ -8,22 +8,22 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Most ways through junctions that are tested for crossings.
 const MOST_CROSSING: usize = 1_500;
-/// Most pieces of lines that are held against each other: ten times what a large town needs.
+/// Most pairs of line segments that are compared: ten times what a large town needs.
 const MOST_PIECES: u64 = 100_000_000;
 
-/// A lane leads into itself where its ends are nearer to each other than this share of its length.
+/// A lane is a ring if its ends are nearer to each other than this share of its length.
 const RING_SHARE: f64 = 0.1;
 
-/// Ends of lanes by the junction that they belong to.
+/// Ends of lanes grouped by their junction.
 pub(crate) struct Groups(Vec<usize>);
 
 impl Groups {
-    /// Each end of so many lanes on its own.
+    /// Every end of this many lanes in its own group.
     pub fn of(lanes: usize) -> Self {
         Self((0..2 * lanes).collect())
     }
 
-    /// The end that stands for all of its group.
+    /// The end that represents its group.
     pub fn root(&mut self, mut i: usize) -> usize {
         while self.0[i] != i {
             self.0[i] = self.0[self.0[i]];
@@ -32,19 +32,19 @@ impl Groups {
         i
     }
 
-    /// Two ends belong to one junction.
+    /// Puts two ends into one junction.
     pub fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b);
     }
 }
 
-/// Number of the end of a lane among [`Groups`].
+/// Index of the end of a lane in [`Groups`].
 pub(crate) fn end_of(lane: usize) -> usize {
     2 * lane
 }
 
-/// Number of the beginning of a lane among [`Groups`].
+/// Index of the beginning of a lane in [`Groups`].
 pub(crate) fn start_of(lane: usize) -> usize {
     2 * lane + 1
 }
@@ -84,13 +84,13 @@ fn links(map: &LaneMap) -> BTreeSet<(usize, usize)> {
     links
 }
 
-/// A line ends where it begins.
+/// Whether a line ends where it begins.
 fn is_ring(points: &[Vec2]) -> bool {
     let apart_m = points.first().zip(points.last()).map(|(first, last)| (last - first).norm());
     apart_m.is_some_and(|apart_m| apart_m < RING_SHARE * length(points))
 }
 
-/// Ways that cross each other lead through the same junction: lines, each with the end of a lane at its junction.
+/// Joins ways that cross each other into one junction: lines, each with the end of a lane at its junction.
 pub(crate) fn join_crossing(ways: &[(&[Vec2], usize)], groups: &mut Groups) {
     if ways.len() > MOST_CROSSING {
         return;
@@ -105,7 +105,7 @@ pub(crate) fn join_crossing(ways: &[(&[Vec2], usize)], groups: &mut Groups) {
     }
 }
 
-/// Which of many lines cross or touch.
+/// Finds which of many lines cross or touch.
 pub(crate) struct Crossings<'a> {
     lines: Vec<&'a [Vec2]>,
     boxes: Vec<(Vec2, Vec2)>,

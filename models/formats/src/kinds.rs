@@ -1,4 +1,4 @@
-//! File kinds that are recognised but not read: the refusal names the kind and the alternative.
+//! Kinds of files that are recognised but not read: the refusal names the kind and the alternative.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals;
@@ -6,21 +6,21 @@ use crate::{unpack, xml};
 
 /// How a kind is recognised.
 enum Mark {
-    /// Bytes at a place.
+    /// Bytes at an offset.
     At(usize, &'static [u8]),
-    /// The first element of XML.
+    /// The root element of XML.
     Root(&'static str),
-    /// Words that a text has, all of them.
+    /// Words that must all occur in a text.
     Words(&'static [&'static str]),
 }
 
 /// A kind of file.
 struct Kind {
     what: &'static str,
-    /// Ends of names that go with it.
+    /// File name endings of the kind.
     ends: &'static [&'static str],
     marks: &'static [Mark],
-    /// What to do instead.
+    /// The alternative.
     instead: &'static str,
 }
 
@@ -169,7 +169,8 @@ pub fn words() -> [Vec<&'static str>; 2] {
     [KINDS.iter().map(|kind| kind.what).collect(), KINDS.iter().map(|kind| kind.instead).collect()]
 }
 
-/// The refusal of a file that begins so, when it is of a known kind. `ends` are those of all formats that there are.
+/// The refusal of a file with this beginning, if it is of a known kind. `ends` are the file name endings of
+/// all formats.
 pub(crate) fn refusal(head: &[u8], name: &str, ends: &[&str]) -> Option<ReadError> {
     let unpacked = unpack::head(head);
     let root = xml::root_of(&unpacked);
@@ -185,7 +186,7 @@ pub(crate) fn refusal(head: &[u8], name: &str, ends: &[&str]) -> Option<ReadErro
     let kind = KINDS.iter().find(|kind| kind.marks.iter().any(is))?;
     let name = name.to_ascii_lowercase();
     let ends_so = |end: &str| name.strip_suffix(end).is_some_and(|stem| stem.ends_with('.'));
-    // The longest ending is the most specific: `.net.xml` is no `.xml`.
+    // The longest ending is the most specific: `.net.xml` is not `.xml`.
     let others = KINDS.iter().flat_map(|kind| kind.ends).copied().chain(ends.iter().copied());
     let said = others.filter(|end| ends_so(end)).max_by_key(|end| end.len());
     let message = match said.filter(|_| !kind.ends.iter().any(|end| ends_so(end))) {

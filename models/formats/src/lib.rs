@@ -1,11 +1,12 @@
-//! Files to and from scenes.
+//! Reads files as scenes, and writes scenes as files.
 //!
-//! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
-//! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
-//! and [`lanelet2`] read maps; `commonroad`, `scenarionet` and `gpudrive` are what planners and
-//! simulators read; [`av2`] reads Argoverse 2, [`table`] is motion for notebooks, as CSV and Parquet.
-//! No format knows another. Readers are
-//! bounded in time and memory, never follow references, never panic, and say where a fault lies.
+//! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario record;
+//! [`sumo`] reads networks and recordings of the traffic simulator; [`opendrive`] and [`lanelet2`] read maps;
+//! `commonroad`, `scenarionet` and `gpudrive` are formats of planners and simulators; [`av2`] reads Argoverse
+//! 2; [`table`] is motion for notebooks, as CSV and Parquet.
+//!
+//! No format depends on another. Readers are bounded in time and memory, never follow references, never
+//! panic, and report the place of a fault.
 //!
 //! ```
 //! use formats::{ExportOptions, ImportOptions, registry};
@@ -58,7 +59,7 @@ mod markup;
 pub mod native;
 pub mod netconvert;
 mod numbers;
-// SQLite is written in C, which a browser's target does not build.
+// SQLite is written in C, which cannot be built for the browser.
 #[cfg(not(target_family = "wasm"))]
 mod nuplan;
 mod nuscenes;

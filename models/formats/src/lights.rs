@@ -1,4 +1,4 @@
-//! Signals for maps that have heads but no program: the heads of a junction take turns.
+//! Signals for maps that have signal heads but no program: the heads of a junction take turns.
 
 use crate::problem::ImportWarning;
 use crate::sentences;
@@ -7,10 +7,10 @@ use scene::{MAX_SIGNALS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// Seconds of green, of amber, and of red for all, of each group.
+/// Durations of green, of amber, and of red for all, of each group, seconds.
 const PHASES_S: [f64; 3] = [12.0, 3.0, 1.0];
 
-/// A head of a signal: which lane it rules, and where.
+/// A signal head: the lane that it controls, and its position.
 #[derive(Clone, Debug)]
 pub(crate) struct SignalHead {
     /// Index of the lane.
@@ -18,10 +18,9 @@ pub(crate) struct SignalHead {
     pub stop: Vec2,
     /// Direction of the traffic there, radians.
     pub heading_rad: f64,
-    /// Heads of a junction share a cycle.
+    /// Junction; its heads share a cycle.
     pub junction: String,
-    /// Index and name of the signal group that the source gives; without one, opposite approaches form a
-    /// group.
+    /// Index and name of the signal group in the source; without one, opposite approaches form a group.
     pub group: Option<(u32, String)>,
 }
 
@@ -69,21 +68,21 @@ fn groups(heads: &[SignalHead]) -> Vec<usize> {
         if said && names.len() > 1 {
             return names.iter().position(|name| head.group.as_ref() == Some(name)).unwrap_or(0);
         }
-        // Along the way of the first one, either direction, or across it.
+        // Parallel to the first head, in either direction, or across it.
         let turn = wrap_angle(2.0 * (head.heading_rad - heads[0].heading_rad)) / 2.0;
         usize::from(turn.abs() > FRAC_PI_4)
     };
     heads.iter().map(group).collect()
 }
 
-/// States of one signal group, as a scene stores them. A junction with a single group is red for as long as a
+/// States of one signal group in the form of a scene. A junction with a single group is red for as long as a
 /// second group would be green.
 fn runs(group: usize, groups: usize, steps: usize) -> Vec<(usize, SignalState)> {
     let turn_s: f64 = PHASES_S.iter().sum();
     let cycle_s = turn_s * groups.max(2) as f64;
     let mut runs: Vec<(usize, SignalState)> = Vec::new();
     for step in 0..steps {
-        // In the middle of a step, so that no sum of tenths decides.
+        // In the middle of a step, so that no rounding of sums decides.
         let in_turn_s = ((step as f64 + 0.5) * STEP_S - turn_s * group as f64).rem_euclid(cycle_s);
         let state = match in_turn_s {
             s if s < PHASES_S[0] => SignalState::Go,

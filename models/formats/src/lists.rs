@@ -1,4 +1,4 @@
-//! Lists with a limit: a few bytes of a document become many bytes of structs, so a document may not need
+//! Lists with a limit: a few bytes of a document become many bytes of structs, so a document must not need
 //! more than a scene can hold.
 
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};

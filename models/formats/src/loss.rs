@@ -1,4 +1,4 @@
-//! Losses: what a writer cannot carry.
+//! Losses: contents of a scene that a writer cannot store.
 
 use scene::message::Message;
 use schemars::JsonSchema;
@@ -52,7 +52,7 @@ impl Ord for Loss {
 pub mod code {
     /// Conditions fixed by the user.
     pub const NO_CONDITIONS: &str = "no-conditions";
-    /// Which motion was generated: read again, all of it counts as recorded.
+    /// Which motion was generated: after reading the file again, all of it counts as recorded.
     pub const NO_GENERATED: &str = "no-generated";
     /// Futures other than the exported one.
     pub const NO_MODES: &str = "no-modes";
@@ -74,7 +74,7 @@ pub mod code {
     pub const NO_SIZES: &str = "no-sizes";
     /// Judgements of futures: probabilities, faults, relations, reactions.
     pub const NO_JUDGEMENTS: &str = "no-judgements";
-    /// The present step, steps beyond what is known of road users, the source's times.
+    /// The present step, steps after the last states of road users, and the source's times.
     pub const NO_TIMING: &str = "no-timing";
     /// Which lanes follow each other, lie side by side, and end at which lines.
     pub const NO_LANE_GRAPH: &str = "no-lane-graph";
@@ -88,9 +88,9 @@ pub mod code {
     pub const NO_LANE_WIDTH: &str = "no-lane-width";
     /// Types of lanes or edges that the format has no word for.
     pub const NO_LANE_TYPE: &str = "no-lane-type";
-    /// More steps than the scene, because a future is longer: readers made for recordings may not take it.
+    /// More steps than the scene, because a future is longer: readers for recordings may not accept it.
     pub const LONG_RECORD: &str = "long-record";
-    /// Painted lines and road edges as lines of their own.
+    /// Painted lines and road edges as separate lines.
     pub const NO_LINES: &str = "no-lines";
     /// Areas of the map that the format has no word for.
     pub const NO_AREAS: &str = "no-areas";
@@ -102,19 +102,20 @@ pub mod code {
     pub const SINGLE_EGO: &str = "single-ego";
     /// Signal states other than red, yellow and green.
     pub const NO_SIGNAL_STATES: &str = "no-signal-states";
-    /// Road users that come after the first step, of which the format's own readers know and its schema does not.
+    /// Road users that appear after the first step, which the format's readers accept and its schema does
+    /// not.
     pub const LATE_ROAD_USERS: &str = "late-road-users";
-    /// Lines that are not where they were, or numbers that are rounded so that it can be seen, by how much at most.
+    /// Displaced lines or visibly rounded numbers, with the greatest deviation.
     pub const GEOMETRY_APPROXIMATED: &str = "geometry-approximated";
-    /// Ids: what is read again is numbered.
+    /// Ids: they are numbered when the file is read again.
     pub const NO_IDS: &str = "no-ids";
     /// Speed limits.
     pub const NO_SPEED_LIMITS: &str = "no-speed-limits";
-    /// Speeds other than the first one, where readers find them from places and times.
+    /// Speeds other than the first one, if readers derive them from positions and times.
     pub const NO_VELOCITY: &str = "no-velocity";
     /// Routes of road users that are on no lane of the network.
     pub const NO_TRIPS: &str = "no-trips";
-    /// Rollouts that the format asks for and the scene has no samples for.
+    /// Rollouts that the format requires and for which the scene has no samples.
     pub const NO_ROLLOUTS: &str = "no-rollouts";
     /// Ids that the format cannot hold.
     pub const IDS_RENUMBERED: &str = "ids-renumbered";

@@ -1,4 +1,4 @@
-//! Formats whose file is one map: a scene with its signals, without road users.
+//! Formats whose file is one map: a scene with its signals and without road users.
 
 use crate::around::{Around, MapPart};
 use crate::cut::cut;
@@ -16,18 +16,18 @@ use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
 use std::collections::BTreeMap;
 use std::io;
 
-/// Suffix of a bidirectional lane's id for the copy against its direction.
+/// Suffix of a bidirectional lane's id for the copy in the opposite direction.
 pub(crate) const AGAINST: &str = ".back";
 
 /// A format of maps in XML, plain or gzip.
 pub(crate) struct MapFile {
     /// Word for `--from` and `?format=`.
     pub id: &'static str,
-    /// For people.
+    /// Name for people.
     pub name: &'static str,
-    /// Ends of file names.
+    /// File name endings.
     pub extensions: &'static [&'static str],
-    /// The element that files begin with.
+    /// Root element of the files.
     pub root: &'static str,
     /// `meta.source` of the scenes.
     pub source: &'static str,
@@ -37,17 +37,17 @@ pub(crate) struct MapFile {
     pub loses: &'static [&'static str],
     /// The reader.
     pub read: fn(&dyn Source, Option<Around>) -> Result<MapRead, ReadError>,
-    /// The writer, where there is one.
+    /// The writer, if there is one.
     pub write: Option<fn(&Scene, &ExportOptions) -> io::Result<Exported>>,
 }
 
 /// Content of a map file.
 pub(crate) struct MapRead {
-    /// Of the scene.
+    /// Name of the scene.
     pub name: String,
-    /// About the origin.
+    /// Map about the origin.
     pub map: Shared<LaneMap>,
-    /// Over [`MAP_TIMING`].
+    /// Signals over [`MAP_TIMING`].
     pub signals: Vec<Signal>,
     /// Origin in the file's frame.
     pub origin: Origin,
@@ -130,7 +130,7 @@ impl Format for MapFile {
     }
 }
 
-/// The refusal of a map that is too large, with what reads a part of it.
+/// Adds to the refusal of a map that is too large how to read a part of it.
 pub(crate) fn with_advice(mut error: ReadError, around: Option<Around>) -> ReadError {
     let large = [code::MAP_TOO_LARGE, code::DECODED_TOO_LARGE].contains(&error.code());
     if let (true, None, Some(first)) = (large, around, error.problems.first_mut())
@@ -141,7 +141,8 @@ pub(crate) fn with_advice(mut error: ReadError, around: Option<Around>) -> ReadE
     error
 }
 
-/// A map of this half size reaches farther from its middle than a scene can; with room for what is drawn beside lanes.
+/// Whether a map of this half size exceeds the range of a scene, with a margin for what is drawn beside
+/// lanes.
 pub(crate) fn is_too_wide(half: Vec2) -> bool {
     half.amax() > MAX_COORDINATE_M - 100.0
 }

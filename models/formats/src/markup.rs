@@ -1,20 +1,20 @@
-//! XML as it is written: elements that close in the order in which they open, with text that cannot break out.
+//! Writes XML: elements close in reverse order, and text is always escaped.
 
 use crate::written::FileBounds;
 use std::fmt::{Display, Write};
 use std::io;
 
-/// Bytes of a part of a document: one text would take three times its size while it grows.
+/// Bytes of a part of a document: a single text would take three times its size while it grows.
 const PART_BYTES: usize = 1 << 20;
 
-/// A document on its way out.
+/// A document that is being written.
 pub(crate) struct Markup {
-    /// Whole parts.
+    /// Finished parts.
     parts: Vec<String>,
-    /// The part that grows.
+    /// The current part.
     text: String,
     open: Vec<&'static str>,
-    /// Of the document. What lies beyond is dropped, and the document refused at its end.
+    /// Limits of the document. Text beyond them is dropped, and the document is refused at its end.
     bounds: FileBounds,
     bytes: u64,
 }
@@ -26,7 +26,7 @@ impl Markup {
         Self { parts: Vec::new(), text, open: Vec::new(), bounds, bytes: 0 }
     }
 
-    /// Closes a part that is long enough.
+    /// Finishes the current part if it is long enough.
     fn part(&mut self) {
         if self.text.len() >= PART_BYTES {
             self.bytes += self.text.len() as u64;
@@ -37,7 +37,7 @@ impl Markup {
         }
     }
 
-    /// Refuses a document that will be refused at its end, so that no more of it is written.
+    /// Refuses a document that would be refused at its end, so that no more of it is written.
     ///
     /// # Errors
     /// Those of [`FileBounds::check`].
@@ -53,14 +53,14 @@ impl Markup {
         }
     }
 
-    /// Begins an element.
+    /// Opens an element.
     pub fn open(&mut self, name: &'static str, attributes: &[(&str, &str)]) {
         self.start(name, attributes);
         self.text.push_str(">\n");
         self.open.push(name);
     }
 
-    /// Ends the element that began last.
+    /// Closes the innermost open element.
     pub fn close(&mut self) {
         if let Some(name) = self.open.pop() {
             let _ = writeln!(self.text, "{:1$}</{name}>", "", 2 * self.open.len());
@@ -79,7 +79,7 @@ impl Markup {
         let _ = writeln!(self.text, ">{}</{name}>", escaped(&text.to_string()));
     }
 
-    /// The document, with all elements ended.
+    /// The document, with all elements closed.
     ///
     /// # Errors
     /// Those of [`FileBounds::check`].
@@ -96,17 +96,17 @@ impl Markup {
     }
 }
 
-/// A number to the millionth, without an exponent.
+/// A number with six decimals, without an exponent.
 pub(crate) fn decimal(value: f64) -> String {
     ((value * 1e6).round() / 1e6 + 0.0).to_string()
 }
 
-/// Whether text of XML may have this character (XML 1.0, 2.2; the discouraged controls are left out too).
+/// Whether XML text may contain this character (XML 1.0, 2.2, without the discouraged control characters).
 pub(crate) fn is_char(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
-/// Text with marks as references, and without the characters that XML has no place for.
+/// Text with special characters escaped, and without the characters that XML does not allow.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

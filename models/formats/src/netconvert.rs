@@ -1,4 +1,4 @@
-//! SUMO's netconvert, a program of its own that the caller may have.
+//! SUMO's netconvert, a separate program that the caller may have.
 
 use std::fmt::Debug;
 use std::io;

@@ -1,13 +1,13 @@
-//! Ids that must be whole numbers, each used once.
+//! Ids that must be integers, each used once.
 
 use std::collections::HashSet;
 
-/// Numbers of all that is in a file.
+/// Numbers of all elements of a file.
 pub(crate) struct Numbers {
     own: HashSet<i64>,
     used: HashSet<i64>,
     next: i64,
-    /// An id got a number other than its own.
+    /// Whether an id got a number other than its own.
     pub renumbered: bool,
 }
 
@@ -19,7 +19,7 @@ impl Numbers {
         Self { own, used: HashSet::new(), next, renumbered: false }
     }
 
-    /// The id's own number where it is one that is not used yet, else a free one.
+    /// The id's own number if it is unused, otherwise a free one.
     pub fn take(&mut self, id: &str) -> i64 {
         match number(id).filter(|number| self.used.insert(*number)) {
             Some(number) => number,
@@ -30,7 +30,7 @@ impl Numbers {
         }
     }
 
-    /// A number for what has none.
+    /// A number for an element without one.
     pub fn free(&mut self) -> i64 {
         while self.own.contains(&self.next) {
             self.next += 1;
@@ -40,7 +40,7 @@ impl Numbers {
     }
 }
 
-/// The number that an id is: whole, and above zero.
+/// The positive integer that an id is.
 fn number(id: &str) -> Option<i64> {
     id.parse().ok().filter(|n: &i64| (1..1 << 48).contains(n) && n.to_string() == id)
 }

@@ -11,7 +11,7 @@ use crate::xml::{Element, Scanner, XmlEvent};
 /// Most bytes of a file once decompressed, and of one tag.
 const MAX_BYTES: u64 = 256 << 20;
 const MAX_TAG: usize = 64 << 10;
-/// Most references of one item, tags of it, and bytes of a value.
+/// Most references of one item, most tags of it, and most bytes of a value.
 const MAX_REFERENCES: usize = 200_000;
 const MAX_TAGS: usize = 200;
 const MAX_VALUE: usize = 255;
@@ -45,11 +45,11 @@ impl OsmElement {
     }
 }
 
-/// Passes each item of a file, plain or gzip, to `take`; deleted items are skipped.
+/// Passes each item of a file, plain or compressed with gzip, to `take`; deleted items are skipped.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
-/// `invalid-field` for what is no number, `map-too-large`, and those of `take`.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of
+/// file, `invalid-field` for what is no number, `map-too-large`, and those of `take`.
 pub(crate) fn each(
     file: &dyn Source,
     mut take: impl FnMut(OsmElement) -> Result<(), ReadError>,
@@ -107,11 +107,11 @@ pub(crate) fn each(
     Ok(())
 }
 
-/// Whether a file of OpenStreetMap's XML holds lanelets (`type=lanelet`), by all of its content; a broken one by what
-/// stands before the fault.
+/// Whether a file of OpenStreetMap's XML contains lanelets (`type=lanelet`), by its whole content; for a
+/// broken file, by the content before the fault.
 pub(crate) fn holds_lanelets(file: &dyn Source) -> bool {
     let open = || file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES))).ok();
-    // The word is looked for first: most extracts lack it, and bytes are searched faster than elements.
+    // The word is searched first: most extracts lack it, and bytes are searched faster than elements.
     let named = open().is_some_and(|input| has_word(Utf8::new(input), b"lanelet"));
     let Some(input) = open().filter(|_| named) else { return false };
     let mut scanner = Scanner::new(input, MAX_TAG);

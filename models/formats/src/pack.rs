@@ -1,11 +1,11 @@
-//! Several files of one scene, as one zip.
+//! Packs several files of one scene as a zip.
 
 use scene::Scene;
 use std::io::{self, Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-/// Name of the files, where a scene has none that a file can have.
+/// Name of the files if the scene has no name that is valid for files.
 const NAME: &str = "scene";
 /// Longest name of the files.
 const NAME_CHARS: usize = 60;
@@ -36,7 +36,7 @@ pub fn unzipped(bytes: &[u8]) -> io::Result<Vec<(String, Vec<u8>)>> {
     Ok(files)
 }
 
-/// Packs files by name. The same files are the same bytes, whenever they are packed.
+/// Packs files by name. Equal files give equal bytes, whenever they are packed.
 pub(crate) fn zip(files: &[(String, Vec<u8>)]) -> io::Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let how = SimpleFileOptions::default()

@@ -116,7 +116,7 @@ impl FieldProblem {
         Self::range_of(pointer, min, max, got, out_of_range(got, min, max))
     }
 
-    /// A number outside `min..=max`, in a sentence of its own.
+    /// A number outside `min..=max`, with its own sentence.
     pub fn range_of(pointer: impl Into<String>, min: f64, max: f64, got: f64, message: Message) -> Self {
         Self {
             min: Some(min),
@@ -139,10 +139,10 @@ impl From<SceneError> for FieldProblem {
     }
 }
 
-/// Kind of refusal; decides the HTTP status.
+/// Kind of refusal, which decides the HTTP status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RefusalKind {
-    /// The text is not JSON (400). Both count from one.
+    /// The text is not JSON (400). Line and column count from one.
     MalformedJson {
         /// Line of the fault.
         line: usize,
@@ -156,19 +156,19 @@ pub enum RefusalKind {
     },
     /// The decoded form is larger than allowed (413).
     TooLarge {
-        /// The bound that was met, bytes or a ratio.
+        /// The exceeded limit, bytes or a ratio.
         limit: u64,
     },
-    /// Readable, but not what a scene can be (422).
+    /// Readable, but invalid for a scene (422).
     Invalid,
 }
 
 /// Why outside data was refused. Never empty: `problems` has 1 to [`MAX_PROBLEMS`] entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
-    /// The sort of refusal.
+    /// Kind of refusal.
     pub kind: RefusalKind,
-    /// All faults found, the first one first.
+    /// All faults that were found, in the order of the file.
     pub problems: Vec<FieldProblem>,
 }
 
@@ -192,7 +192,7 @@ impl ReadError {
     pub fn malformed_json(error: &serde_json::Error, detail: impl Into<String>) -> Self {
         let message = sentences::json_syntax(sentences::json_fault::of(error));
         let mut problem = FieldProblem::new("", code::MALFORMED_JSON, message);
-        // The parser's words say more than the sentence.
+        // The parser's message is more precise than the sentence.
         problem.detail = detail.into();
         Self {
             kind: RefusalKind::MalformedJson { line: error.line(), column: error.column() },
@@ -200,17 +200,17 @@ impl ReadError {
         }
     }
 
-    /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.
+    /// A decoded form over its limit; `code` is `decoded-too-large` or `expansion-too-high`.
     pub fn too_large(code: &'static str, limit: u64, message: Message) -> Self {
         Self { kind: RefusalKind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, message)] }
     }
 
-    /// A file that holds something else than its format has.
+    /// A file with other content than its format has.
     pub fn other_content(message: Message) -> Self {
         FieldProblem::new("", code::CANNOT_REPRESENT, message).into()
     }
 
-    /// A file that holds more of a map than a scene can.
+    /// A file with a map that is larger than a scene can hold.
     pub fn map_too_large(message: Message) -> Self {
         FieldProblem::new("", code::MAP_TOO_LARGE, message).into()
     }
@@ -220,7 +220,7 @@ impl ReadError {
         self.problems.first().map_or(code::INVALID_FIELD, |p| p.code)
     }
 
-    /// The same refusal of a document that lies at `prefix` (a JSON pointer) of a larger one.
+    /// The same refusal for a document that lies at `prefix` (a JSON pointer) of a larger one.
     #[must_use]
     pub fn under(mut self, prefix: &str) -> Self {
         for problem in &mut self.problems {
@@ -280,19 +280,19 @@ pub type Imported = (Scene, Vec<ImportWarning>);
 pub(crate) struct Problems(pub Vec<FieldProblem>);
 
 impl Problems {
-    /// Keeps a fault, unless there are enough already.
+    /// Adds a fault, unless there are already enough.
     pub fn push(&mut self, problem: FieldProblem) {
         if self.0.len() < MAX_PROBLEMS {
             self.0.push(problem);
         }
     }
 
-    /// Keeps an `invalid-field` fault.
+    /// Adds an `invalid-field` fault.
     pub fn invalid(&mut self, pointer: impl Into<String>, message: Message) {
         self.push(FieldProblem::new(pointer, code::INVALID_FIELD, message));
     }
 
-    /// Checks a number against its range; anything not within it (NaN too) is a fault.
+    /// Checks a number against its range; every number outside it, NaN included, is a fault.
     pub fn range(&mut self, pointer: &str, range: (f64, f64), value: f64) -> bool {
         let inside = value >= range.0 && value <= range.1;
         if !inside {
@@ -302,7 +302,7 @@ impl Problems {
     }
 }
 
-/// Nothing, unless a map has more of something than is read.
+/// Refuses a map with more of something than can be read.
 pub(crate) fn at_most(count: usize, most: usize, what: Word) -> Result<(), ReadError> {
     if count > most { Err(ReadError::map_too_large(more_than(most, what))) } else { Ok(()) }
 }

@@ -1,4 +1,4 @@
-//! Degrees on the globe as metres on a plane: the transverse Mercator projection about a place.
+//! Converts degrees on the globe to metres on a plane: the transverse Mercator projection about a point.
 
 use scene::Vec2;
 
@@ -11,7 +11,8 @@ const UTM_SCALE: f64 = 0.9996;
 /// Metres of a degree of latitude, about, and steps from metres to degrees.
 const DEGREE_M: f64 = 111_200.0;
 const INVERSE_STEPS: usize = 12;
-/// Degrees within this of 0, 0, where there is no land, are metres of a place of their own that went through UTM.
+/// Degrees within this distance of 0, 0, where there is no land, are metres of a local frame that a tool
+/// converted with UTM.
 const NO_LAND_DEG: f64 = 0.2;
 /// The meridian of the zone of UTM at 0, 0.
 const NO_LAND_LON_DEG: f64 = 3.0;
@@ -24,12 +25,13 @@ pub(crate) struct TransverseMercator {
     lon_deg: f64,
     /// At the middle meridian.
     scale: f64,
-    /// What the projection gives for the origin, metres.
+    /// Coordinates of the origin in the projection, metres.
     origin: Vec2,
 }
 
 impl TransverseMercator {
-    /// About the middle of these places (latitude and longitude in degrees), to whole thousandths of a degree.
+    /// A projection about the middle of these positions (latitude and longitude in degrees), rounded to 0.001
+    /// degrees.
     pub fn about(places: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
         let corners = places.fold(None, |corners: Option<[f64; 4]>, (lat, lon)| {
             let [south, north, west, east] = corners.unwrap_or([lat, lat, lon, lon]);
@@ -41,19 +43,19 @@ impl TransverseMercator {
         Some(Self { lat_deg, lon_deg, scale: 1.0, origin: project(lat_deg, 0.0) })
     }
 
-    /// The metres that degrees near 0, 0 stand for; nothing for degrees of other places.
+    /// The projection whose metres were stored as degrees near 0, 0; nothing for degrees elsewhere.
     pub fn of_no_land(mut places: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
         let near = places.all(|(lat, lon)| lat.abs() <= NO_LAND_DEG && lon.abs() <= NO_LAND_DEG);
         let origin = project(0.0, -NO_LAND_LON_DEG) * UTM_SCALE;
         near.then_some(Self { lat_deg: 0.0, lon_deg: NO_LAND_LON_DEG, scale: UTM_SCALE, origin })
     }
 
-    /// A place in metres.
+    /// A position in metres.
     pub fn metres(&self, lat_deg: f64, lon_deg: f64) -> Vec2 {
         project(lat_deg, lon_deg - self.lon_deg) * self.scale - self.origin
     }
 
-    /// The projection of a name: one that [`Self::name`] gives, or a zone of UTM.
+    /// The projection with a name: one that [`Self::name`] gives, or a UTM zone.
     pub fn named(name: &str) -> Option<Self> {
         if let Some(zone) = UtmZone::named(name) {
             return Some(zone.projection());
@@ -64,10 +66,10 @@ impl TransverseMercator {
         plain.then(|| Self { lat_deg, lon_deg, scale: 1.0, origin: project(lat_deg, 0.0) })
     }
 
-    /// Latitude and longitude in degrees of a place in metres.
+    /// Latitude and longitude in degrees of a position in metres.
     pub fn degrees(&self, p: Vec2) -> (f64, f64) {
         let (mut lat, mut lon) = (self.lat_deg, self.lon_deg);
-        // Each step leaves less than a hundredth of the way.
+        // Each step reduces the error to less than a hundredth.
         for _ in 0..INVERSE_STEPS {
             let left = p - self.metres(lat, lon);
             lat = (lat + left.y / DEGREE_M).clamp(-89.0, 89.0);
@@ -76,12 +78,12 @@ impl TransverseMercator {
         (lat, lon)
     }
 
-    /// Whether the metres are of a place on the globe.
+    /// Whether the metres belong to a position on the globe.
     pub fn has_place(&self) -> bool {
         self.origin.x == 0.0
     }
 
-    /// As PROJ has it.
+    /// Name in the form of PROJ.
     pub fn name(&self) -> String {
         format!("+proj=tmerc +lat_0={} +lon_0={} +k=1 +ellps=WGS84 +units=m", self.lat_deg, self.lon_deg)
     }
@@ -96,13 +98,14 @@ pub(crate) struct UtmZone {
 }
 
 impl UtmZone {
-    /// The zone with this code of the EPSG; nothing for a code of another projection.
+    /// The zone with this EPSG code; nothing for a code of another projection.
     pub fn of_epsg(code: u32) -> Option<Self> {
         let (south, number) = (code / 100 == 327, code % 100);
         ((code / 100 == 326 || south) && (1..=60).contains(&number)).then_some(Self { number, south })
     }
 
-    /// The zone in which a place lies (latitude and longitude in degrees), with the wider ones of Norway and Svalbard.
+    /// The zone of a position (latitude and longitude in degrees), with the exceptions of Norway and
+    /// Svalbard.
     pub fn at(lat_deg: f64, lon_deg: f64) -> Self {
         let whole = ((lon_deg + 180.0) / 6.0).floor().rem_euclid(60.0) as u32 + 1;
         let number = match (lat_deg, lon_deg) {
@@ -134,7 +137,7 @@ impl UtmZone {
         self.projection().metres(lat_deg, lon_deg)
     }
 
-    /// As PROJ has it.
+    /// Name in the form of PROJ.
     pub fn name(self) -> String {
         let south = if self.south { " +south" } else { "" };
         format!("+proj=utm +zone={}{south} +datum=WGS84 +units=m", self.number)

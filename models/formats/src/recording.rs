@@ -1,4 +1,5 @@
-//! From positions at times to scenes: what formats that list the motion of road users row by row have in common.
+//! Turns positions at times into scenes: the shared part of formats that list the motion of road users row by
+//! row.
 
 mod build;
 mod motion;
@@ -15,9 +16,9 @@ use std::collections::BTreeSet;
 pub(crate) const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one scenario, of which 256 are chosen.
 pub(crate) const MAX_USERS: usize = 20_000;
-/// Farthest a coordinate may lie from the origin of a file, metres.
+/// Greatest distance of a coordinate from the origin of a file, metres.
 const FARTHEST_M: f64 = 1e8;
-/// The map is kept so far round the way of the ego, metres.
+/// Distance from the ego's path up to which the map is kept, metres.
 const BESIDE_M: f64 = 100.0;
 
 /// State of a road user at a time, in the frame of the file. Values that the file lacks are NaN; a NaN
@@ -52,7 +53,7 @@ pub(crate) struct RecordedAgent {
 }
 
 impl RecordedAgent {
-    /// The car that recorded, of this length, width and height in metres; `None` where it was nowhere.
+    /// The recording car with this length, width and height in metres; `None` if it has no position.
     pub fn ego(size_m: [f64; 3], samples: Vec<RecordedState>) -> Option<Self> {
         (!samples.is_empty()).then(|| Self {
             id: EGO.to_owned(),
@@ -83,9 +84,9 @@ impl RecordedAgent {
 pub(crate) struct RecordedLight {
     /// Id of the lane in the map.
     pub lane: String,
-    /// Where to stop, in the frame of the map.
+    /// Stop position, in the frame of the map.
     pub stop: Option<Vec2>,
-    /// Times in seconds, which rise, with the state from then on.
+    /// Rising times in seconds, each with the state from then on.
     pub states: Vec<(f64, SignalState)>,
 }
 
@@ -108,7 +109,8 @@ impl RecordedLight {
     }
 }
 
-/// Middle and radius of the part of a map that a scene needs: about the way of the ego, else of all road users.
+/// Centre and radius of the part of a map that a scene needs: around the ego's path, otherwise around all
+/// road users.
 pub(crate) fn reach(users: &[RecordedAgent]) -> Option<(Vec2, f64)> {
     let ego = || users.iter().filter(|user| user.role.as_deref() == Some(EGO));
     let reached: Vec<&RecordedAgent> =
@@ -129,7 +131,7 @@ pub(crate) fn middle(points: impl Iterator<Item = Vec2>) -> Vec2 {
     Vec2::new(median(&mut x), median(&mut y))
 }
 
-/// Ids as a scene can have them, each once.
+/// Gives each road user a valid id of its own.
 #[derive(Default)]
 pub(crate) struct AgentIds {
     taken: BTreeSet<String>,
@@ -137,7 +139,7 @@ pub(crate) struct AgentIds {
 }
 
 impl AgentIds {
-    /// The id itself where it is legal and free.
+    /// The id itself if it is valid and free.
     pub fn take(&mut self, id: &str) -> String {
         let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
         let mut clean: String = id.chars().map(legal).take(if id.len() > 64 { 56 } else { 64 }).collect();
@@ -157,7 +159,7 @@ impl AgentIds {
     }
 }
 
-/// Kind of a road user's word; `None` for an unknown word.
+/// Type and subtype of a road user's word; `None` for an unknown word.
 pub(crate) fn kind_of(word: &str) -> Option<(AgentType, Subtype)> {
     use AgentType::{Cyclist, Other, Pedestrian, Vehicle};
     let word = word.trim().to_ascii_lowercase().replace([' ', '-'], "_");

@@ -1,4 +1,4 @@
-//! The sentences of files that are refused, beside the general ones of [`scene::sentences`], and their words.
+//! The sentences of refused files, beside the general ones of [`scene::sentences`], and their words.
 
 use scene::message::{Placeholder, Word};
 
@@ -311,12 +311,12 @@ scene::messages! {
         "zip-without", "a zip without a file whose name ends in {first} or {second}";
 }
 
-/// The first of these counts that is over its limit.
+/// The first count over its limit.
 pub(crate) fn exceeded(counts: &[(usize, usize, Word)]) -> Option<(usize, Word)> {
     counts.iter().find(|(count, most, _)| count > most).map(|(_, most, what)| (*most, *what))
 }
 
-/// Outside text as a sentence shows it.
+/// Outside text in the form in which a sentence shows it.
 pub(crate) fn shown(text: &str) -> String {
     text.chars().take(40).collect()
 }

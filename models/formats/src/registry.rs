@@ -37,10 +37,10 @@ use scene::message::Message;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Ends of the names of compressed files.
+/// File name endings of compressed files.
 const COMPRESSED: [&str; 2] = ["gz", "zst"];
 
-/// A format that is this sure knows a file by its content.
+/// From this confidence on, a format recognises a file by its content.
 const BY_CONTENT: u8 = 2;
 
 /// All formats, the native one first.
@@ -99,12 +99,12 @@ pub fn by_id(id: &str) -> Option<&'static dyn Format> {
     FORMATS.iter().copied().find(|format| format.info().id == id)
 }
 
-/// The format that a file that begins so most likely has. `name` is a label only; it is never opened.
+/// The most likely format of a file with this beginning. `name` is a label only; it is never opened.
 pub fn sniff(bytes: &[u8], name: &str) -> Option<&'static dyn Format> {
     recognised(bytes, name).ok()
 }
 
-/// The same, or why it is none that is read: a file of another kind that is known is named.
+/// The most likely format, or the reason why there is none: other known kinds of files are named.
 ///
 /// # Errors
 /// `format-unknown`.
@@ -127,13 +127,13 @@ pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadE
     }
 }
 
-/// The format of a file: by how it begins, and where two formats begin alike, by all of it.
+/// The format of a file by its beginning; by its whole content if two formats begin alike.
 ///
 /// # Errors
 /// `format-unknown`.
 pub fn identified(file: &dyn Source, name: &str) -> Result<&'static dyn Format, ReadError> {
     let head = head(file);
-    // Compressed files that break at once have no head either.
+    // A compressed file that is broken at its beginning has no head either.
     if head.len() as u64 == file.encoded_len() && without_mark(&head).trim_ascii().is_empty() {
         return Err(refused(refusals::empty_file()));
     }
@@ -153,7 +153,7 @@ fn begins_object(head: &[u8]) -> bool {
     without_mark(head).trim_ascii_start().starts_with(b"{")
 }
 
-/// Whether a file names the format of our own scenes, anywhere.
+/// Whether a file names the format of our own scenes at any place.
 fn holds_scene(file: &dyn Source) -> bool {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
     input.is_ok_and(|input| has_word(input, native::FORMAT.as_bytes()))
@@ -173,7 +173,7 @@ pub fn import(
     Ok(scenes(&bytes, name, format, &options)?.collect())
 }
 
-/// The same, lazily: each scene is read on demand, with the maps of [`grounded`] options under tables.
+/// Reads lazily: each scene on demand, with the maps of [`grounded`] options under tables.
 ///
 /// # Errors
 /// `format-unknown`.
@@ -194,17 +194,17 @@ pub fn scenes<'a>(
     Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
-/// The format of this id; for `auto` that of the file.
+/// The format with this id; for `auto`, that of the file.
 fn of_id(file: &dyn Source, name: &str, id: &str) -> Result<&'static dyn Format, ReadError> {
     if id == "auto" { identified(file, name) } else { by_id(id).ok_or_else(unknown) }
 }
 
-/// The options with the maps of a file of road users, for [`scenes`]: the map that is said to belong to a table
-/// ([`ImportOptions::net`]), else those that come with it. Of the latter, one that cannot be read is passed over and
-/// said.
+/// The options with the maps for a file of road users, for [`scenes`]: the map that is given for a table
+/// ([`ImportOptions::net`]), otherwise the maps that come with the file. Of the latter, an unreadable map is
+/// skipped with a warning.
 ///
 /// # Errors
-/// `format-unknown`, those of the map under [`NET_POINTER`], a broken file that holds maps.
+/// `format-unknown`, those of the map under [`NET_POINTER`], a broken file that should contain maps.
 pub fn grounded(
     file: &dyn Source,
     name: &str,
@@ -239,7 +239,7 @@ fn ground(format: &dyn Format, file: &dyn Source, options: &ImportOptions) -> Re
     Ok(ground)
 }
 
-/// A scene of the map of a place.
+/// A scene with the map of a location.
 fn place(map: &dyn Source, name: &str, options: &ImportOptions) -> Result<Scene, ReadError> {
     let format = identified(map, name)?;
     let options = ImportOptions { netconvert: options.netconvert.clone(), ..ImportOptions::default() };
@@ -257,7 +257,7 @@ pub fn stem(name: &str) -> &str {
     let formats = FORMATS.iter().flat_map(|format| format.info().extensions);
     let ends: Vec<&str> = formats.chain(&COMPRESSED).copied().collect();
     let mut stem = name;
-    // The longest end first: of `net.xml` no `net` is left.
+    // The longest ending first: nothing of `net.xml` may remain as `net`.
     let shorter = |stem: &str| ends.iter().filter_map(|end| without(stem, end)).min();
     while let Some(length) = shorter(stem) {
         stem = stem.get(..length).unwrap_or_default();
@@ -265,14 +265,14 @@ pub fn stem(name: &str) -> &str {
     stem
 }
 
-/// Length of a name without this end and the dot before it; nothing where there is no other name.
+/// Length of a name without this ending and the dot before it; nothing if that would be the whole name.
 fn without(name: &str, end: &str) -> Option<usize> {
     let length = name.len().checked_sub(end.len() + 1).filter(|length| *length > 0)?;
     let behind = name.get(length..)?.strip_prefix('.')?;
     behind.eq_ignore_ascii_case(end).then_some(length)
 }
 
-/// Name of a scene without one in its file: the file's name, else what the format holds.
+/// Name of a scene without one in its file: the file's name, otherwise that of the format.
 fn called(file: &str, info: &Info) -> String {
     let file: String = file.chars().filter(|c| !c.is_control()).collect();
     let stem = stem(file.rsplit(['/', '\\']).next().unwrap_or_default()).trim();

@@ -1,4 +1,4 @@
-//! Faults of files that every reader repairs or reports in the same way, before a scene is checked.
+//! Faults of files that every reader repairs or reports alike, before a scene is checked.
 
 use crate::headings::motion;
 use crate::limits::MAX_POLYLINE_POINTS;
@@ -11,19 +11,20 @@ use scene::routes::LaneGraph;
 use scene::{Agent, AgentType, Scene, Shared, Vec2, geometry};
 use std::collections::{HashMap, HashSet};
 
-/// The greatest gap between the ends of linked lanes: the greater of their widths, within these bounds, metres.
+/// Greatest gap between the ends of linked lanes, metres: the greater of their widths, clamped to this range.
 const GAP_M: (f64, f64) = (3.0, 4.5);
-/// Lanes whose ends are this near to each other meet, metres.
+/// Lanes whose ends are within this distance meet, metres.
 const MEETING_M: f64 = 0.5;
-/// Lines that are too long are thinned to within this of their points first, metres.
+/// Lines with too many points are first thinned with this tolerance, metres.
 const THINNED_M: f64 = 0.02;
-/// A box is long if one of its sides is as much longer than the other.
+/// A box is long if the ratio of its sides is at least this.
 const LONG: f64 = 1.3;
-/// A box lies across the motion if the cosine of both is below this in most of at least so many moving states.
+/// A box lies across the motion if the cosine of their angle is below this in most of at least this many
+/// moving states.
 const ACROSS: f64 = 0.5;
 const ENOUGH: usize = 3;
 
-/// What a reader made, with the faults of its file repaired, if it is within the bounds of a scene.
+/// Repairs the faults of a file in the scene that a reader made, and checks it against the limits of a scene.
 pub(crate) fn checked(mut scene: Scene, mut warnings: Vec<ImportWarning>) -> Result<Imported, ReadError> {
     let thinned = thin_lines(&mut scene.map);
     warnings.extend(warning(thinned, "lines-thinned", sentences::lines_thinned));
@@ -33,23 +34,23 @@ pub(crate) fn checked(mut scene: Scene, mut warnings: Vec<ImportWarning>) -> Res
     }
 }
 
-/// Notices road users whose boxes lie across their motion.
+/// Warns of road users whose boxes lie across their motion.
 pub(crate) fn notice_boxes(agents: &[Agent]) -> Option<ImportWarning> {
     let across = agents.iter().filter(|agent| lies_across(agent)).count();
     warning(across, "boxes-across", sentences::boxes_across)
 }
 
-/// Drops links of lanes whose ends lie farther apart than about a lane's width, and turns those whose lanes meet the
-/// other way round: for the readers of maps, in which such a link is a fault. Recordings keep their links, since what
-/// is exported of them must be what was read.
+/// Drops links of lanes whose ends are farther apart than about a lane's width, and reverses links whose
+/// lanes meet the other way round. For readers of maps, in which such a link is a fault. Recordings keep
+/// their links, so that their export equals what was read.
 pub(crate) fn drop_far_links(map: &mut Shared<LaneMap>) -> impl Iterator<Item = ImportWarning> + use<> {
     let (dropped, turned) = drop_gaps(map);
     let dropped = warning(dropped, "links-dropped", sentences::links_apart);
     dropped.into_iter().chain(warning(turned, "links-turned", sentences::links_turned))
 }
 
-/// Links lanes that end where others begin, as the engine would, so that the scene and its exports have the links. A
-/// map with links of its own stays as it is.
+/// Links lanes that end where others begin, as the engine would, so that the scene and its exports have the
+/// links. A map with its own links is unchanged.
 pub(crate) fn join_lanes(map: &mut LaneMap) -> Option<ImportWarning> {
     if map.lanes.iter().any(|lane| !lane.successors.is_empty() || !lane.predecessors.is_empty()) {
         return None;
@@ -85,7 +86,7 @@ fn lies_across(agent: &Agent) -> bool {
     count >= ENOUGH && 2 * across > count
 }
 
-/// Thins lines with more points than a scene holds. Gives how many there were.
+/// Thins lines with more points than a scene holds. Returns their number.
 fn thin_lines(map: &mut Shared<LaneMap>) -> usize {
     if !map.outlines().any(|(xy, _)| xy.len() > MAX_POLYLINE_POINTS) {
         return 0;
@@ -118,7 +119,7 @@ fn thin_lines(map: &mut Shared<LaneMap>) -> usize {
     count
 }
 
-/// Thins a line: what is straight goes first, then every other point. Gives the kept points by their old numbers.
+/// Thins a line: straight parts first, then every other point. Returns the old indices of the kept points.
 fn thin(points: &mut Points) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.xy.len()).collect();
     let mut off_m = THINNED_M;
@@ -163,8 +164,8 @@ fn renumber_neighbor(side: &mut Neighbor, own: Option<&Vec<usize>>, other: Optio
     }
 }
 
-/// Drops links of lanes whose ends lie farther apart than about a lane's width, and turns those that lead back. Gives
-/// how many there were of both.
+/// Drops links of lanes whose ends are farther apart than about a lane's width, and reverses links that lead
+/// back. Returns the number of both.
 fn drop_gaps(map: &mut Shared<LaneMap>) -> (usize, usize) {
     let by_id: HashMap<&str, &Lane> = map.lanes.iter().map(|lane| (lane.id.as_str(), lane)).collect();
     let apart = |from: &Lane, to: &Lane| {
@@ -213,7 +214,7 @@ fn drop_gaps(map: &mut Shared<LaneMap>) -> (usize, usize) {
     (gaps.len() - turned.len(), turned.len())
 }
 
-/// Whether a line begins where another ends, in about the same direction.
+/// Whether a line begins at the end of another one, in about the same direction.
 fn goes_on(before: &[Vec2], after: &[Vec2]) -> bool {
     let ([.., a, end], [start, b, ..]) = (before, after) else { return false };
     let ways = [end - a, b - start].map(|way| way / way.norm().max(1e-9));
@@ -278,7 +279,7 @@ mod tests {
             Lane::street(id, x.iter().map(|x| Vec2::new(*x, 0.0)).collect::<Vec<_>>())
         };
         let mut lanes = vec![street("a", [50.0, 90.0]), street("b", [0.0, 50.0]), street("c", [90.0, 0.0])];
-        // `a` goes on behind `b`; `c` ends where `b` begins, but comes from the other side.
+        // `a` follows `b`; `c` ends where `b` begins, but comes from the other side.
         lanes[0].successors = vec!["b".into()];
         lanes[1].predecessors = vec!["a".into()];
         lanes[1].successors = vec!["c".into()];

@@ -1,4 +1,4 @@
-//! Recordings in the frame of their source as scenes about the ego.
+//! Turns recordings in the frame of their source into scenes about the ego.
 
 use crate::format::{EGO, ImportOptions};
 use crate::identities;
@@ -12,8 +12,8 @@ use scene::message::Word;
 use scene::{Agent, Scene, State, Vec2};
 use std::collections::HashSet;
 
-/// A scene of a recording and its map, in the frame of their source: of too many road users the nearest are kept,
-/// those with two ids are joined, and the ego's place at the present step becomes the origin.
+/// A scene of a recording and its map, in the frame of their source. If there are too many road users, the
+/// nearest are kept; tracks with two ids are joined; the ego's present position becomes the origin.
 ///
 /// # Errors
 /// The faults of a scene.
@@ -47,7 +47,8 @@ fn state_about(agent: &Agent, step: usize) -> Option<&State> {
     agent.track.valid_steps().min_by_key(|i| i.abs_diff(step)).and_then(|i| agent.track.at(i))
 }
 
-/// Keeps the road users that a scene has room for: the ego and those nearest to it, else to the first one.
+/// Keeps the road users that a scene has room for: the ego and those nearest to it, or to the first one
+/// without an ego.
 pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<ImportWarning> {
     let count = agents.len();
     if count <= MAX_AGENTS {
@@ -69,8 +70,8 @@ pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<ImportWarni
     Some(ImportWarning::new("agents-dropped", sentences::agents_near_ego(count, MAX_AGENTS)))
 }
 
-/// Position of the ego at the present step, else the middle of all. Rounded to whole metres, so that a round
-/// trip gives the same origin.
+/// Position of the ego at the present step, otherwise the middle of all. Whole metres, so that a round trip
+/// gives the same origin.
 fn origin(scene: &Scene, map: &LaneMap) -> Vec2 {
     let now = scene.time.now_step;
     let ego = scene.agents.iter().find(|agent| agent.role.as_deref() == Some(EGO));
@@ -103,7 +104,7 @@ pub(crate) fn place(map: &mut LaneMap, to: impl Fn(Vec2) -> Vec2) {
     map.stop_signs.iter_mut().for_each(|sign| sign.position = to(sign.position));
 }
 
-/// Moves all places.
+/// Moves all positions.
 fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
     place(map, |p| p - by);
     scene.signals.iter_mut().filter_map(|signal| signal.stop.as_mut()).for_each(|stop| *stop -= by);
@@ -114,7 +115,7 @@ fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
     }
 }
 
-/// Ids as a scene can have them, each once.
+/// Gives each element a valid id of its own.
 #[derive(Default)]
 pub(crate) struct Ids {
     taken: HashSet<String>,
@@ -122,7 +123,7 @@ pub(crate) struct Ids {
 }
 
 impl Ids {
-    /// The id itself if it is legal and not yet taken.
+    /// The id itself if it is valid and not yet taken.
     pub fn take(&mut self, id: &str) -> String {
         let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
         let mut clean: String = id.chars().map(legal).take(64).collect();
@@ -130,7 +131,7 @@ impl Ids {
             clean.push('_');
         }
         let mut name = clean.clone();
-        // Most ids are free. For the rest the counter starts at the number of ids changed so far.
+        // Most ids are free. For the others, the counter starts at the number of ids changed so far.
         let mut count = 1 + self.changed;
         while !self.taken.insert(name.clone()) {
             count += 1;
@@ -141,7 +142,7 @@ impl Ids {
         name
     }
 
-    /// Warns of ids that were changed.
+    /// Warns about changed ids.
     pub fn warning(&self, subject: Word) -> Option<ImportWarning> {
         let message = || sentences::ids_replaced(self.changed, subject);
         (self.changed > 0).then(|| ImportWarning::new("ids-changed", message()))

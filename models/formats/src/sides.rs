@@ -1,11 +1,11 @@
-//! Lanelets: what they are for, and what lies halfway between their two sides.
+//! Lanelets: their use, and the middle line between their two sides.
 
 use crate::polyline::{arc_lengths, length, point_at};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::LaneType;
 
-/// Distance of points of a centre line, metres.
+/// Distance between points of a middle line, metres.
 const SPACING_M: f64 = 1.0;
 /// Most pieces of a centre line.
 const MAX_PIECES: f64 = 4_000.0;
@@ -31,7 +31,7 @@ pub(crate) fn middle(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, f64) {
         ((l + r) / 2.0).map(|v| (v * 1e4).round() / 1e4)
     });
     let points: Vec<Vec2> = points.collect();
-    // Across the way: opposite points of a lane that opens or bends may lie askew.
+    // Measured across the lane: opposite points of a lane that widens or bends may be offset along it.
     let across = |(i, side): (usize, &Vec2)| {
         let way = points[(i + 1).min(pieces)] - points[i.saturating_sub(1)];
         cross(way, *side).abs() / way.norm().max(1e-9)
@@ -40,7 +40,7 @@ pub(crate) fn middle(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, f64) {
     (points, width_m)
 }
 
-/// Points halfway between the points of two sides that have as many, and the mean width across the pieces.
+/// The middle points of two sides with as many points, and the mean width across the segments.
 pub(crate) fn halfway(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, f64) {
     let points: Vec<Vec2> = left.iter().zip(right).map(|(l, r)| (l + r) / 2.0).collect();
     let (mut area, mut total) = (0.0, 0.0);
@@ -53,7 +53,7 @@ pub(crate) fn halfway(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, f64) {
     (points, area / f64::max(total, 1e-9))
 }
 
-/// Both sides with as many points, right then left: those of both, at the same shares of their lengths.
+/// Both sides with as many points, right then left: the points of both, at the same shares of their lengths.
 pub(crate) fn matched(left: &[Vec2], right: &[Vec2]) -> (Vec<Vec2>, Vec<Vec2>) {
     let lengths = [arc_lengths(left), arc_lengths(right)];
     let totals = [length(left), length(right)];

@@ -4,13 +4,13 @@ use std::fmt;
 use std::io::{self, Read};
 use std::sync::Arc;
 
-/// Most bytes by which a file is recognised.
+/// Most bytes of the beginning by which a file is recognised.
 const HEAD: u64 = 128 << 10;
-/// Most bytes of its end.
+/// Most bytes of the end by which a file is recognised.
 const TAIL: u64 = 64 << 10;
 
-/// A file that can be read from its beginning more than once: to recognise it, to read it, and again to find
-/// the place of a fault.
+/// A file that can be read from its beginning more than once: to recognise it, to read it, and to find the
+/// place of a fault.
 pub trait Source: fmt::Debug + Send + Sync {
     /// Its bytes from the first one on.
     ///
@@ -18,7 +18,7 @@ pub trait Source: fmt::Debug + Send + Sync {
     /// When they cannot be read.
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>>;
 
-    /// Size in bytes before decompression; the memory estimate of reading is based on it.
+    /// Size in bytes before decompression, from which the memory for reading is estimated.
     fn encoded_len(&self) -> u64;
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn begins_with(file: &dyn Source, bytes: &[u8]) -> bool {
     read.is_ok() && head == bytes
 }
 
-/// What text in UTF-8 may begin with; it is no part of the text.
+/// Optional first bytes of UTF-8 text, which are not part of the text.
 pub const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The same text without a byte order mark.
@@ -80,13 +80,14 @@ pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
 }
 
-/// Beginnings of files that are identified at their end: Parquet, and zips, whose list of files stands there.
+/// Beginnings of files that are recognised by their end: Parquet, and zips, which list their files there.
 const BY_END: [&[u8]; 2] = [b"PAR1", b"PK\x03\x04"];
 
-/// The first bytes of a file, by which it is recognised; for a file identified at its end, the last ones follow.
+/// The first bytes of a file, by which it is recognised; for files that are recognised by their end, the last
+/// ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {
     let mut head = Vec::new();
-    // A broken file is recognised by what comes before the fault.
+    // A broken file is recognised by its content before the fault.
     if let Ok(input) = file.open() {
         let mut input = input.take(HEAD);
         let _ = input.read_to_end(&mut head);

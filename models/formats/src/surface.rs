@@ -1,7 +1,7 @@
-//! The carriageway's outline: strips of road are united to one surface, whose edges become road edges.
+//! The outline of the carriageway: strips of road are united to one surface, whose edges become road edges.
 //!
-//! Formats that describe roads lane by lane have no kerbs, and in a junction their lanes overlap. The road
-//! edge is the outline of the union.
+//! Formats that describe roads lane by lane have no kerbs, and their lanes overlap in junctions. The outline
+//! of the union is the road edge.
 
 use crate::polyline::simplify;
 use i_overlay::core::edge_data::{EdgeDataMerge, OverlayEdgeData};
@@ -17,39 +17,39 @@ use scene::map::{Area, LaneMap, TypedLine};
 use scene::{MAX_POLYLINE_POINTS, Vec2};
 use std::collections::HashMap;
 
-/// Units of the whole numbers in which surfaces are put together, a metre.
+/// Integer units per metre in which surfaces are united.
 const UNITS: f64 = 1_000.0;
-/// Strips reach this far past ends at which the road continues, and past their sides, metres, so that
+/// Length by which strips extend past ends at which the road continues, and past their sides, metres, so that
 /// adjacent strips unite.
 const BEYOND_END_M: f64 = 0.25;
 const BEYOND_SIDE_M: f64 = 0.01;
-/// Gaps between the ways through a junction up to this size are road, square metres.
+/// Gaps between the paths through a junction up to this area count as road, square metres.
 const GAP_M2: f64 = 200.0;
-/// Inner edges up to this far apart enclose a median, metres.
+/// Greatest distance between inner edges that enclose a median, metres.
 const MEDIAN_M: f64 = 15.0;
-/// Lines are kept to this, with pieces no longer than, metres.
+/// Tolerance of simplified lines, and their longest segment, metres.
 const KEPT_M: (f64, f64) = (0.02, 20.0);
 /// Most points of a line.
 const LONGEST: usize = 1_000;
-/// Side of the squares in which pieces that may cross are counted, metres.
+/// Side of the grid squares in which segments that may cross are counted, metres.
 const SQUARE_M: f64 = 4.0;
-/// Most such pairs in all, and for each piece beyond a few: a grid of 144 junctions has 4.5 million, 25 a piece, and
-/// one junction of seven arms 50 a piece.
+/// Most such pairs in total, and for each segment beyond a few: a grid of 144 junctions has 4.5 million, 25
+/// per segment, and one junction of seven arms 50 per segment.
 const MOST_PAIRS: u64 = 5_000_000;
 const PAIRS_A_PIECE: u64 = 40;
 const PAIRS_ANYWAY: u64 = 1_000_000;
 
-/// A stretch of carriageway, between two lines that run the same way.
+/// A stretch of carriageway between two lines that run the same way.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Strip {
     /// As many points as `left`.
     pub right: Vec<Vec2>,
     pub left: Vec<Vec2>,
-    /// The traffic beside the right and the left line has it on the side of oncoming traffic.
+    /// Whether oncoming traffic lies beyond the right and the left line.
     pub inner: [bool; 2],
-    /// The road goes on at its beginning and its end.
+    /// Whether the road continues at its beginning and its end.
     pub joined: [bool; 2],
-    /// A way through a junction.
+    /// Whether it is a path through a junction.
     pub junction: bool,
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct Strip {
 enum Side {
     Outer,
     Inner,
-    /// An end at which the road goes on.
+    /// An end at which the road continues.
     Joined,
     /// An end of the map.
     Open,
@@ -86,9 +86,9 @@ impl OverlayEdgeData for Label {
     }
 }
 
-/// Adds the edges of these strips and the ground that they cover to a map. `id` names what is new. No edge
-/// crosses a line of `ways`. False where the strips lie over each other too often to be put together: then
-/// the map gets only its ground.
+/// Adds the edges of these strips and the ground that they cover to a map. `id` is the prefix of new ids. No
+/// edge crosses a line of `ways`. False if the strips overlap too often to be united: then the map gets only
+/// its ground.
 pub(crate) fn draw(
     map: &mut LaneMap,
     strips: &[Strip],
@@ -98,7 +98,7 @@ pub(crate) fn draw(
     draw_rings(map, strips.iter().filter_map(ring).collect(), ways, id)
 }
 
-/// The same of areas that are known as polygons, which touch and may lie over each other.
+/// The same for areas that are known as polygons, which touch and may overlap.
 pub(crate) fn draw_areas(
     map: &mut LaneMap,
     areas: &[Vec<Vec2>],
@@ -167,7 +167,7 @@ fn draw_rings(
 }
 
 fn units(p: Vec2) -> IntPoint<i32> {
-    // Saturates: the map's bounds are checked elsewhere.
+    // Saturates: the limits of the map are checked elsewhere.
     IntPoint::new((p.x * UNITS).round() as i32, (p.y * UNITS).round() as i32)
 }
 
@@ -175,7 +175,8 @@ fn metres(p: IntPoint<i32>) -> Vec2 {
     Vec2::new(f64::from(p.x), f64::from(p.y)) / UNITS
 }
 
-/// A strip as a ring, counter-clockwise, a little larger than it is; each corner with what follows it.
+/// A strip as a slightly enlarged ring, counter-clockwise; each corner has the label of the segment that
+/// follows.
 fn ring(strip: &Strip) -> Option<Vec<(Vec2, Label)>> {
     let count = strip.right.len().min(strip.left.len());
     if count < 2 {
@@ -225,7 +226,7 @@ fn pairs(rings: &[Vec<(Vec2, Label)>]) -> (u64, u64) {
     (squares.values().map(|count| count * count).sum(), pieces)
 }
 
-/// A hole between ways through a junction, on which cars do drive.
+/// Whether a hole lies between paths through a junction, so that cars do drive on it.
 fn is_gap(hole: &[(Vec2, Label)]) -> bool {
     let (mut area_m2, mut length_m, mut within_m) = (0.0, 0.0, 0.0);
     for (i, (a, label)) in hole.iter().enumerate() {
@@ -254,7 +255,7 @@ impl<F: FnMut() -> String> Drawing<'_, F> {
         }
     }
 
-    /// Strips as they are.
+    /// Adds the strips without uniting them.
     fn strips(&mut self, rings: &[Vec<(Vec2, Label)>]) {
         for ring in rings {
             let points: Vec<Vec2> = ring.iter().map(|(p, _)| *p).collect();
@@ -282,7 +283,7 @@ impl<F: FnMut() -> String> Drawing<'_, F> {
     /// Draws stretches of one kind (median or not) of a contour.
     fn runs(&mut self, contour: &[(Vec2, Label)], kinds: &[Option<bool>]) {
         let count = contour.len();
-        // Not in the middle of a stretch, unless all of it is one.
+        // Not in the middle of a stretch, unless all of it is one stretch.
         let start = (0..count).find(|i| kinds[*i] != kinds[(i + count - 1) % count]).unwrap_or(0);
         let mut line: Vec<Vec2> = Vec::new();
         for step in 0..=count {
@@ -304,7 +305,7 @@ impl<F: FnMut() -> String> Drawing<'_, F> {
     }
 }
 
-/// A ring of no more points than a map may have in one: what is too fine is drawn as finely as it may be.
+/// A ring with no more points than a map allows: finer ones are simplified as far as necessary.
 fn fitting(ring: Vec<Vec2>) -> Vec<Vec2> {
     let mut kept = ring;
     let mut off_m = KEPT_M.0;
@@ -323,7 +324,7 @@ fn pieces_of(contour: &[(Vec2, Label)]) -> impl Iterator<Item = ((Vec2, Vec2), L
     (0..contour.len()).map(|i| ((contour[i].0, contour[(i + 1) % contour.len()].0), contour[i].1))
 }
 
-/// Whether a piece bounds a median; `None` if it is no edge.
+/// Whether a segment bounds a median; `None` if it is no edge.
 fn kind_of(a: Vec2, b: Vec2, label: Label, ways: &SegmentIndex, facing: &SegmentIndex) -> Option<bool> {
     let (middle, half_m) = ((a + b) / 2.0, (b - a).norm() / 2.0);
     let crossed = ways.near(middle, half_m + 1.0).any(|way| way.crosses(a, b));
@@ -334,7 +335,7 @@ fn kind_of(a: Vec2, b: Vec2, label: Label, ways: &SegmentIndex, facing: &Segment
     let across = |other: &Segment| {
         let foot = other.foot(middle);
         let (gap_m, along) = ((foot - middle).norm(), other.to - other.from);
-        // Beyond the edge, which has the road to its left, and with the road on its far side.
+        // The other edge lies beyond this one, runs the other way, and has the road on its far side.
         gap_m < MEDIAN_M && cross(way, foot - middle) < 0.0 && along.dot(&way) < -0.7 * along.norm()
     };
     Some(label.side == Side::Inner && facing.near(middle, MEDIAN_M).any(across))

@@ -1,4 +1,4 @@
-//! XML elements with their content, one at a time, for formats whose files are lists of small elements.
+//! Reads XML elements with their content, one at a time, for formats whose files are lists of small elements.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, shown, wanted, what};
@@ -6,7 +6,7 @@ use crate::xml::{Element, Missing, Scanner, XmlEvent};
 use scene::message::Word;
 use std::io::BufRead;
 
-/// Most elements in one, and most bytes of their names, attributes and texts.
+/// Most elements within one, and most bytes of their names, attributes and texts.
 const MAX_NODES: usize = 100_000;
 const MAX_BYTES: usize = 16 << 20;
 
@@ -15,7 +15,7 @@ const MAX_BYTES: usize = 16 << 20;
 pub(crate) struct XmlNode {
     pub element: Element,
     pub children: Vec<XmlNode>,
-    /// Trimmed; all pieces of it.
+    /// Trimmed text; all pieces of it.
     pub text: String,
 }
 
@@ -23,7 +23,7 @@ impl XmlNode {
     /// Reads the content that follows a start tag, up to its end tag.
     ///
     /// # Errors
-    /// Those of the scanner; `out-of-range` for an element that holds more than any should.
+    /// Those of the scanner; `out-of-range` for an element with too much content.
     pub fn read<R: BufRead>(scanner: &mut Scanner<R>, element: Element) -> Result<Self, ReadError> {
         let (line, mut nodes, mut bytes) = (element.line, 1, 0);
         let mut open = vec![Self { element, ..Self::default() }];
@@ -60,7 +60,7 @@ impl XmlNode {
                 return Err(FieldProblem::new("", code::OUT_OF_RANGE, message).into());
             }
         }
-        // The scanner reports what is left open.
+        // The scanner reports unclosed elements.
         Ok(open.swap_remove(0))
     }
 
@@ -74,7 +74,7 @@ impl XmlNode {
         self.children.iter().find(|child| child.name() == name)
     }
 
-    /// The first element at the end of this way.
+    /// The first element at the end of this path.
     pub fn at(&self, way: &[&str]) -> Option<&Self> {
         way.iter().try_fold(self, |node, name| node.child(name))
     }
@@ -102,7 +102,7 @@ impl XmlNode {
         number.ok_or_else(|| self.wrong(&self.text, wanted::NUMBER))
     }
 
-    /// An attribute as a whole number.
+    /// An attribute as an integer.
     ///
     /// # Errors
     /// `invalid-field`.

@@ -1,4 +1,4 @@
-//! A map under the road users of a table, and how many of them it fits.
+//! Lays a map under the road users of a table, and measures how many of them it fits.
 
 use crate::around::MapPart;
 use crate::cut::cut;
@@ -16,39 +16,39 @@ use scene::map::{Lane, LaneMap};
 use scene::{AgentType, Scene, Shared, Vec2};
 use std::cell::Cell;
 
-/// The map is kept so far beside the road users, metres.
+/// Distance from the road users up to which the map is kept, metres.
 const BESIDE_M: f64 = 100.0;
-/// A map farther away is that of another place, metres.
+/// A map farther away belongs to another place, metres.
 const FARTHEST_M: f64 = 1e8;
-/// A vehicle is on a lane up to so far beside it, metres.
+/// Distance from a lane up to which a vehicle is on it, metres.
 const ON_LANE_M: f64 = 0.5;
-/// Of several maps, one that begins farther away is that of another place, metres.
+/// Of several maps, one that begins farther away belongs to another place, metres.
 const ELSEWHERE_M: f64 = 50_000.0;
-/// Every so many steps are looked at.
+/// Steps between two that are checked.
 const LOOKED_AT: usize = 10;
-/// With fewer vehicles on lanes the map is that of another place or frame.
+/// With a smaller share of vehicles on lanes, the map belongs to another place or frame.
 const FITS: f64 = 0.5;
 
-/// What a recording says about its place.
+/// Information of a recording about its place.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Placing {
-    /// Where the zero of its own frame lies in the frame of the scene's source, metres.
+    /// Origin of its own frame in the frame of the scene's source, metres.
     pub shift: Option<Vec2>,
-    /// Of its lanes, m/s.
+    /// Speed limit of its lanes, m/s.
     pub limit_mps: Option<f64>,
 }
 
 /// A map under the road users of a scene.
 struct LaidMap<'a> {
     map: LaneMap,
-    /// Places of vehicles that lie on its lanes; nothing where there are no vehicles.
+    /// Share of the positions of vehicles that lie on its lanes; nothing without vehicles.
     share: Option<f64>,
     cut: ImportWarning,
     from: &'a Scene,
 }
 
-/// Lays that of the maps under the road users of a scene on which most vehicles are. Their frames have the same
-/// source, or that of a map without a projection is the own one of the recording.
+/// Lays the map on which most vehicles are under the road users of a scene. Their frames have the same
+/// source, or a map without a projection is in the recording's own frame.
 ///
 /// # Errors
 /// What a scene cannot hold.
@@ -110,7 +110,7 @@ pub(crate) fn lay(
     checked(scene, warnings)
 }
 
-/// Gives this limit to the lanes of vehicles that have none.
+/// Gives this limit to lanes for vehicles without one.
 fn limit(map: &mut LaneMap, limit_mps: f64) -> Option<ImportWarning> {
     let without = |lane: &&mut Lane| lane.lane_type.carries_vehicles() && lane.speed_limit_mps.is_none();
     let lanes = map.lanes.iter_mut().filter(without);
@@ -119,14 +119,14 @@ fn limit(map: &mut LaneMap, limit_mps: f64) -> Option<ImportWarning> {
     (count > 0).then(|| ImportWarning::new("speed-limit-of-recording", message()))
 }
 
-/// Puts places of a scene, shifted, into the frame of another.
+/// Converts positions of a scene, shifted, to the frame of another.
 fn mover(ground: &Scene, scene: &Scene, shift: Vec2) -> impl Fn(Vec2) -> Vec2 + use<> {
     let (from, to) = (Frame::of(&ground.meta.origin), Frame::of(&scene.meta.origin));
     let crs = |scene: &Scene| TransverseMercator::named(scene.meta.origin.crs.as_deref()?);
     let differ = crs(ground).zip(crs(scene)).filter(|(from, to)| from != to);
     move |p| {
         let mut p = from.place(p) + shift;
-        // Maps and tables in degrees are projected each about its own middle.
+        // Maps and tables in degrees are each projected about their own middle.
         if let Some((from, to)) = differ {
             let (lat, lon) = from.degrees(p);
             p = to.metres(lat, lon);
@@ -135,14 +135,14 @@ fn mover(ground: &Scene, scene: &Scene, shift: Vec2) -> impl Fn(Vec2) -> Vec2 + 
     }
 }
 
-/// The map of a scene, shifted, in the frame of another; nothing where it lies on the other side of the globe.
+/// The map of a scene, shifted, in the frame of another; nothing if it lies on the other side of the globe.
 fn placed(ground: &Scene, scene: &Scene, shift: Vec2) -> Option<LaneMap> {
     let moved = mover(ground, scene, shift);
     let lost = Cell::new(false);
     let mut map = LaneMap::clone(&ground.map);
     place(&mut map, |p| {
         let p = moved(p);
-        // Numbers that are none are not near either.
+        // NaN is not near either.
         let near = p.x.abs() <= FARTHEST_M && p.y.abs() <= FARTHEST_M;
         lost.set(lost.get() || !near);
         if near { p } else { Vec2::zeros() }
@@ -150,7 +150,7 @@ fn placed(ground: &Scene, scene: &Scene, shift: Vec2) -> Option<LaneMap> {
     (!lost.get()).then_some(map)
 }
 
-/// Share of the places of vehicles that lie on a lane of vehicles; nothing where there are none.
+/// Share of the positions of vehicles that lie on a lane for vehicles; nothing without vehicles.
 fn on_lanes(scene: &Scene, map: &LaneMap) -> Option<f64> {
     let lanes = || map.lanes.iter().enumerate().filter(|(_, lane)| lane.lane_type.carries_vehicles());
     let index = SegmentIndex::new(lanes().flat_map(|(i, lane)| pieces(&lane.points.xy, i as u32)).collect());

@@ -1,4 +1,4 @@
-//! Bytes of a file, plain or gzip, unfolded under bounds while they are read.
+//! Bytes of a file, plain or compressed with gzip, decompressed within limits while they are read.
 
 use crate::limits::MAX_EXPANSION;
 use crate::problem::{ReadError, code};
@@ -16,7 +16,7 @@ use zip::{CompressionMethod, ZipArchive};
 
 /// The expansion ratio is checked after this many decoded bytes.
 const RATIO_FROM: u64 = 1 << 20;
-/// Most files of a zip that are looked at.
+/// Most files of a zip that are examined.
 const MAX_FILES: usize = 1_000;
 /// Bytes that are decoded at a time.
 const PIECE: usize = 64 << 10;
@@ -31,13 +31,13 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// So many decoded bytes, at the usual ratio.
+    /// At most this many decoded bytes, at the usual ratio.
     pub fn of(decoded: u64) -> Self {
         Self { decoded, expansion: MAX_EXPANSION }
     }
 }
 
-/// A bound that was met while decoding; travels inside an `io::Error`.
+/// An exceeded limit; travels inside an `io::Error`.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 struct Excess {
@@ -46,12 +46,12 @@ struct Excess {
     message: Message,
 }
 
-/// A bound that was met, for [`fault`].
+/// An exceeded limit, for [`fault`].
 pub(crate) fn excess(code: &'static str, limit: u64, message: Message) -> io::Error {
     io::Error::other(Excess { code, limit, message })
 }
 
-/// Counts what goes through.
+/// Counts the bytes that are read.
 struct CountingReader<R> {
     inner: R,
     count: u64,
@@ -108,7 +108,7 @@ fn is_gzip(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x1f, 0x8b])
 }
 
-/// Opens a file, plain or gzip; its first two bytes decide.
+/// Opens a file, plain or compressed with gzip; its first two bytes decide.
 ///
 /// # Errors
 /// If these bytes cannot be read.
@@ -121,7 +121,7 @@ pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReade
     Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
 }
 
-/// Whether an input has these bytes anywhere, up to where it can be read.
+/// Whether an input contains these bytes, as far as it can be read.
 pub(crate) fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
     let mut kept: Vec<u8> = Vec::new();
     while let Ok(chunk) = input.fill_buf() {
@@ -134,7 +134,7 @@ pub(crate) fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
         if kept.windows(word.len()).any(|part| part == word) {
             return true;
         }
-        // The word may go on in the next piece.
+        // The word may continue in the next piece.
         kept.drain(..kept.len().saturating_sub(word.len() - 1));
     }
     false
@@ -143,13 +143,13 @@ pub(crate) fn has_word(mut input: impl BufRead, word: &[u8]) -> bool {
 /// Beginning of a zip.
 pub(crate) const ZIP: &[u8] = b"PK\x03\x04";
 
-/// A file in a zip. The zip is in memory, packed; the file is unpacked while it is read.
+/// A file in a zip. The compressed zip is in memory; the file is decompressed while it is read.
 #[derive(Clone)]
 pub(crate) struct ZipEntry {
     zip: Arc<Vec<u8>>,
     packed: Range<usize>,
     is_deflated: bool,
-    /// Once unpacked, bytes.
+    /// Decompressed size, bytes.
     size: u64,
     checksum: u32,
 }
@@ -170,7 +170,7 @@ impl ZipEntry {
         Box::new(CheckedEntry { inner: CrcReader::new(BufReader::new(inner)), left, checksum })
     }
 
-    /// Size in bytes once unpacked.
+    /// Decompressed size in bytes.
     pub fn unpacked_len(&self) -> u64 {
         self.size
     }
@@ -186,7 +186,7 @@ impl Source for ZipEntry {
     }
 }
 
-/// Packed bytes of a file.
+/// Compressed bytes of a file.
 struct ZipRange {
     zip: Arc<Vec<u8>>,
     left: Range<usize>,
@@ -200,7 +200,7 @@ impl Read for ZipRange {
     }
 }
 
-/// So many bytes with this checksum.
+/// This many bytes with this checksum.
 struct CheckedEntry {
     inner: CrcReader<BufReader<Box<dyn Read + Send>>>,
     left: u64,
@@ -220,10 +220,11 @@ impl Read for CheckedEntry {
     }
 }
 
-/// Files of a zip of at most so many bytes whose names in small letters are wanted, each with its name.
+/// Files of a zip whose lower-case names are wanted and whose size is limited, each with its name.
 ///
 /// # Errors
-/// `malformed-file` for a broken zip or a file that is encrypted or packed by another method than deflate.
+/// `malformed-file` for a broken zip or a file that is encrypted or compressed by another method than
+/// deflate.
 pub(crate) fn entries(
     file: &dyn Source,
     most: u64,
@@ -261,10 +262,10 @@ pub(crate) fn entries(
     Ok(found.into_iter().map(entry).collect())
 }
 
-/// Files of a zip whose names in small letters are wanted, unpacked, each with its name in small letters.
+/// Decompressed files of a zip whose lower-case names are wanted, each with this name.
 ///
 /// # Errors
-/// Those of [`entries`], the bounds of a file.
+/// Those of [`entries`], the limits of a file.
 pub(crate) fn zipped(
     file: &dyn Source,
     most: u64,
@@ -281,11 +282,11 @@ pub(crate) fn zipped(
     Ok(files)
 }
 
-/// The first bytes once decoded, for recognising a file; what cannot be decoded is left out.
+/// The first decoded bytes, for recognising a file; what cannot be decoded is left out.
 pub(crate) fn head(input: impl Read) -> Vec<u8> {
     const HEAD: u64 = 32 << 10;
     let mut decoded = Vec::new();
-    // A broken file is recognised by what comes before the fault.
+    // A broken file is recognised by its content before the fault.
     if let Ok(input) = open(input, Bounds::of(1 << 20)) {
         let _ = input.take(HEAD).read_to_end(&mut decoded);
     }

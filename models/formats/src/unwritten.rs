@@ -5,8 +5,8 @@ use crate::loss::{Loss, code};
 use crate::sentences;
 use scene::{Agent, Scene, Start};
 
-/// Whether a condition fixes more than boxes and states hold. These include types, sizes and the starts of
-/// futures.
+/// Whether a condition fixes more than boxes and states hold. Types, sizes and the starts of futures are
+/// among these.
 pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> bool {
     let mut rest = agent.conditions.clone();
     if motion == ExportedMotion::Chosen {
@@ -29,7 +29,7 @@ pub(crate) fn conditions(scene: &Scene, motion: ExportedMotion) -> Option<Loss> 
     lost.then(|| Loss::new(code::NO_CONDITIONS, detail))
 }
 
-/// Futures, where a file has one motion of each road user.
+/// Losses of futures, in a file with one motion for each road user.
 pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     let Some(generated) = &scene.generated else { return Vec::new() };
     let mut losses = Vec::new();
@@ -43,13 +43,13 @@ pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     losses
 }
 
-/// A file of more steps than the scene has.
+/// Loss of a file with more steps than the scene.
 pub(crate) fn length(scene: &Scene, steps: usize) -> Option<Loss> {
     let known = scene.time.steps;
     (steps > known).then(|| Loss::counted(code::LONG_RECORD, sentences::loss_longer(steps, known)))
 }
 
-/// Name, tags, notes and the like, where a file is called `id` and has no place for them.
+/// Loss of name, tags, notes and the like, in a file that is named `id` and has no place for them.
 pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
     let lost = !scene.meta.tags.is_empty() || is_noted(scene, id);
     lost.then(|| Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"))

@@ -1,4 +1,4 @@
-//! Files on their way out, bounded in bytes, for as long as somebody waits for them.
+//! Exported files, limited in bytes, for as long as a caller waits for them.
 
 use crate::refusals;
 use scene::Cancel;
@@ -9,12 +9,12 @@ fn too_long(bytes: u64, most: u64) -> io::Error {
     io::Error::new(io::ErrorKind::FileTooLarge, refusals::file_too_long(bytes, most))
 }
 
-/// Whether an export failed because its file would be longer than it may be.
+/// Whether an export failed because its file would exceed the limit.
 pub fn is_too_long(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::FileTooLarge
 }
 
-/// Bounds of a file on its way out.
+/// Limits of a file that is being written.
 #[derive(Clone, Debug)]
 pub(crate) struct FileBounds {
     most: u64,
@@ -22,15 +22,15 @@ pub(crate) struct FileBounds {
 }
 
 impl FileBounds {
-    /// So many bytes, until the call that asks for the file is cancelled.
+    /// At most this many bytes, until the call that requests the file is cancelled.
     pub fn new(most: u64, cancel: Cancel) -> Self {
         Self { most, cancel }
     }
 
-    /// Refuses a file that has so many bytes already.
+    /// Refuses a file that already has this many bytes.
     ///
     /// # Errors
-    /// `FileTooLarge` for more than it may have, `ConnectionAborted` where nobody waits for it any more.
+    /// `FileTooLarge` beyond the limit, `ConnectionAborted` when nobody waits for the file any more.
     pub fn check(&self, bytes: u64) -> io::Result<()> {
         if self.cancel.is_cancelled() {
             return Err(io::ErrorKind::ConnectionAborted.into());
@@ -40,13 +40,13 @@ impl FileBounds {
 }
 
 impl Default for FileBounds {
-    /// None.
+    /// No limits.
     fn default() -> Self {
         Self::new(u64::MAX, Cancel::default())
     }
 }
 
-/// A file in memory within bounds.
+/// A file in memory within limits.
 pub(crate) struct BoundedFile {
     /// Its bytes so far.
     pub bytes: Vec<u8>,

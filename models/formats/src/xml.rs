@@ -1,15 +1,14 @@
-//! A pull scanner for the XML of traffic formats: elements, attributes, and text on request. All XML is read
-//! with it.
+//! A pull scanner for the XML of traffic formats: elements, attributes, and text on request. It reads all
+//! XML.
 //!
-//! XML 1.0 without document type definitions (so there are no entities but the five of section 4.6 and
-//! character references), bounded in depth, in attributes and in the length of a tag. Memory does not
-//! grow with the file. Other encodings than UTF-8 are decoded on the way ([`Utf8`]).
+//! XML 1.0 without document type definitions (so the only entities are the five of section 4.6 and character
+//! references), bounded in depth, in attributes and in the length of a tag. Memory does not grow with the
+//! file. Encodings other than UTF-8 are decoded first ([`Utf8`]).
 //!
-//! Why not a library: on an FCD of 50 MB (366,000 elements) this scanner took 0.41 to 0.49 s, quick-xml
+//! Why not a library: on an FCD file of 50 MB (366,000 elements) this scanner took 0.41 to 0.49 s, quick-xml
 //! (0.42) took 0.44 to 0.63 s, and roxmltree 0.62 to 0.86 s with a tree of 336 MB. quick-xml keeps a whole
-//! text, comment or tag in memory (51 to 105 MB where one fills a file of 50 MB; here 2 MB) and bounds
-//! neither depth nor attributes, so lines, bounds, the root and what is left open at the end would still be
-//! ours to check.
+//! text, comment or tag in memory (51 to 105 MB if one fills a file of 50 MB; here 2 MB) and limits neither
+//! depth nor attributes. Lines, limits, the root and unclosed elements would still have to be checked here.
 
 use crate::encoding::Utf8;
 use crate::markup::is_char;
@@ -40,15 +39,14 @@ impl Element {
         self.attributes.iter().find(|(n, _)| n == name).map(|(_, value)| value.as_str())
     }
 
-    /// # Errors
-    /// When the attribute is not there.
+    /// # Errors When the attribute is missing.
     pub fn required(&self, attribute: &'static str) -> Result<&str, Missing> {
         let missing = || Missing { element: shown(&self.name), attribute, line: self.line };
         self.get(attribute).ok_or_else(missing)
     }
 }
 
-/// A required attribute is not there.
+/// A required attribute is missing.
 #[derive(Debug, thiserror::Error)]
 #[error("line {line}: <{element}> has no attribute \"{attribute}\"")]
 pub struct Missing {
@@ -84,14 +82,14 @@ pub(crate) struct Scanner<R> {
     line: u32,
     offset: u64,
     open: Vec<String>,
-    /// End of an element that had no content.
+    /// Whether an empty element still has to end.
     pending: bool,
     seen_root: bool,
     max_tag: usize,
     tag: Vec<u8>,
-    /// Text is given, not passed over.
+    /// Whether text is returned instead of skipped.
     texts: bool,
-    /// The `<` of the next tag has been read, after text.
+    /// Whether the `<` of the next tag has been read, after text.
     in_tag: bool,
 }
 
@@ -112,15 +110,15 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
-    /// Gives text too. One piece is at most as long as a tag.
+    /// Returns text too. One piece is at most as long as a tag.
     pub fn with_texts(self) -> Self {
         Self { texts: true, ..self }
     }
 
-    /// The next event; `None` after the root's end.
+    /// The next event; `None` after the end of the root.
     ///
     /// # Errors
-    /// `malformed-file` with the byte and the line of the tag; the bounds of the reader.
+    /// `malformed-file` with the byte and the line of the tag; the limits of the reader.
     pub fn next(&mut self) -> Result<Option<XmlEvent>, ReadError> {
         if std::mem::take(&mut self.pending) {
             return Ok(Some(XmlEvent::End));
@@ -195,7 +193,7 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
-    /// The text before a tag, which has just been read with its `<`.
+    /// The text before a tag whose `<` has just been read.
     fn text(&self) -> Result<Option<String>, ReadError> {
         let bytes = self.tag.strip_suffix(b"<").unwrap_or(&self.tag).trim_ascii();
         if bytes.is_empty() {
@@ -215,7 +213,7 @@ impl<R: BufRead> Scanner<R> {
         Ok(Some(utf8(bytes, what::TEXT)?.to_owned()))
     }
 
-    /// Reads to the `>` that ends the tag: not one in a quoted value, nor one in a comment.
+    /// Reads to the `>` that ends the tag, which is neither in a quoted value nor in a comment.
     fn until_tag_end(&mut self, start: u64, line: u32) -> Result<(), ReadError> {
         let mut quote = None;
         let mut checked = 0;
@@ -239,7 +237,7 @@ impl<R: BufRead> Scanner<R> {
                 if self.tag.len() >= CDATA.len() + 3 && self.tag.ends_with(b"]]>") {
                     return Ok(());
                 }
-                // Nor do CDATA sections if no text was requested.
+                // The same is true of CDATA sections if no text was requested.
                 if !self.texts {
                     let last = self.tag.len().saturating_sub(2).max(CDATA.len());
                     self.tag.drain(CDATA.len()..last);
@@ -340,7 +338,7 @@ fn is_name(text: &str) -> bool {
     first && !text.contains(['<', '>', '"', '\'', '=', '&', '/'])
 }
 
-/// One `name="value"` and what follows it.
+/// One `name="value"` and the rest of the text.
 fn attribute(text: &str) -> Result<((String, String), &str), Message> {
     let wrong = || found_expected(quoted(text), wanted::ATTRIBUTE);
     let (name, rest) = text.split_once('=').ok_or_else(wrong)?;
@@ -354,8 +352,8 @@ fn attribute(text: &str) -> Result<((String, String), &str), Message> {
     Ok(((name.to_owned(), unescaped(value)?), rest))
 }
 
-/// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows. Characters that XML has no
-/// place for are left out, as they are in what is written.
+/// Replaces references (XML 1.0, 4.1 and 4.6). No reference can contain another, so nothing grows. Characters
+/// that XML does not allow are left out, as they are in written XML.
 fn unescaped(value: &str) -> Result<String, Message> {
     let mut text = String::with_capacity(value.len());
     let mut rest = value;
@@ -385,7 +383,7 @@ fn unescaped(value: &str) -> Result<String, Message> {
     Ok(text)
 }
 
-/// Name of the first element, for recognising a file. Looks no further than `head`.
+/// Name of the root element, by which a file is recognised. Reads no further than `head`.
 pub(crate) fn root_of(head: &[u8]) -> Option<String> {
     match Scanner::new(head, head.len().max(1)).next() {
         Ok(Some(XmlEvent::Start(element))) => Some(element.name),

@@ -1,5 +1,5 @@
-//! A street with a car park beside it: in from the street, along a lane below the aisles, up one of them, along the
-//! lane above, and out to the street again. Everything in the park is one-way.
+//! A street with a car park beside it. Traffic enters from the street, follows a lane below the aisles, one
+//! of the aisles and the lane above them, and returns to the street. All lanes in the park are one-way.
 
 use crate::curve::{arc, join, straight, tidy};
 use crate::draft::{MapDraft, Vehicle};
@@ -11,14 +11,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Length of the street beyond the drives, metres.
 const BEYOND_M: f64 = 50.0;
-/// Between the street's kerb and the park, metres.
+/// Distance between the street's kerb and the park, metres.
 const SETBACK_M: f64 = 10.5;
 /// Width of the drives, metres.
 const DRIVE_M: f64 = 5.0;
-/// A drive lies so far from the aisle beside it, and turns in the park begin so far before their corner, metres.
+/// Distance between a drive and the aisle beside it, and length before a corner at which turns in the park
+/// begin, metres.
 const DRIVE_APART_M: f64 = 14.0;
 const TURN_M: f64 = 6.0;
-/// The street is cut so far on both sides of a drive, and drives begin so far behind its kerb, metres.
+/// Distance on both sides of a drive at which the street is cut, and behind its kerb at which drives begin,
+/// metres.
 const CUT_M: f64 = 9.0;
 const DRIVE_FROM_M: f64 = 4.5;
 /// Speed limit in the park, km/h.
@@ -26,14 +28,14 @@ const LIMIT_KMH: f64 = 15.0;
 
 /// Lines of the plan, metres.
 struct Grid {
-    /// Middles of the aisles, and of the drives in and out.
+    /// Centre lines of the aisles, and of the drives in and out.
     aisles: Vec<f64>,
     drive_in: f64,
     drive_out: f64,
-    /// Middles of the lanes below and above the aisles.
+    /// Centre lines of the lanes below and above the aisles.
     below: f64,
     above: f64,
-    /// Where the bays begin and end.
+    /// Ends of the bays.
     bays: [f64; 2],
     /// Corners of the park, and its left side behind the drive in.
     low: Vec2,
@@ -69,7 +71,7 @@ impl Grid {
     }
 }
 
-/// A way in the park on the way to be linked.
+/// Lanes of the park that are still to be linked.
 struct Ways<'a> {
     draft: &'a mut MapDraft,
 }

@@ -1,4 +1,4 @@
-//! Checks of every map: each failure has a place and a reason. A failed check blocks nothing.
+//! Checks of every map: each failure has a position and a reason. A failed check blocks nothing.
 
 use crate::curve::{curvature, turn};
 use crate::draft::{MapDraft, Vehicle, place};
@@ -104,7 +104,7 @@ fn ends(draft: &MapDraft) -> Vec<Check> {
         let vehicles = lane.lane_type.carries_vehicles();
         !draft.about[*i].open[1] && !lane.successors.iter().any(|id| carries(id, vehicles))
     };
-    // A lane for vehicles begins at the map's rim, or some lead to it.
+    // A lane for vehicles begins at the map's rim, or another lane leads to it.
     let unreached = |i: &usize| {
         let lane = &draft.map.lanes[*i];
         let vehicles = lane.lane_type.carries_vehicles();

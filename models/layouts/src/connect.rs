@@ -1,4 +1,4 @@
-//! Ways through a junction, drawn from lane to lane.
+//! Paths through a junction, drawn from lane to lane.
 
 use crate::curve::join;
 use crate::draft::MapDraft;
@@ -7,19 +7,19 @@ use crate::roadway::Roadway;
 use crate::turns::{Movement, all_links};
 use scene::map::LaneType;
 
-/// Bends wider than this gain nothing, metres.
+/// Wider bends have no benefit, metres.
 const WIDEST_M: f64 = 40.0;
 
-/// How far the lanes of an arm lie from its kerbs, and how its kerbs bend.
+/// Distances of the lanes of an arm from its kerbs, and the bends of its kerbs.
 #[derive(Clone, Copy, Debug)]
 pub struct Bends {
-    /// The corner beside the lanes in of an arm: the next arm counter-clockwise, and its radius; none where the kerb
-    /// goes straight on.
+    /// The corner beside the lanes in of an arm: the next arm counter-clockwise, and its radius; none if the
+    /// kerb goes straight on.
     pub next: usize,
     pub radius_m: Option<f64>,
 }
 
-/// Draws all ways. `roads` and `bends` are by arm.
+/// Draws all paths. `roads` and `bends` are indexed by arm.
 pub fn draw(
     draft: &mut MapDraft,
     arms: &[Arm],
@@ -48,9 +48,9 @@ pub fn draw(
     cycles(draft, arms, roads, bends, kerbs_m);
 }
 
-/// How wide a bend may be so that it keeps its distance from the kerb that it goes round.
+/// Greatest radius of a bend that keeps its distance from the inner kerb.
 fn radius(bends: &[Bends], kerbs_m: &[[f64; 2]], from: usize, to: usize, aside_m: [f64; 2]) -> f64 {
-    // Right turns go round the corner beside the lanes in; left turns to the arm before go round its corner.
+    // Right turns follow the corner beside the lanes in; left turns to the previous arm follow its corner.
     let (bend, room) = if bends[from].next == to {
         (bends[from].radius_m, [kerbs_m[from][0] - aside_m[0], kerbs_m[to][1] - aside_m[1]])
     } else if bends[to].next == from {
@@ -61,7 +61,7 @@ fn radius(bends: &[Bends], kerbs_m: &[[f64; 2]], from: usize, to: usize, aside_m
     bend.map_or(WIDEST_M, |radius_m| (radius_m + room[0].min(room[1])).min(WIDEST_M))
 }
 
-/// A way for cycles that is not drawn yet.
+/// A path for cycles that is not drawn yet.
 fn bare(from: usize, to: usize, turn: Turn) -> Movement {
     Movement { lane: 0, from, to, turn, lanes: None, added: false }
 }
@@ -73,8 +73,8 @@ fn connect(draft: &mut MapDraft, [a, b]: [usize; 2], radius_m: f64, way: Movemen
     draft.movements.push(Movement { lane, ..way });
 }
 
-/// Cycle lanes go on straight and round the corner; where there is none on the other side, into the lane beside the
-/// kerb.
+/// Cycle lanes go straight on and round the corner; without a cycle lane on the other side, they lead into
+/// the lane beside the kerb.
 fn cycles(draft: &mut MapDraft, arms: &[Arm], roads: &[Roadway], bends: &[Bends], kerbs_m: &[[f64; 2]]) {
     for from in 0..arms.len() {
         let ways: Vec<(usize, Turn)> = crate::turns::directions(arms, from)

@@ -5,11 +5,12 @@ use scene::geometry::{cross, direction};
 use scene::wrap_angle;
 use std::f64::consts::FRAC_PI_2;
 
-/// Change of direction from a point of a curve to the next, radians.
+/// Change of direction between consecutive points of a curve, radians.
 const STEP_RAD: f64 = 0.05;
-/// Longest piece of a straight line, metres.
+/// Longest segment of a straight line, metres.
 const PIECE_M: f64 = 10.0;
-/// A bend begins more gently than an arc by this, and is tighter in its middle: drivers steer, they do not jump.
+/// A bend begins more gently than an arc by this factor, and is tighter in its middle, because drivers steer
+/// gradually.
 const EASE: f64 = 1.12;
 /// Directions nearer than this are the same, radians.
 const STRAIGHT_RAD: f64 = 0.03;
@@ -31,8 +32,8 @@ pub fn left_of(way: Vec2) -> Vec2 {
     Vec2::new(-way.y, way.x)
 }
 
-/// A line from one pose to another that leaves and arrives in their directions. Where two straight lines and a bend
-/// between them do, the bend is as wide as there is room, but not wider than `radius_m`.
+/// A line between two poses that keeps their directions. If two straight lines with a bend between them
+/// suffice, the bend is as wide as there is room, but no wider than `radius_m`.
 pub fn join(from: Pose, to: Pose, radius_m: f64) -> Vec<Vec2> {
     let gap = to.at - from.at;
     if gap.norm() < 1e-6 {
@@ -63,7 +64,7 @@ pub fn join(from: Pose, to: Pose, radius_m: f64) -> Vec<Vec2> {
             return tidy(line);
         }
     }
-    // Anything else: a cubic with the gentlest of a few strengths.
+    // Otherwise: the gentlest of some cubics with different strengths.
     let mut best: Option<(f64, Vec<Vec2>)> = None;
     for strength in [0.34, 0.45, 0.6, 0.8, 1.1] {
         let handle = strength * gap.norm();
@@ -77,7 +78,7 @@ pub fn join(from: Pose, to: Pose, radius_m: f64) -> Vec<Vec2> {
     tidy(best.map(|(_, line)| line).unwrap_or_default())
 }
 
-/// From a point to another in pieces of at most some metres.
+/// A straight line between two points in segments of limited length.
 pub fn straight(a: Vec2, b: Vec2) -> Vec<Vec2> {
     let pieces = ((b - a).norm() / PIECE_M).ceil().clamp(1.0, 200.0) as usize;
     (0..=pieces).map(|i| a + (b - a) * (i as f64 / pieces as f64)).collect()
@@ -101,7 +102,7 @@ pub fn arc(centre: Vec2, radius_m: f64, from_rad: f64, to_rad: f64) -> Vec<Vec2>
     (0..=count).map(point).collect()
 }
 
-/// Without points that lie on each other.
+/// The line without coinciding points.
 pub fn tidy(mut line: Vec<Vec2>) -> Vec<Vec2> {
     let last = line.last().copied();
     line.dedup_by(|b, a| (*b - *a).norm() < 0.02);
@@ -112,7 +113,7 @@ pub fn tidy(mut line: Vec<Vec2>) -> Vec<Vec2> {
     line
 }
 
-/// Greatest curvature of a line, 1/m, over pieces of its own.
+/// Greatest curvature at the points of a line, 1/m; very short segments are left out.
 pub fn curvature(line: &[Vec2]) -> f64 {
     let bend = |w: &[Vec2]| {
         let (a, b) = (w[1] - w[0], w[2] - w[1]);

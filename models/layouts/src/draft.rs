@@ -1,4 +1,4 @@
-//! A map while it is drawn.
+//! A map that is being drawn.
 
 use crate::curve::{self, Pose};
 use crate::parameters::{Connection, Turn};
@@ -52,14 +52,14 @@ pub struct CornerPlace {
     pub arms: [usize; 2],
 }
 
-/// Facts about a lane that the map does not hold.
+/// Properties of a lane that the map does not hold.
 #[derive(Clone, Debug, Default)]
 pub struct LaneExtra {
-    /// The road goes on beyond the map at its beginning and its end.
+    /// Whether the road continues beyond the map at its beginning and its end.
     pub open: [bool; 2],
 }
 
-/// Largest vehicle that must fit round every bend.
+/// Largest vehicle that must be able to follow every bend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Vehicle {
     #[default]
@@ -86,7 +86,7 @@ pub fn place(p: Vec2) -> [f64; 2] {
 }
 
 impl MapDraft {
-    /// A lane; its index.
+    /// Adds a lane; returns its index.
     pub fn lane(
         &mut self,
         id: String,
@@ -110,14 +110,14 @@ impl MapDraft {
         &self.map.lanes[lane].points.xy
     }
 
-    /// Where a lane begins.
+    /// Start pose of a lane.
     pub fn start(&self, lane: usize) -> Pose {
         let line = self.points(lane);
         let way = line[1] - line[0];
         Pose { at: line[0], heading_rad: way.y.atan2(way.x) }
     }
 
-    /// Where it ends.
+    /// End pose of a lane.
     pub fn end(&self, lane: usize) -> Pose {
         let line = self.points(lane);
         let last = line.len() - 1;
@@ -133,13 +133,13 @@ impl MapDraft {
         }
     }
 
-    /// A way through a junction between two lanes; its index.
+    /// Adds a path through a junction between two lanes; returns its index.
     pub fn through(&mut self, from: usize, to: usize, line: Vec<Vec2>, lane_type: LaneType) -> usize {
         let (a, b) = (&self.map.lanes[from], &self.map.lanes[to]);
         let id = format!("{}-{}", a.id, b.id);
         let width_m = a.width_or_assumed_m().min(b.width_or_assumed_m());
         let limit_mps = a.speed_limit_mps.unwrap_or(13.9).min(b.speed_limit_mps.unwrap_or(13.9));
-        // What is comfortable in a bend: 2.6 m/s2 to the side.
+        // Comfortable lateral acceleration in a bend: 2.6 m/s2.
         let bend = curve::curvature(&line).max(1e-4);
         let limit_mps = limit_mps.min((2.6 / bend).sqrt()).max(2.0);
         let lane = self.lane(id, lane_type, line, width_m, limit_mps * 3.6);
@@ -149,7 +149,8 @@ impl MapDraft {
         lane
     }
 
-    /// Two lanes of one direction side by side over all of their length; they have as many points.
+    /// Links two lanes of one direction that lie side by side over their whole length and have as many
+    /// points.
     pub fn beside(&mut self, left: usize, right: usize) {
         let range = |lane: usize| (0, self.map.lanes[lane].points.xy.len() - 1);
         let (l, r) = (range(left), range(right));
@@ -165,7 +166,7 @@ impl MapDraft {
         self.map.lanes[right].left_neighbors.push(of_right);
     }
 
-    /// Ways for motor vehicles, by the order of the parameters.
+    /// Paths for motor vehicles, in the order of the parameters.
     pub fn ways(&self) -> Vec<JunctionPath> {
         let way = |m: &Movement| {
             let [lane_in, lane_out] = m.lanes?;
@@ -176,7 +177,7 @@ impl MapDraft {
         self.movements.iter().filter_map(way).collect()
     }
 
-    /// A painted line; its id.
+    /// Adds a painted line; returns its id.
     pub fn line(&mut self, line_type: &str, points: Vec<Vec2>) -> String {
         let id = format!("line{}", self.map.road_lines.len() + 1);
         self.map.road_lines.push(TypedLine {
@@ -187,7 +188,7 @@ impl MapDraft {
         id
     }
 
-    /// A kerb; its id.
+    /// Adds a kerb; returns its id.
     pub fn edge(&mut self, line_type: &str, points: Vec<Vec2>) -> String {
         let id = format!("edge{}", self.map.road_edges.len() + 1);
         self.map.road_edges.push(TypedLine {
@@ -198,7 +199,7 @@ impl MapDraft {
         id
     }
 
-    /// A line or kerb along the left (or right) side of a whole lane.
+    /// Assigns a line or kerb to the left (or right) side of a whole lane.
     pub fn bound(&mut self, lane: usize, left: bool, line: &str) {
         let lane = &mut self.map.lanes[lane];
         let to = lane.points.xy.len() - 1;
@@ -206,7 +207,7 @@ impl MapDraft {
         side.push(Boundary { line: line.to_owned(), from: 0, to, kind: None });
     }
 
-    /// A raised island: its kerb, closed, and no ground to drive on.
+    /// Adds a raised island: a closed kerb around ground that is not drivable.
     pub fn island(&mut self, ring: Vec<Vec2>) -> String {
         let mut kerb = ring.clone();
         kerb.extend(ring.first().copied());
@@ -226,7 +227,7 @@ impl MapDraft {
         self.map.speed_bumps.push(Area { id, polygon: ring.to_vec().into(), holes: Vec::new() });
     }
 
-    /// Ground to drive on; `holes` in it.
+    /// Adds drivable ground with `holes`.
     pub fn ground(&mut self, ring: Vec<Vec2>, holes: Vec<Vec<Vec2>>) {
         let id = format!("ground{}", self.map.drivable.len() + 1);
         let holes = holes.into_iter().map(Into::into).collect();
@@ -245,7 +246,7 @@ impl MapDraft {
         lane
     }
 
-    /// Left and right swapped.
+    /// The map with left and right exchanged.
     pub fn mirrored(mut self) -> Self {
         self.map = self.map.mirrored();
         for signal in &mut self.signals {

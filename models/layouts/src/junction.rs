@@ -11,16 +11,17 @@ use scene::Vec2;
 use scene::geometry::{cross, direction};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A kerb bends round a corner up to this angle between two arms; beyond, it goes straight on or round the back.
+/// A kerb bends round a corner up to this angle between two arms; beyond it, the kerb goes straight on or
+/// outwards.
 const CORNER_RAD: f64 = 2.9;
-/// A bend takes at most so much of an arm, metres.
+/// Greatest length of an arm that a bend takes, metres.
 const MOST_BEND_M: f64 = 12.0;
-/// Least distance from the middle to where the arms begin, metres.
+/// Least distance from the middle to the beginning of an arm, metres.
 const LEAST_MOUTH_M: f64 = 4.0;
-/// Between bend and crosswalk, and between crosswalk and stop line, metres.
+/// Distance between bend and crosswalk, and between crosswalk and stop line, metres.
 const BEFORE_CROSSWALK_M: f64 = 0.4;
 const STOP_LINE_M: f64 = 1.2;
-/// Beyond the junction every arm is at least so long, metres.
+/// Least length of every arm beyond the junction, metres.
 const LEAST_ROAD_M: f64 = 30.0;
 
 /// An arm as it is drawn.
@@ -29,7 +30,7 @@ pub struct Spoke {
     pub arm: Arm,
     pub profile: Profile,
     pub way: Vec2,
-    /// Where bends end, where traffic stops, and where the map ends, metres from the middle.
+    /// Distances of the end of the bends, of the stop line, and of the map's rim from the middle, metres.
     pub mouth_m: f64,
     pub stop_m: f64,
     pub end_m: f64,
@@ -49,7 +50,7 @@ impl Spoke {
         Self { arm: arm.clone(), profile, way, mouth_m: LEAST_MOUTH_M, stop_m: 0.0, end_m: 0.0 }
     }
 
-    /// So far out, and so far to the left as seen from the middle.
+    /// The position at this distance outwards and to the left, as seen from the middle.
     pub fn at(&self, out_m: f64, left_m: f64) -> Vec2 {
         self.way * out_m + left_of(self.way) * left_m
     }
@@ -64,7 +65,7 @@ impl Spoke {
 struct Corner {
     /// By the order of the spokes.
     arms: [usize; 2],
-    /// Where it bends: centre and radius.
+    /// Centre and radius of its bend.
     bend: Option<(Vec2, f64)>,
 }
 
@@ -74,7 +75,7 @@ pub fn spokes(arms: &[Arm], lane_m: f64, traffic: Traffic) -> (Vec<Spoke>, Vec<u
         .iter()
         .map(|arm| match traffic {
             Traffic::RightHand => arm.clone(),
-            // The drawing is mirrored in the end.
+            // The drawing is mirrored at the end.
             Traffic::LeftHand => {
                 Arm { angle_deg: -arm.angle_deg, turns: arm.turns.as_deref().map(mirrored), ..arm.clone() }
             }
@@ -139,7 +140,7 @@ pub fn draw(junction: &Junction) -> MapDraft {
     draft
 }
 
-/// Connections with the arms as the spokes have them.
+/// The connections with arms numbered as the spokes are.
 fn by_spoke(connections: &Connections, order: &[usize]) -> Connections {
     let spoke = |[arm, lane]: [usize; 2]| Some([order.iter().position(|i| *i == arm)?, lane]);
     let moved = |list: &[Connection]| {
@@ -192,14 +193,14 @@ pub fn finish(
         .collect();
 }
 
-/// Names the arms as they lie in the end.
+/// Names the arms by their final positions.
 pub fn named(draft: &mut MapDraft, arms: &[Arm]) {
     for (place, name) in draft.arms.iter_mut().zip(names(arms)) {
         place.name = name;
     }
 }
 
-/// Finds the corners, and where each arm begins.
+/// Finds the corners, and the beginning of each arm.
 fn corners(spokes: &mut [Spoke], radius_m: f64) -> Vec<Corner> {
     let count = spokes.len();
     (0..count)
@@ -225,7 +226,7 @@ fn corners(spokes: &mut [Spoke], radius_m: f64) -> Vec<Corner> {
         .collect()
 }
 
-/// The line of a corner, so far behind its kerb.
+/// The line of a corner at this distance behind its kerb.
 fn kerb(spokes: &[Spoke], corner: &Corner, behind_m: f64) -> Vec<Vec2> {
     let [a, b] = corner.arms.map(|k| &spokes[k]);
     let (left_m, right_m) = (a.kerbs_m()[0] + behind_m, -b.kerbs_m()[1] - behind_m);
@@ -235,14 +236,14 @@ fn kerb(spokes: &[Spoke], corner: &Corner, behind_m: f64) -> Vec<Vec2> {
     tidy(line)
 }
 
-/// The outline of only its bend.
+/// The line of its bend only.
 fn round(a: &Spoke, b: &Spoke, corner: &Corner, behind_m: f64) -> Vec<Vec2> {
     let (left_m, right_m) = (a.kerbs_m()[0] + behind_m, -b.kerbs_m()[1] - behind_m);
     if let Some((centre, radius_m)) = corner.bend {
         let radius_m = (radius_m - behind_m).max(0.3);
         let from = a.way.y.atan2(a.way.x) - FRAC_PI_2;
         let by = PI - between(a, b);
-        // A tighter bend has its centre where both lines are as far away.
+        // A tighter bend has its centre where both lines are at the same distance.
         let centre =
             if radius_m > 0.3 { centre } else { nearer(a, b, [left_m, right_m], radius_m).unwrap_or(centre) };
         return arc(centre, radius_m, from, from - by);
@@ -277,7 +278,7 @@ fn road(draft: &mut MapDraft, spoke: &Spoke, number: usize) -> Roadway {
     road
 }
 
-/// The road goes on beyond the map.
+/// Marks that the road continues beyond the map.
 pub fn open(draft: &mut MapDraft, road: &Roadway) {
     road.left.all().into_iter().for_each(|lane| draft.about[lane].open[0] = true);
     road.right.all().into_iter().for_each(|lane| draft.about[lane].open[1] = true);
@@ -327,7 +328,7 @@ fn sidewalks(draft: &mut MapDraft, spokes: &[Spoke], corners: &[Corner], width_m
     }
 }
 
-/// The main arms: those marked as such, else the two that are closest to a straight line.
+/// The main arms: the marked ones, otherwise the two that are closest to a straight line.
 fn main_arms(arms: &[Arm]) -> Vec<bool> {
     if arms.iter().any(|arm| arm.main) {
         return arms.iter().map(|arm| arm.main).collect();

@@ -1,7 +1,7 @@
-//! Lane maps from nothing: a template with parameters becomes a map with its signals. Pure and deterministic.
+//! Creates lane maps: a template with parameters becomes a map with its signals. Pure and deterministic.
 //!
-//! All templates are drawn for right-hand traffic; left-hand traffic is the mirror image of the template with its
-//! angles turned over, so that the arms stay where they are.
+//! All templates are drawn for right-hand traffic. Left-hand traffic is the mirror image of the template with
+//! mirrored angles, so that the arms keep their places.
 //!
 //! ```
 //! use layouts::{Layout, Template};
@@ -46,7 +46,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Member of a scene that keeps what its map was made from, so that it can be changed later.
+/// Member of a scene that keeps the parameters of its map, so that they can be changed later.
 pub const EXTRA: &str = "x_layout";
 
 /// A layout by name, to start from.
@@ -65,7 +65,7 @@ pub enum Template {
     CarPark,
 }
 
-/// All of them, in the order in which they are offered.
+/// All templates, in the order in which they are offered.
 pub const TEMPLATES: [Template; 8] = [
     Template::ThreeArms,
     Template::FourArms,
@@ -121,7 +121,7 @@ impl Template {
         }
     }
 
-    /// With its own parameters.
+    /// A layout of this template with its default parameters.
     pub fn layout(self) -> Layout {
         match self {
             Self::ThreeArms => Layout::ThreeArms(Junction::three_arms()),
@@ -135,7 +135,7 @@ impl Template {
         }
     }
 
-    /// Its parameters as a document, including those that serialization omits.
+    /// The parameters as a document, including those that serialization omits.
     pub fn all_parameters(self) -> Value {
         let mut own = self.layout().parameters();
         if let (Self::ThreeArms | Self::FourArms, Value::Object(members)) = (self, &mut own) {
@@ -145,7 +145,8 @@ impl Template {
         own
     }
 
-    /// With some parameters in place of its own: members are laid over those of the template, lists replace lists.
+    /// A layout with some parameters replaced: given members override those of the template, lists replace
+    /// lists.
     ///
     /// # Errors
     /// What cannot be read, with its place below the parameters.
@@ -219,20 +220,20 @@ impl Layout {
     }
 }
 
-/// What a layout becomes.
+/// Result of drawing a layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Built {
     /// The map.
     pub map: LaneMap,
-    /// Its lights, over one planning window.
+    /// Its signals, over one planning window.
     pub signals: Vec<Signal>,
-    /// What was looked at; a check that failed forbids nothing.
+    /// Results of the checks; a failed check forbids nothing.
     pub checks: Vec<Check>,
     /// Where the arms lie, in the order of the parameters.
     pub arms: Vec<ArmPlace>,
-    /// Where the kerbs bend between them, counter-clockwise.
+    /// Positions of the bends of the kerbs between them, counter-clockwise.
     pub corners: Vec<CornerPlace>,
-    /// Ways from lane to lane through a junction; none where roads meet otherwise.
+    /// Paths from lane to lane through a junction; none if the roads meet otherwise.
     pub ways: Vec<JunctionPath>,
 }
 

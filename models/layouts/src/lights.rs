@@ -6,10 +6,10 @@ use crate::turns::Movement;
 use scene::geometry::segments::{Segment, SegmentIndex, pieces};
 use scene::{HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 
-/// Movements that have green together, by their place in the draft's list.
+/// Movements with green at the same time, by index in the draft's list.
 type Phase = Vec<usize>;
 
-/// A crosswalk with a light: its id, the arm it crosses, and where people wait.
+/// A signalled crosswalk: its id, the arm that it crosses, and the waiting positions.
 #[derive(Clone, Debug)]
 pub struct SignalledCrosswalk {
     pub id: String,
@@ -17,7 +17,7 @@ pub struct SignalledCrosswalk {
     pub from: Vec2,
 }
 
-/// Two ways meet: they cross, or end in one lane.
+/// Whether two paths meet: they cross, or end in one lane.
 pub fn meet(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     if a.from == b.from {
         return false;
@@ -34,7 +34,7 @@ pub fn meet(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     })
 }
 
-/// One of two ways gives way to the other while both have green: it turns.
+/// Whether one of two paths gives way to the other while both have green: at least one of them turns.
 pub fn gives_way(a: &Movement, b: &Movement) -> bool {
     a.turn != Turn::Straight || b.turn != Turn::Straight
 }
@@ -42,9 +42,9 @@ pub fn gives_way(a: &Movement, b: &Movement) -> bool {
 /// A movement that bends less than this looks straight to its driver, radians.
 const LOOKS_STRAIGHT_RAD: f64 = 0.3;
 
-/// Two movements of opposite arms may have green together if they do not meet, or if the turning driver sees
-/// whom to yield to. The latter holds before oncoming traffic, into the same arm, and where both turn. It
-/// does not hold where a movement that looks straight is crossed from the side.
+/// Whether two movements of opposite arms may have green together: they do not meet, or the turning driver
+/// sees whom to yield to. The latter is so before oncoming traffic, into the same arm, and if both turn. It
+/// is not so if a movement that looks straight is crossed from the side.
 fn go_together(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     let bends = |m: &Movement| {
         let path = draft.points(m.lane);
@@ -57,7 +57,7 @@ fn go_together(draft: &MapDraft, a: &Movement, b: &Movement) -> bool {
     oncoming || (bends(a) && bends(b)) || !meet(draft, a, b)
 }
 
-/// The phases of a junction of so many arms.
+/// The phases of a junction with this many arms.
 fn phases(draft: &MapDraft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
     let movements = &draft.movements;
     let of = |arm: usize| (0..movements.len()).filter(move |i| movements[*i].from == arm);
@@ -91,7 +91,8 @@ fn phases(draft: &MapDraft, arms: usize, turns_across: TurnAcross) -> Vec<Phase>
     phases
 }
 
-/// Turns across have their own phase where they have their own lanes; else one arm goes after the other.
+/// Turns across oncoming traffic get their own phase if they have their own lanes; otherwise the arms go one
+/// after the other.
 fn protected(draft: &MapDraft, both: Phase, arms: [usize; 2], phases: &mut Vec<Phase>) {
     let movements = &draft.movements;
     let across = |i: &usize| movements[*i].turn == Turn::Left;
@@ -111,7 +112,7 @@ fn protected(draft: &MapDraft, both: Phase, arms: [usize; 2], phases: &mut Vec<P
     }
 }
 
-/// Gives the ways of a junction their lights.
+/// Adds the signals of a junction's paths.
 pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[SignalledCrosswalk]) {
     let phases = phases(draft, arms, program.turns_across);
     let mut signals = Vec::new();
@@ -122,7 +123,7 @@ pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[S
         signals.push(Signal { lane: draft.map.lanes[movement.lane].id.clone(), stop, stop_z_m: None, runs });
     }
     for crossing in crossings {
-        // No traffic leaves the arm, and none enters it straight.
+        // Whether no traffic leaves the arm, and none enters it straight.
         let quiet = |phase: &Phase| {
             phase
                 .iter()
@@ -139,11 +140,11 @@ pub fn draw(draft: &mut MapDraft, arms: usize, program: &Program, crossings: &[S
 /// Signal states for green in these phases, over one planning window.
 fn runs(green: &[bool], program: &Program, yellow: bool) -> Vec<(usize, SignalState)> {
     let turn_s = program.green_s + program.yellow_s + program.all_red_s;
-    // A junction with one phase is red for as long as another would take.
+    // A junction with one phase is red for as long as a second phase would take.
     let cycle_s = turn_s * green.len().max(2) as f64;
     let mut runs: Vec<(usize, SignalState)> = Vec::new();
     for step in 0..=HORIZON_STEPS {
-        // In the middle of a step, so that no sum of tenths decides.
+        // In the middle of a step, so that no rounding of sums decides.
         let at_s = ((step as f64 + 0.5) * STEP_S + program.offset_s).rem_euclid(cycle_s);
         let phase = (at_s / turn_s) as usize;
         let in_turn_s = at_s - phase as f64 * turn_s;

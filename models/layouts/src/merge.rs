@@ -1,4 +1,4 @@
-//! A carriageway of one direction with a ramp that leaves it, one that joins it, or both.
+//! A one-way carriageway with an off-ramp, an on-ramp, or both.
 
 use crate::curve::{Pose, join, parallel, straight, tidy};
 use crate::draft::MapDraft;
@@ -6,22 +6,22 @@ use crate::parameters::Merge;
 use scene::Vec2;
 use scene::map::LaneType;
 
-/// Before the first ramp, between the two, and after the last, metres.
+/// Lengths before the first ramp, between the two, and after the last, metres.
 const LEAD_M: f64 = 90.0;
 const APART_M: f64 = 80.0;
-/// Length over which a lane opens or closes, and of a ramp, metres.
+/// Length over which a lane opens or closes, and that of a ramp, metres.
 const TAPER_M: f64 = 40.0;
 const RAMP_M: f64 = 90.0;
-/// Bend where a ramp turns into the carriageway, metres.
+/// Radius of the bend at which a ramp joins the carriageway, metres.
 const RAMP_RADIUS_M: f64 = 180.0;
-/// Paved beside the outer lanes: left, right, metres.
+/// Paved width beside the outer lanes: left, right, metres.
 const SHOULDER_M: [f64; 2] = [1.0, 2.0];
 
-/// A ramp with the places along the carriageway where it begins to matter and where it ends to.
+/// A ramp with its positions along the carriageway.
 struct Ramp {
     joins: bool,
-    /// Places along the carriageway at which the ramp's lane is at the gore, runs parallel to the others, and
-    /// has ended (or begun).
+    /// Positions along the carriageway at which the ramp's lane reaches the gore, runs parallel to the
+    /// others, and has ended (or begun).
     gore_m: f64,
     parallel_m: f64,
     end_m: f64,
@@ -31,7 +31,7 @@ struct Road<'a> {
     layout: &'a Merge,
     ramps: Vec<Ramp>,
     length_m: f64,
-    /// The right side of the lanes that go through.
+    /// The right side of the through lanes.
     right_m: f64,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Road<'a> {
         Self { layout, ramps, length_m: at_m + LEAD_M, right_m }
     }
 
-    /// A place so far along and so far to the left, with the middle of the road at the origin.
+    /// The position at these distances along and to the left, with the middle of the road at the origin.
     fn at(&self, along_m: f64, left_m: f64) -> Vec2 {
         Vec2::new(along_m - self.length_m / 2.0, left_m - self.right_m / 2.0)
     }
@@ -94,7 +94,7 @@ impl<'a> Road<'a> {
         cuts
     }
 
-    /// Lanes that go through, by stretch and from the left; their paint.
+    /// Draws the through lanes, by stretch and from the left, and their paint.
     fn main(&self, draft: &mut MapDraft, cuts: &[f64]) -> Vec<Vec<usize>> {
         let (width_m, lanes) = (self.layout.lane_width_m, usize::from(self.layout.lanes));
         let mut all: Vec<Vec<usize>> = Vec::new();
@@ -128,7 +128,7 @@ impl<'a> Road<'a> {
                 draft.bound(row[i + 1], true, line);
             }
         }
-        // The right side is solid but where the lane of a ramp lies beside it.
+        // The right side is solid except beside the lane of a ramp.
         let mut from = 0.0;
         for ramp in &self.ramps {
             let (first, last) = (ramp.gore_m.min(ramp.end_m), ramp.gore_m.max(ramp.end_m));
@@ -143,7 +143,7 @@ impl<'a> Road<'a> {
         all
     }
 
-    /// One ramp: its lane, the lane beside the others, and what that does to kerb and ground.
+    /// Draws a ramp: its lane, the lane beside the others, and the changed kerb and ground.
     fn ramp(
         &self,
         draft: &mut MapDraft,
@@ -156,7 +156,7 @@ impl<'a> Road<'a> {
         let (width_m, limit) = (self.layout.lane_width_m, self.layout.speed_limit_kmh);
         let aside_m = self.right_m - width_m / 2.0;
         let word = if ramp.joins { "on" } else { "off" };
-        // Both ramps are drawn as one that joins; the one that leaves is that, seen backwards.
+        // Both ramps are drawn as an on-ramp; an off-ramp is one in reverse.
         let sign = if ramp.joins { 1.0 } else { -1.0 };
         let place = |back_m: f64, left_m: f64| self.at(ramp.gore_m + sign * back_m, left_m);
         let slope = self.layout.ramp_angle_deg.to_radians();
@@ -215,7 +215,7 @@ impl<'a> Road<'a> {
         draft.line("solid_single_white", driven(outside));
 
         let shoulder_m = self.right_m - SHOULDER_M[1];
-        // The kerb towards the carriageway ends where it meets that of the carriageway.
+        // The kerb towards the carriageway ends where it meets the kerb of the carriageway.
         let level_m = self.at(0.0, shoulder_m).y;
         let inner = clipped(&parallel(&line, left(width_m / 2.0 + 0.5)), level_m);
         let mut outer = parallel(&line, -left(width_m / 2.0 + SHOULDER_M[1]));
@@ -224,7 +224,7 @@ impl<'a> Road<'a> {
         let closing = [self.at(ramp.parallel_m, low_m), self.at(ramp.end_m, shoulder_m)];
         outer.extend(join(flat_way(closing[0], sign), flat_way(closing[1], sign), 1e4));
         let (first, then) = if ramp.joins {
-            // The kerb of the carriageway, back along the ramp; a gap; along the ramp and on.
+            // The kerb of the carriageway, back along the ramp; a gap; then along the ramp and on.
             let mut back = inner;
             back.reverse();
             (back, outer)
@@ -245,7 +245,7 @@ fn flat_way(at: Vec2, sign: f64) -> Pose {
     Pose { at, heading_rad: if sign > 0.0 { 0.0 } else { std::f64::consts::PI } }
 }
 
-/// A line up to where it rises over a level.
+/// The part of a line before it rises above a level.
 fn clipped(line: &[Vec2], level_m: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = Vec::new();
     for p in line {

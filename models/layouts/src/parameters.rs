@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Fewest and most arms that meet.
 pub const ARMS: (usize, usize) = (3, 6);
-/// Least width of a strip that is one, metres.
+/// Least width of a strip, metres; a narrower one is left out.
 const LEAST_STRIP_M: f64 = 0.5;
 /// Least angle between two arms, degrees.
 pub const LEAST_BETWEEN_ARMS_DEG: f64 = 20.0;
@@ -55,7 +55,7 @@ pub enum Turn {
 }
 
 impl Turn {
-    /// The same in the mirror image.
+    /// The turn in the mirror image.
     #[must_use]
     pub(crate) fn mirrored(self) -> Self {
         match self {
@@ -153,7 +153,7 @@ impl Default for Arm {
 }
 
 impl Arm {
-    /// With so many lanes in and out, leading there.
+    /// An arm with this angle and these numbers of lanes.
     pub(crate) fn leading(angle_deg: f64, lanes_in: u8, lanes_out: u8) -> Self {
         Self { angle_deg, lanes_in, lanes_out, ..Self::default() }
     }
@@ -210,7 +210,7 @@ impl From<Connection> for LaneIds {
 }
 
 impl Connection {
-    /// Lanes towards the junction and away from it that the arms have.
+    /// Whether the arms have its lane towards the junction, and its lane away from it.
     pub(crate) fn is_of(&self, arms: &[Arm]) -> [bool; 2] {
         let lanes = |[arm, lane]: [usize; 2], count: fn(&Arm) -> u8| {
             arms.get(arm).is_some_and(|arm| lane < usize::from(count(arm)))
@@ -232,7 +232,7 @@ pub struct Connections {
 }
 
 impl Connections {
-    /// There are none.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.added.is_empty() && self.removed.is_empty()
     }
@@ -524,7 +524,7 @@ impl Default for CarPark {
     }
 }
 
-/// A strip that is too narrow to be one is none.
+/// Removes a strip that is too narrow.
 fn strip(width_m: &mut f64) {
     if *width_m < LEAST_STRIP_M {
         *width_m = 0.0;

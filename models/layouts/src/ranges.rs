@@ -1,4 +1,4 @@
-//! Ranges of the parameters: those of their own schema, and the least angle between arms.
+//! Ranges of the parameters: those of their schema, and the least angle between arms.
 
 use crate::parameters::{Arm, LEAST_BETWEEN_ARMS_DEG};
 use crate::{CarPark, Connections, Junction, Layout, Merge, Road, Roundabout};
@@ -10,14 +10,14 @@ use std::sync::LazyLock;
 /// Most faults that are listed.
 const MOST_FAULTS: usize = 32;
 
-/// What is wrong with a parameter.
+/// A fault of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterFault {
     /// JSON pointer below the parameters.
     pub pointer: String,
-    /// What was found and what was expected, for people.
+    /// The value found and the value expected, for people.
     pub reason: String,
-    /// Least and greatest value and the one found, for a number out of its range.
+    /// Least value, greatest value and the value found, for a number outside its range.
     pub range: Option<(f64, f64, f64)>,
 }
 
@@ -40,7 +40,7 @@ impl ParameterFault {
         }
         let text = error.inner().to_string();
         let text = text.split_once(", expected struct ").map_or(text.clone(), |(found, _)| {
-            // The type's name means nothing to the author of the document.
+            // The name of the type means nothing to the author of the document.
             format!("{found}, expected an object")
         });
         Self::new(pointer, text.chars().take(300).collect::<String>())
@@ -54,7 +54,8 @@ static SCHEMAS: LazyLock<[Value; 5]> = LazyLock::new(|| {
     [of::<Junction>(), of::<Roundabout>(), of::<Merge>(), of::<Road>(), of::<CarPark>()]
 });
 
-/// Range of each number among the parameters, by kind of layout and place, such as `junction` and `arms.lanes_in`.
+/// Range of each number among the parameters, by kind of layout and path, such as `junction` and
+/// `arms.lanes_in`.
 pub fn all() -> BTreeMap<&'static str, BTreeMap<String, [f64; 2]>> {
     let names = ["junction", "roundabout", "merge", "road", "car_park"];
     let of = |schema: &Value| {
@@ -83,7 +84,7 @@ fn collect(root: &Value, schema: &Value, place: &str, ranges: &mut BTreeMap<Stri
     }
 }
 
-/// Everything that is wrong with the parameters of a layout.
+/// All faults of the parameters of a layout.
 pub fn faults(layout: &Layout) -> Vec<ParameterFault> {
     let schema = match layout {
         Layout::ThreeArms(_) | Layout::FourArms(_) => &SCHEMAS[0],
@@ -122,14 +123,14 @@ pub fn faults(layout: &Layout) -> Vec<ParameterFault> {
     faults
 }
 
-/// Numbers and lengths of lists against the schema of all.
+/// Checks numbers and lengths of lists against the schema.
 fn within(root: &Value, schema: &Value, value: &Value, pointer: &str, faults: &mut Vec<ParameterFault>) {
     if let Some(name) = schema["$ref"].as_str() {
         let at = name.trim_start_matches('#');
         return root.pointer(at).map_or((), |schema| within(root, schema, value, pointer, faults));
     }
     match value {
-        // JSON has no number that is not finite: serde writes it as null.
+        // JSON has no infinite numbers or NaN: serde writes them as null.
         Value::Null if !optional(schema) => {
             faults.push(ParameterFault::new(pointer, "a finite number expected"));
         }
@@ -170,7 +171,7 @@ fn optional(schema: &Value) -> bool {
     schema["type"].as_array().is_some_and(|types| types.iter().any(|kind| kind == "null"))
 }
 
-/// Lanes that connections name are there, and none is there and not there.
+/// Checks that lanes of connections exist, and that none is both added and removed.
 fn connect(junction: &Junction, faults: &mut Vec<ParameterFault>) {
     let Connections { added, removed } = &junction.connections;
     for (list, connections) in [("added", added), ("removed", removed)] {

@@ -1,4 +1,4 @@
-//! One road, straight or bent; with kerbs that come nearer at a crosswalk where cars are parked.
+//! One road, straight or bent; its kerbs come closer at a crosswalk if cars are parked.
 
 use crate::curve::{arc, left_of, length, parallel, straight, tidy};
 use crate::draft::MapDraft;
@@ -10,15 +10,15 @@ use scene::geometry::direction;
 use scene::map::LaneType;
 use std::f64::consts::FRAC_PI_2;
 
-/// No parking so far before and behind a crosswalk, metres, and over this length the kerb comes nearer.
+/// Length before and behind a crosswalk without parking, metres; over it, the kerb comes closer.
 const NO_PARKING_M: f64 = 7.0;
 const TAPER_M: f64 = 2.5;
-/// Speed bumps lie so far from the crosswalk, and are so long, metres.
+/// Distance of speed bumps from the crosswalk, and their length, metres.
 const BUMP_AWAY_M: f64 = 22.0;
 const BUMP_M: f64 = 2.4;
-/// A bend leaves so much to the inner kerb, metres.
+/// Least radius of a bend at its inner rim, metres.
 const INSIDE_M: f64 = 8.0;
-/// Straight beginning and end, at least, metres.
+/// Least length of the straight beginning and end, metres.
 const STRAIGHT_M: f64 = 20.0;
 
 pub fn draw(road: &Road) -> MapDraft {
@@ -91,7 +91,7 @@ pub fn draw(road: &Road) -> MapDraft {
     draft
 }
 
-/// The line of the road, its middle at the origin of the scene as near as may be.
+/// The axis of the road, with its middle as near to the origin of the scene as possible.
 fn axis(road: &Road, profile: &Profile) -> Vec<Vec2> {
     let bend_deg = match road.traffic {
         Traffic::RightHand => road.bend_deg,
@@ -130,7 +130,7 @@ fn at(line: &[Vec2], s_m: f64) -> (Vec2, Vec2) {
     (line[0], Vec2::new(1.0, 0.0))
 }
 
-/// A place at an offset to the left of the line, metres; smooth where the line bends.
+/// The position at an offset to the left of the line, metres; smooth in bends.
 fn beside(axis: &[Vec2], s_m: f64, left_m: f64) -> Vec2 {
     let total = length(axis);
     let (before, after) = (at(axis, (s_m - 0.4).max(0.0)).1, at(axis, (s_m + 0.4).min(total)).1);
@@ -138,7 +138,7 @@ fn beside(axis: &[Vec2], s_m: f64, left_m: f64) -> Vec2 {
     at(axis, s_m).0 + left_of(way) * left_m
 }
 
-/// Where the kerb has points: close together in a bend and at the crosswalk.
+/// Positions of the points of a kerb: close together in a bend and at the crosswalk.
 fn stations(road: &Road, length_m: f64) -> Vec<f64> {
     let step = if road.bend_deg.abs() > 0.1 { 2.0 } else { 10.0 };
     let count = (length_m / step).ceil() as usize;
@@ -209,7 +209,7 @@ fn crosswalk(draft: &mut MapDraft, road: &Road, profile: &Profile, axis: &[Vec2]
     }
 }
 
-/// Pavements; where a crosswalk ends they are cut, so that people turn there.
+/// Pavements; they are cut at the end of a crosswalk, so that people turn there.
 fn sidewalks(draft: &mut MapDraft, road: &Road, axis: &[Vec2], halves_m: [f64; 2], length_m: f64) {
     let behind_m = road.sidewalk_m / 2.0 + 0.2;
     for (side, sign) in [(0, -1.0), (1, 1.0)] {
@@ -218,7 +218,7 @@ fn sidewalks(draft: &mut MapDraft, road: &Road, axis: &[Vec2], halves_m: [f64; 2
             draft.sidewalk(line, road.sidewalk_m, false);
             continue;
         }
-        // Beside the crosswalk the pavement reaches out to its kerb.
+        // Beside the crosswalk, the pavement extends to its kerb.
         let count = (length_m / 4.0).ceil() as usize;
         let place = |s: f64| {
             let near = (1.0 - ((s - length_m / 2.0).abs() - 2.0).max(0.0) / 8.0).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! A road along a line: lanes of both directions, cycle lanes, strips for parked cars, paint, a raised middle.
+//! A road along a line: lanes of both directions, cycle lanes, strips for parked cars, paint, a median.
 
 use crate::curve::{self, tidy};
 use crate::draft::MapDraft;
@@ -7,16 +7,16 @@ use scene::geometry::direction;
 use scene::map::LaneType;
 use std::f64::consts::PI;
 
-/// A strip in the middle narrower than this is painted, not raised, metres.
+/// A narrower median is painted, not raised, metres.
 const RAISED_M: f64 = 0.8;
-/// Paved between the outer lane and the kerb, metres.
+/// Paved width between the outer lane and the kerb, metres.
 pub const GAP_M: f64 = 0.4;
-/// Room between a raised strip and the lanes, metres.
+/// Distance between a raised median and the lanes, metres.
 const GUTTER_M: f64 = 0.2;
 /// Solid lines separate lanes over this length before a stop line, metres.
 pub const SOLID_M: f64 = 20.0;
 
-/// What lies across a road.
+/// Cross-section of a road.
 #[derive(Clone, Debug)]
 pub struct Profile {
     /// Lanes along the line (right of it) and against it (left of it).
@@ -55,16 +55,17 @@ pub struct Plan<'a> {
     pub profile: &'a Profile,
     /// The line.
     pub axis: &'a [Vec2],
-    /// Width of the strip in the middle at each of its points, metres.
+    /// Width of the median at each point of the line, metres.
     pub median_m: &'a [f64],
-    /// The strip is raised up to this distance from the beginning, metres.
+    /// The median is raised up to this distance from the beginning, metres.
     pub raised_m: f64,
-    /// Traffic against the line has a stop line at the beginning; traffic along it at the end.
+    /// Whether traffic against the line has a stop line at its beginning, and traffic along it at its end.
     pub stops: [bool; 2],
 }
 
 impl Profile {
-    /// From the line to the kerb right (0) and left (1) of it where the strip in the middle has its own width, metres.
+    /// Distance from the line to the kerb to the right (0) and left (1), with the median at its nominal
+    /// width, metres.
     pub fn half_m(&self, side: usize) -> f64 {
         self.kerb_m(side, self.median_m)
     }
@@ -77,7 +78,7 @@ impl Profile {
         self.middle_m(median_m) / 2.0 + lanes as f64 * self.lane_m + self.cycle_m + self.parking_m + GAP_M
     }
 
-    /// Width of the strip in the middle; a one-way road has none.
+    /// Width of the median; a one-way road has none.
     pub fn middle_m(&self, median_m: f64) -> f64 {
         if self.lanes.contains(&0) { 0.0 } else { median_m }
     }
@@ -106,14 +107,14 @@ impl Plan<'_> {
         self.offset(side, profile.kerb_m(side, 0.0))
     }
 
-    /// Draws lanes and paint. Kerbs are the caller's.
+    /// Draws lanes and paint. The caller draws the kerbs.
     pub fn draw(&self, draft: &mut MapDraft) -> Roadway {
         let [right, left] = [0, 1].map(|side| self.side(draft, side));
         self.middle(draft, &right, &left);
         Roadway { right, left }
     }
 
-    /// In the direction of the traffic of a side.
+    /// The line in the direction of traffic of a side.
     fn driven(side: usize, mut line: Vec<Vec2>) -> Vec<Vec2> {
         if side == 1 {
             line.reverse();
@@ -214,7 +215,7 @@ impl Plan<'_> {
         }
     }
 
-    /// The raised strip, counter-clockwise, with round ends; square where it leaves the map.
+    /// The raised median, counter-clockwise, with round ends; square at the rim of the map.
     fn island(&self) -> Option<Vec<Vec2>> {
         let mut at_m = 0.0;
         let mut kept = Vec::new();
@@ -244,7 +245,7 @@ impl Plan<'_> {
         let mut ring = Vec::new();
         ring.append(&mut right);
         if whole && !self.stops[1] {
-            // Just short of the rim, so that the island stays a hole of the ground.
+            // Just short of the rim, so that the island stays a hole in the ground.
             let back = (points[last - 1] - points[last]).normalize() * 0.05;
             let count = ring.len();
             ring[count - 1] += back;
@@ -266,7 +267,7 @@ impl Plan<'_> {
     }
 }
 
-/// Cuts a line at a distance from its beginning; what is behind it.
+/// Cuts a line at a distance from its beginning; returns the rest.
 fn split(line: &mut Vec<Vec2>, at_m: f64) -> Vec<Vec2> {
     let mut s = 0.0;
     for i in 1..line.len() {

@@ -1,4 +1,4 @@
-//! Roads that meet at a ring, which goes round counter-clockwise and has the right of way.
+//! Roads that meet at a ring, which is driven counter-clockwise and has the right of way.
 
 use crate::curve::{Pose, arc, join, left_of, parallel, straight, tidy};
 use crate::draft::{CornerPlace, MapDraft, place};
@@ -9,16 +9,16 @@ use scene::Vec2;
 use scene::map::LaneType;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Greatest angle between the arm's middle and the place where an entry or exit meets the ring, radians, and
-/// greatest share of the angle to the next arm.
+/// Greatest angle between the arm's middle and the point where an entry or exit meets the ring, radians.
+/// Below it, that angle's greatest share of the angle to the next arm.
 const ENTRY_RAD: f64 = 0.72;
 const ENTRY_SHARE: f64 = 0.46;
 /// Smallest radius of a kerb, metres.
 const LEAST_KERB_M: f64 = 0.5;
-/// Over this length the directions of an arm part, metres, and so much of the strip between them is raised.
+/// Length over which the directions of an arm diverge, and length of the raised median there, metres.
 const FLARE_M: f64 = 26.0;
 const RAISED_M: f64 = 14.0;
-/// Beyond the ring every arm is at least so long, metres.
+/// Least length of every arm beyond the ring, metres.
 const LEAST_ROAD_M: f64 = 45.0;
 
 /// A kerb from arm to arm: where it touches the arms (metres from the middle) and the ring (angles).
@@ -30,7 +30,7 @@ struct Corner {
 }
 
 struct Ring {
-    /// Radii of the middle of each lane, from the island outwards.
+    /// Radii of the centre lines of the lanes, from the island outwards.
     lanes_m: Vec<f64>,
     inner_m: f64,
     outer_m: f64,
@@ -103,7 +103,7 @@ fn ring(layout: &Roundabout, spokes: &[Spoke]) -> Ring {
     }
 }
 
-/// Where kerbs leave arms for the ring, and so where the arms begin.
+/// The points where kerbs leave the arms, which are the beginnings of the arms.
 fn corners(spokes: &mut [Spoke], ring: &Ring, radius_m: f64) -> Vec<Corner> {
     (0..spokes.len())
         .map(|a| {
@@ -130,7 +130,7 @@ fn corners(spokes: &mut [Spoke], ring: &Ring, radius_m: f64) -> Vec<Corner> {
         .collect()
 }
 
-/// An arm's line, and the strip in its middle that widens towards the ring.
+/// An arm's axis, and its median, which widens towards the ring.
 fn flare(spoke: &Spoke) -> (Vec<Vec2>, Vec<f64>) {
     let near = (FLARE_M / 2.0) as usize;
     let mut axis: Vec<Vec2> = (0..near).map(|i| spoke.at(spoke.stop_m + 2.0 * i as f64, 0.0)).collect();
@@ -147,7 +147,8 @@ fn plan<'a>(spoke: &'a Spoke, (axis, median_m): &'a (Vec<Vec2>, Vec<f64>), id: &
     Plan { id, profile: &spoke.profile, axis, median_m, raised_m: RAISED_M, stops: [true, false] }
 }
 
-/// From the arm (0: its left kerb, inwards; 1: its right kerb, outwards) to the ring, so far behind the kerb.
+/// The line from the arm (0: its left kerb, inwards; 1: its right kerb, outwards) to the ring, at this
+/// distance behind the kerb.
 fn fillet(spoke: &Spoke, corner: &Corner, side: usize, behind_m: f64) -> Vec<Vec2> {
     let sign = if side == 0 { 1.0 } else { -1.0 };
     let aside_m = spoke.kerbs_m()[side] + corner.radius_m;
@@ -161,7 +162,7 @@ fn fillet(spoke: &Spoke, corner: &Corner, side: usize, behind_m: f64) -> Vec<Vec
     if side == 0 { line } else { line.into_iter().rev().collect() }
 }
 
-/// A kerb from rim to rim, so far behind, between two distances from the middle on its arms.
+/// A kerb from rim to rim at this distance behind, between two distances from the middle on its arms.
 fn kerb(
     spokes: &[Spoke],
     plans: &[(Vec<Vec2>, Vec<f64>)],
@@ -202,7 +203,7 @@ fn kerbs(
         beside.into_iter().flatten().for_each(|lane| draft.bound(lane, false, &edge));
         ground.extend(line);
     }
-    // Between crosswalk and ring the directions are kept apart, too.
+    // The directions are separated between crosswalk and ring too.
     for spoke in spokes {
         let half_m = spoke.profile.middle_m(spoke.arm.median_m) / 2.0 - 0.2;
         let (near, far) = (ring.outer_m + 1.0, spoke.mouth_m - 0.4);
@@ -226,7 +227,7 @@ fn lanes(draft: &mut MapDraft, spokes: &[Spoke], roads: &[Roadway], ring: &Ring,
     let count = spokes.len();
     let angle = |k: usize| spokes[k].arm.angle_deg.to_radians();
     let share = |k: usize| (ENTRY_SHARE * between(&spokes[k], &spokes[(k + 1) % count])).min(ENTRY_RAD);
-    // Past an arm, and on to the next, by arm and lane of the ring.
+    // Lanes past an arm, and on to the next one, by arm and lane of the ring.
     let (mut past, mut on): (Vec<Vec<usize>>, Vec<Vec<usize>>) = (Vec::new(), Vec::new());
     for k in 0..count {
         let before = (k + count - 1) % count;
@@ -274,7 +275,7 @@ fn lanes(draft: &mut MapDraft, spokes: &[Spoke], roads: &[Roadway], ring: &Ring,
 }
 
 fn connect(draft: &mut MapDraft, from: usize, to: usize, lane_type: LaneType) {
-    // Lanes of the ring are chords of it: their true direction is across the radius.
+    // Lanes of the ring are polylines: their true direction is perpendicular to the radius.
     let on_ring = |pose: Pose| Pose { heading_rad: pose.at.y.atan2(pose.at.x) + FRAC_PI_2, ..pose };
     let ring = |draft: &MapDraft, lane: usize| draft.map.lanes[lane].id.starts_with("ring");
     let (mut a, mut b) = (draft.end(from), draft.start(to));
@@ -314,7 +315,7 @@ fn sidewalks(
     for corner in corners {
         let [first, round, last] = kerb(spokes, plans, corner, ring, behind_m);
         let [a, b] = corner.arms.map(|k| &spokes[k]);
-        // Crosswalks lie just before the arm's line begins.
+        // Crosswalks lie just before the beginning of the arm.
         let cross_m = |spoke: &Spoke| spoke.mouth_m + spoke.arm.crosswalk_m / 2.0;
         let at = |spoke: &Spoke, from: Vec2| {
             let left_m = from.dot(&left_of(spoke.way));

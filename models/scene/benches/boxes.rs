@@ -1,7 +1,7 @@
 //! Cost of box gaps, energies, overlaps of six by six futures and whole-scene scores.
 //!
-//! Run with `cargo bench -p dragtraffic-scene --bench boxes`. Meant to stay below: a gap 50 ns, overlaps of six by
-//! six futures 20 us, a scene of 128 road users over 91 steps 10 ms.
+//! Run with `cargo bench -p dragtraffic-scene --bench boxes`. Targets: a gap below 50 ns, overlaps of six by
+//! six futures below 20 us, a scene of 128 road users over 91 steps below 10 ms.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use scene::geometry::obb::{OrientedBox, iou, signed_gap};
@@ -35,7 +35,7 @@ fn boxes(c: &mut Criterion) {
     });
 }
 
-/// Six futures of a car that sets out along `heading_rad`, each bent a little more than the one before.
+/// Six futures of a car that sets off along `heading_rad`, each bent slightly more than the previous one.
 fn options(x: f64, y: f64, heading_rad: f64) -> Vec<SweptBoxes> {
     let one = |mode: usize| {
         let at = |i: usize| {

@@ -1,7 +1,7 @@
-//! Cost of what is worked out about a map once: it grows with the map, not with its square.
+//! Cost of the data that is computed once per map: linear in its size, not quadratic.
 //!
-//! Run with `cargo bench -p dragtraffic-scene --bench maps`. Time for each piece of a lane is meant to stay within a
-//! factor of 1.5 from one size to the double one.
+//! Run with `cargo bench -p dragtraffic-scene --bench maps`. Target: when the size doubles, the time per
+//! piece of a lane grows by a factor of at most 1.5.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use scene::geometry::crowding::Crowding;

@@ -101,14 +101,14 @@ impl State {
     }
 }
 
-/// States on consecutive steps from `first_step`; `None` where the road user was not seen.
+/// States on consecutive steps from `first_step`; `None` at a step at which the road user was not seen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Track {
     /// Scene step of `states[0]`.
     pub first_step: usize,
-    /// One entry a step.
+    /// One entry per step.
     pub states: Vec<Option<State>>,
-    /// Heights beside `states` (same length), when the source has them.
+    /// Heights, parallel to `states`, if the source has them.
     pub z_m: Option<Vec<f64>>,
 }
 
@@ -152,12 +152,12 @@ pub struct Agent {
     pub size: Size,
     /// The recording, or only the start for an agent without one.
     pub track: Shared<Track>,
-    /// What the user fixed.
+    /// Conditions that the user fixed.
     pub conditions: Conditions,
 }
 
 impl Agent {
-    /// Of the usual size, from the first step on; nothing is fixed.
+    /// A road user of the default size, present from the first step on, without conditions.
     pub fn bare(
         id: impl Into<AgentId>,
         agent_type: AgentType,
@@ -175,12 +175,12 @@ impl Agent {
         }
     }
 
-    /// Logged state at `step`, with its heading wrapped.
+    /// Recorded state at `step`, with its heading wrapped.
     pub fn state_at(&self, step: usize) -> Option<State> {
         self.track.at(step).map(|s| State { heading_rad: wrap_angle(s.heading_rad), ..*s })
     }
 
-    /// The type that the user set, else its own. It selects the expert.
+    /// The type that the user set, else the recorded one. It selects the expert.
     pub fn kind(&self) -> AgentType {
         self.conditions.kind_of(self)
     }

@@ -17,7 +17,7 @@ pub struct Start {
     pub speed_mps: Option<f64>,
 }
 
-/// Where a road user should be at [`Goal::time_s`]. A free field is the generator's to choose.
+/// Where a road user should be at [`Goal::time_s`]. The generator chooses the free fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Goal {
     /// Box centre, metres, scene frame.
@@ -26,12 +26,12 @@ pub struct Goal {
     pub heading_rad: Option<f64>,
     /// m/s, not negative.
     pub speed_mps: Option<f64>,
-    /// Scene time at which the goal is to be met; the end of the horizon when free.
+    /// Scene time at which the goal is due; the end of the horizon if free.
     pub time_s: Option<f64>,
 }
 
 impl Goal {
-    /// True when no field but the time is fixed.
+    /// Whether no field but the time is fixed.
     pub fn is_free(&self) -> bool {
         self.position.is_none() && self.heading_rad.is_none() && self.speed_mps.is_none()
     }
@@ -46,10 +46,10 @@ impl Goal {
     }
 }
 
-/// All a user fixed about one road user. The default fixes nothing.
+/// All conditions that a user fixed for one road user. The default fixes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Conditions {
-    /// Another expert than the road user's own type asks for.
+    /// Type whose expert is used, in place of the road user's own.
     pub agent_type: Option<AgentType>,
     /// Metres.
     pub length_m: Option<f64>,
@@ -59,7 +59,7 @@ pub struct Conditions {
     pub start: Start,
     /// Goal fields.
     pub goal: Goal,
-    /// What the goal is relative to. [`Conditions::goal`] then has what it adds: a time, a speed, or a place.
+    /// What the goal is relative to. [`Conditions::goal`] then holds the rest: a time, a speed, or a place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<GoalRelation>,
     /// Ids of the road edges that it may drive over on its way to the goal, at most [`MAX_CROSSED_EDGES`].
@@ -71,18 +71,18 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// True when nothing at all is fixed.
+    /// Whether nothing is fixed.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Places in [`Conditions::may_cross`] of ids that are no road edge of this map.
+    /// Indices into [`Conditions::may_cross`] of ids that are not a road edge of this map.
     pub fn unknown_edges(&self, map: &LaneMap) -> Vec<usize> {
         let known = |id: &String| map.road_edges.iter().any(|edge| edge.id == *id);
         (0..self.may_cross.len()).filter(|i| !known(&self.may_cross[*i])).collect()
     }
 
-    /// The box of a road user that has this one by itself.
+    /// Size of a road user under these conditions, if `own` is its own size.
     pub fn size_of(&self, own: Size) -> Size {
         Size {
             length_m: self.length_m.unwrap_or(own.length_m),
@@ -91,7 +91,7 @@ impl Conditions {
         }
     }
 
-    /// What a road user counts as under these conditions.
+    /// Type of a road user under these conditions.
     pub fn kind_of(&self, agent: &Agent) -> AgentType {
         self.agent_type.unwrap_or(agent.agent_type)
     }

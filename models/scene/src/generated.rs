@@ -1,4 +1,4 @@
-//! Futures that the generator made, as they are kept with a scene.
+//! Generated futures, as they are stored with a scene.
 
 use crate::judge::{About, Reaction};
 use crate::{AgentId, State};
@@ -8,15 +8,16 @@ use std::collections::BTreeMap;
 /// One possible motion of one road user.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Future {
-    /// Share of belief among the road user's futures; they sum to one.
+    /// Probability among the road user's futures; they sum to one.
     pub probability: f64,
-    /// Which of the generator's anchors it follows: names the same idea from one answer to the next.
+    /// Number of the generator's anchor that it follows. It identifies the same manoeuvre from one answer to
+    /// the next.
     pub anchor: Option<u32>,
     /// Scene step of `states[0]`: one after the start.
     pub first_step: usize,
-    /// One state a step, without gaps.
+    /// One state per step, without gaps.
     pub states: Vec<State>,
-    /// Verdicts on the future; default if it was not judged.
+    /// Verdicts on the future; the default if it was not judged.
     #[serde(flatten)]
     pub about: About,
 }
@@ -35,12 +36,12 @@ pub struct AgentFutures {
     pub chosen: usize,
     /// By falling probability, never empty.
     pub modes: Vec<Future>,
-    /// The reaction that replaced its motion; `None` for an agent that the call regenerates.
+    /// The reaction that replaced its motion; `None` for an agent that the call regenerated.
     pub reaction: Option<Reaction>,
 }
 
 impl AgentFutures {
-    /// Futures of an agent that the call regenerates.
+    /// Futures of an agent that the call regenerated.
     pub fn of(chosen: usize, modes: Vec<Future>) -> Self {
         Self { chosen, modes, reaction: None }
     }
@@ -49,28 +50,28 @@ impl AgentFutures {
 /// One coherent answer for all regenerated road users.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Sample {
-    /// By road user.
+    /// Futures by road user.
     pub agents: BTreeMap<AgentId, AgentFutures>,
-    /// Score object of this sample as the API gave it; carried, never read.
+    /// Score of this sample as the API returned it; stored but never interpreted.
     pub score: serde_json::Value,
 }
 
 /// Generated futures of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Generated {
-    /// Hash of the user part that these futures answer.
+    /// Hash of the scene's user part for which these futures were made.
     pub input_sha256: String,
     /// The user part has changed since.
     pub stale: bool,
-    /// Expert name to weights hash.
+    /// Hash of the weights, by name of the expert.
     pub weights: BTreeMap<String, String>,
-    /// Seed that repeats the answer.
+    /// Seed with which the answer can be repeated.
     pub seed: u64,
-    /// The request's options as sent.
+    /// The request's options as they were sent.
     pub request: serde_json::Value,
     /// Licence of the answer where it is stricter than the scene's own: that of the weights.
     pub licence: Option<String>,
-    /// RFC 3339 time; empty where no clock was read.
+    /// RFC 3339 time; empty if no clock was read.
     pub created_at: String,
     /// Index into `samples`.
     pub chosen_sample: usize,

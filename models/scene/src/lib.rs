@@ -1,17 +1,17 @@
 //! Data model of a traffic scene: lane map, signals, road users with their tracks, the conditions that the
-//! user fixed, and the motion that each of them can make.
+//! user fixed, and the motions that each of them can make.
 //!
-//! Units and frame everywhere: metres, seconds, radians; x east, y north, heading counter-clockwise
-//! from +x, wrapped to [-pi, pi); time zero is the first step; one step is [`STEP_S`].
+//! Units and frame everywhere: metres, seconds, radians; x east, y north, heading counter-clockwise from +x,
+//! wrapped to [-pi, pi); time zero is the first step; one step is [`STEP_S`].
 //!
-//! No files, no network, no tensors. Once a value exists here it is right by its type: outside data
-//! becomes a [`Scene`] in one fallible step ([`Scene::checked`]).
+//! No files, no network, no tensors. A value of this crate is valid by its type: outside data becomes a
+//! [`Scene`] in one fallible step ([`Scene::checked`]).
 //!
 //! ```
 //! use scene::score::{Drivable, ScoreInput, score};
 //! use scene::{Agent, AgentType, LaneMap, STEP_S, Scene, State, Subtype};
 //!
-//! // One car at 15 m/s behind another at 5 m/s, 24 m ahead.
+//! // A car at 15 m/s, and 24 m ahead of it a car at 5 m/s.
 //! let drive = |id: &str, x: f64, speed: f64| {
 //!     let at = |step: i32| State { x_m: x + speed * STEP_S * f64::from(step), vx_mps: speed, ..State::default() };
 //!     Agent::bare(id, AgentType::Vehicle, Subtype::Car, (0..91).map(|step| Some(at(step))).collect())
@@ -72,12 +72,12 @@ pub use via::{DEFAULT_VIA_TOLERANCE_M, MAX_VIAS, Passing, VIA_TOLERANCE_M, Via};
 pub const STEP_S: f64 = 0.1;
 /// Steps in one planning window (9 s).
 pub const HORIZON_STEPS: usize = 90;
-/// Most steps of one answer, planned window after window (20 s).
+/// Most steps of one answer, over all its planning windows (20 s).
 pub const MAX_HORIZON_STEPS: usize = 200;
-/// Control knots of a future, one a second from 0 to 9 s (more fit recorded motion no better). One
-/// less than them divides the horizon's steps.
+/// Control knots of a future, one per second from 0 to 9 s (more do not fit recorded motion better). Their
+/// number minus one divides the horizon's steps.
 pub const KNOTS: usize = 10;
-/// Agents slower than this stand, m/s: recordings give waiting road users speeds up to it.
+/// Agents slower than this count as standing, m/s: recordings show waiting road users with speeds up to it.
 pub const STANDING_MPS: f64 = 0.3;
 /// Steps from a knot to the next.
 pub const KNOT_STEPS: usize = HORIZON_STEPS / (KNOTS - 1);

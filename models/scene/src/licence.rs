@@ -1,10 +1,10 @@
-//! Licences of what is made from several sources: the strictest one holds for the whole.
+//! Licences of products of several sources: the strictest one applies to the whole.
 
-/// Licence of data without a stated one.
+/// Licence of data that states none.
 pub const UNKNOWN: &str = "unknown";
 
-/// How much a licence asks, by the words that importers set; an unknown one may ask anything but that nothing be
-/// sold.
+/// Strictness of a licence, by the words that importers set. An unknown licence counts as stricter than all
+/// others except non-commercial ones.
 fn strictness(licence: &str) -> u8 {
     let words: Vec<String> =
         licence.to_ascii_lowercase().split(['-', ' ', '_', '.']).map(str::to_owned).collect();
@@ -19,18 +19,18 @@ fn strictness(licence: &str) -> u8 {
     }
 }
 
-/// For non-commercial use only: Waymo's and Argoverse's terms, by the word that importers set.
+/// Whether use must be non-commercial: Waymo's and Argoverse's terms, by the word that importers set.
 pub fn is_noncommercial(licence: &str) -> bool {
     strictness(licence) == 5
 }
 
-/// Asks for nothing but, at most, that authors are named in copies of a program.
+/// Whether the licence demands at most that copies of a program name its authors.
 pub fn is_open(licence: &str) -> bool {
     strictness(licence) <= 1
 }
 
-/// The licence of what is made from all of these; several that are as strict hold together. `None` where nothing
-/// was used.
+/// The licence of a product of all these sources; equally strict licences apply together. `None` if there are
+/// none.
 pub fn strictest<'a>(licences: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let parts: Vec<&str> = licences.into_iter().flat_map(|licence| licence.split(" AND ")).collect();
     let most = parts.iter().map(|part| strictness(part)).max()?;

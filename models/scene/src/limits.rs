@@ -1,5 +1,5 @@
-//! The two tables of how each kind of road user moves: what is possible, and what drivers do. Planning, projection,
-//! scoring and tests read them.
+//! The two tables of motion limits per kind of road user: what is physically possible, and what drivers do.
+//! Planning, projection, scoring and tests read them.
 
 use crate::{AgentType, Subtype};
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ pub struct DrivingManner {
 }
 
 impl DrivingManner {
-    /// The manner between this one (0) and another (1).
+    /// Interpolates between this manner (0) and another (1).
     pub fn towards(self, other: Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + share * (b - a);
         Self {
@@ -28,13 +28,13 @@ impl DrivingManner {
     }
 }
 
-/// Bounds of motion of one kind of road user. An answer never breaks what is possible. It leaves the hurried manner
-/// only where a goal or another road user forces it, and takes the comfortable one where there is time.
+/// Motion limits of one kind of road user. An answer never exceeds the physical ones. It leaves the hurried
+/// manner only if a goal or another road user forces it, and uses the comfortable one if there is time.
 ///
-/// What is possible follows the 99 % tails measured on recorded tracks, and the bounds that Waymax takes.
+/// The physical limits follow the 99 % tails measured on recorded tracks, and the bounds of Waymax.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
-    /// Greatest speeding up, m/s2.
+    /// Greatest acceleration, m/s2.
     pub accel_mps2: f64,
     /// Greatest braking, m/s2, positive.
     pub brake_mps2: f64,
@@ -44,11 +44,11 @@ pub struct Limits {
     pub curvature_per_m: f64,
     /// Top speed, m/s.
     pub speed_mps: f64,
-    /// Where there is time.
+    /// Manner if there is time.
     pub comfortable: DrivingManner,
-    /// Where time presses: recorded vehicles stay below 3.2 m/s2 sideways in 99 %.
+    /// Manner under time pressure: 99 % of recorded vehicles stay below 3.2 m/s2 sideways.
     pub hurried: DrivingManner,
-    /// Reference point behind the box centre, in lengths.
+    /// Distance of the reference point behind the box centre, as a share of the length.
     pub reference_offset: f64,
 }
 
@@ -100,7 +100,7 @@ impl Limits {
         }
     }
 
-    /// The same limits without what a manner leaves out.
+    /// The same limits, lowered to those of a manner.
     pub fn within(self, manner: DrivingManner) -> Self {
         Self {
             accel_mps2: self.accel_mps2.min(manner.accel_mps2),

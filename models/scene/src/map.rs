@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Points {
     /// Corners in order.
     pub xy: Vec<Vec2>,
-    /// Heights beside `xy` (same length), when the source has them.
+    /// Heights, parallel to `xy`, if the source has them.
     pub z_m: Option<Vec<f64>>,
 }
 
@@ -35,7 +35,7 @@ pub enum LaneType {
 }
 
 impl LaneType {
-    /// Width assumed where a lane gives none, metres.
+    /// Width assumed if a lane gives none, metres.
     pub fn assumed_width_m(self) -> f64 {
         match self {
             Self::BikeLane => 1.8,
@@ -44,12 +44,12 @@ impl LaneType {
         }
     }
 
-    /// Motor vehicles drive here.
+    /// Whether motor vehicles drive here.
     pub fn carries_vehicles(self) -> bool {
         matches!(self, Self::Undefined | Self::Freeway | Self::SurfaceStreet | Self::BusLane)
     }
 
-    /// Cyclists ride here.
+    /// Whether cyclists ride here.
     pub fn carries_cyclists(self) -> bool {
         matches!(self, Self::Undefined | Self::SurfaceStreet | Self::BikeLane | Self::BusLane)
     }
@@ -60,15 +60,15 @@ impl LaneType {
 pub struct Boundary {
     /// Id of the road line or edge.
     pub line: String,
-    /// First point index of the lane it bounds.
+    /// First index of the lane's points that it bounds.
     pub from: usize,
-    /// Last point index of the lane it bounds.
+    /// Last index of the lane's points that it bounds.
     pub to: usize,
     /// WOMD's boundary type number, kept for export.
     pub kind: Option<u32>,
 }
 
-/// A lane beside this one, over point index ranges of both.
+/// A neighbouring lane, over ranges of point indices of both lanes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Neighbor {
     /// Id of the other lane.
@@ -77,7 +77,7 @@ pub struct Neighbor {
     pub own_range: (usize, usize),
     /// First and last point index on the other lane.
     pub other_range: (usize, usize),
-    /// Lines between the two, over the *other* lane's indices as in the source.
+    /// Lines between the two, with indices of the *other* lane as in the source.
     pub boundaries: Vec<Boundary>,
 }
 
@@ -102,7 +102,7 @@ pub struct Lane {
 }
 
 impl Lane {
-    /// A street of which nothing but its centre line is known.
+    /// A street of which only the centre line is known.
     pub fn street(id: impl Into<String>, points: impl Into<Points>) -> Self {
         Self {
             id: id.into(),
@@ -120,7 +120,7 @@ impl Lane {
         }
     }
 
-    /// Width, assumed from the type where the source gives none, metres.
+    /// Width; assumed from the type if the source gives none, metres.
     pub fn width_or_assumed_m(&self) -> f64 {
         self.width_m.unwrap_or_else(|| self.lane_type.assumed_width_m())
     }
@@ -163,7 +163,7 @@ pub struct Area {
 }
 
 impl Area {
-    /// The point lies inside the outer ring, or at most `beside_m` from it.
+    /// Whether the point lies inside the outer ring, or at most `beside_m` from it.
     pub fn is_near(&self, point: Vec2, beside_m: f64) -> bool {
         let ring = &self.polygon.xy;
         let mut inside = false;
@@ -216,7 +216,7 @@ impl LaneMap {
         open.chain(rings.map(|ring| (&*ring.xy, true)))
     }
 
-    /// All its areas, whatever they are.
+    /// All its areas of every kind.
     pub fn areas(&self) -> impl Iterator<Item = &Area> {
         [&self.crosswalks, &self.speed_bumps, &self.driveways, &self.drivable].into_iter().flatten()
     }

@@ -43,7 +43,7 @@ impl Message {
 }
 
 impl Message {
-    /// The same sentence about a line of a text file, from 1.
+    /// Adds the line of a text file, from 1.
     #[must_use]
     pub fn at_line(mut self, line: impl Into<u64>) -> Self {
         let line = line.into();
@@ -64,18 +64,19 @@ impl fmt::Display for Message {
 /// A row of the table of sentences.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MessageKind {
-    /// Names the sentence.
+    /// Stable name of the sentence.
     pub code: &'static str,
     /// The sentence in English, its placeholders in braces.
     pub english: &'static str,
-    /// The sentence for a count of one, where it differs.
+    /// The sentence for a count of one, if it differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub one: Option<&'static str>,
     /// Names of its values.
     pub values: &'static [&'static str],
 }
 
-/// What can fill a placeholder: its `Display` is its English, [`value`](Self::value) stands in the document.
+/// A value of a placeholder: its `Display` is the English text, [`value`](Self::value) the value in the
+/// document.
 pub trait Placeholder: fmt::Display {
     /// The value in the document; `None` leaves it out.
     fn value(&self) -> Option<MessageValue>;
@@ -117,12 +118,12 @@ impl<T: Placeholder + ?Sized> Placeholder for &T {
     }
 }
 
-/// A word of a fixed list: its code stands in the document, its English in the sentence.
+/// A word of a fixed list: the document holds its code, the sentence its English.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// Stands in the document.
+    /// Code in the document.
     pub code: &'static str,
-    /// Stands in the sentence.
+    /// English word in the sentence.
     pub english: &'static str,
 }
 
@@ -167,7 +168,7 @@ macro_rules! messages {
     };
 }
 
-/// Declares the words of a list, which stand in documents as they are in English, and its table `WORDS`.
+/// Declares a list of words, which are the same in documents and in English, and its table `WORDS`.
 #[macro_export]
 macro_rules! words {
     ($($name:ident = $english:literal;)*) => {

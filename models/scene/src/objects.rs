@@ -1,5 +1,5 @@
-//! Objects are objects: serde's derived readers take a list in an object's place as well, its members in order,
-//! so that a misplaced list would be read as something else.
+//! Accepts only objects for structs. Serde's derived readers also accept a list of the members in order, so a
+//! misplaced list would be misread.
 
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,

@@ -1,5 +1,5 @@
-//! Random numbers that depend on nothing but what they are for, so that neither the order of road users, nor the
-//! batch, nor the number of threads changes a byte. The one place where random numbers come from.
+//! Random numbers that depend only on their purpose, so that neither the order of road users, nor the batch,
+//! nor the number of threads changes a byte. All random numbers come from here.
 //!
 //! ```
 //! use scene::random::Key;
@@ -14,28 +14,28 @@ use rand_chacha::ChaCha12Rng;
 use rand_distr::{Beta, Distribution, Exp1, Poisson};
 use std::f64::consts::TAU;
 
-/// What a stream of numbers is for: numbers and words, folded by BLAKE3 in the order given.
+/// The purpose of a stream: numbers and words, hashed by BLAKE3 in the given order.
 ///
-/// Words are folded as they are. Put a number between two of them, or two keys may run together.
+/// Words are hashed without a separator. Put a number between two of them, or two keys may coincide.
 #[derive(Clone, Debug, Default)]
 pub struct Key(blake3::Hasher);
 
 impl Key {
-    /// With a number: a seed, a sample, a step.
+    /// Adds a number: a seed, a sample, a step.
     #[must_use]
     pub fn number(mut self, number: u64) -> Self {
         self.0.update(&number.to_le_bytes());
         self
     }
 
-    /// With a word: a purpose, a road user's id.
+    /// Adds a word: a purpose, a road user's id.
     #[must_use]
     pub fn text(mut self, text: &str) -> Self {
         self.0.update(text.as_bytes());
         self
     }
 
-    /// With words, each folded behind its length, so that none runs into the next.
+    /// Adds words, each after its length, so that no two lists coincide.
     #[must_use]
     pub fn words(self, words: &[&str]) -> Self {
         words.iter().fold(self, |key, word| key.number(word.len() as u64).text(word))
@@ -52,12 +52,12 @@ impl Key {
 pub struct Stream(ChaCha12Rng);
 
 impl Stream {
-    /// Even over 0 .. 1, in steps of 2^-53.
+    /// Uniform in 0 .. 1, in steps of 2^-53.
     pub fn unit(&mut self) -> f64 {
         self.0.random()
     }
 
-    /// Even over `low` .. `high`.
+    /// Uniform in `low` .. `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
@@ -67,12 +67,12 @@ impl Stream {
         self.unit() < probability
     }
 
-    /// Even over 0 .. `count`; zero when that is zero.
+    /// Uniform in 0 .. `count`; zero if `count` is zero.
     pub fn below(&mut self, count: usize) -> usize {
         ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
-    /// Index in proportion to the weights, without those that are not positive; `None` if none is positive.
+    /// Index in proportion to the positive weights; `None` if no weight is positive.
     pub fn among(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<usize> {
         let total: f64 = weights.clone().sum();
         let mut left = self.unit() * total;
@@ -87,19 +87,19 @@ impl Stream {
         last.filter(|_| total > 0.0 && total.is_finite())
     }
 
-    /// One of some values.
+    /// One of some values, with equal probability.
     pub fn one_of<T: Copy, const N: usize>(&mut self, values: [T; N]) -> T {
         values[self.below(N)]
     }
 
-    /// One of some values, each in proportion to its weight; the first where no weight is positive.
+    /// One of some values in proportion to its weight; the first if no weight is positive.
     pub fn weighted<T: Copy, const N: usize>(&mut self, values: [(T, f64); N]) -> T {
         let index = self.among(values.iter().map(|(_, weight)| *weight));
         values[index.unwrap_or(0)].0
     }
 
-    /// Two standard normal numbers, by the formula of Box and Muller: answers that have been given rest on its
-    /// bits, and it is the same on every machine.
+    /// Two standard normal numbers by the Box-Muller formula. It gives the same bits on every machine, and
+    /// earlier answers depend on them.
     pub fn normal_pair(&mut self) -> [f64; 2] {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         let (sin, cos) = (TAU * self.unit()).sin_cos();
@@ -116,7 +116,7 @@ impl Stream {
         mean + deviation * self.normal()
     }
 
-    /// The same, held between `low` and `high`.
+    /// The same, clamped to `low` .. `high`.
     pub fn clipped(&mut self, mean: f64, deviation: f64, low: f64, high: f64) -> f64 {
         self.normal_about(mean, deviation).clamp(low, high)
     }
@@ -126,18 +126,17 @@ impl Stream {
         mean * self.draw::<f64>(&Exp1)
     }
 
-    /// How often what happens at random happens, `mean` being how often on average; never where that is not
-    /// positive.
+    /// Poisson number with this mean; zero if the mean is not positive.
     pub fn poisson(&mut self, mean: f64) -> usize {
         Poisson::new(mean).map_or(0, |often| self.draw::<f64>(&often) as usize)
     }
 
-    /// A share of the beta distribution with these two shapes, both positive; a half where one is not.
+    /// Beta distributed share with these two shapes, which must be positive; 0.5 otherwise.
     pub fn beta(&mut self, a: f64, b: f64) -> f64 {
         Beta::new(a, b).map_or(0.5, |share| self.draw(&share))
     }
 
-    /// Of any other distribution.
+    /// A value of any other distribution.
     pub fn draw<T>(&mut self, distribution: &impl Distribution<T>) -> T {
         distribution.sample(&mut self.0)
     }

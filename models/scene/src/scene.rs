@@ -1,4 +1,4 @@
-//! The whole scene and what makes one valid.
+//! The whole scene and its validity checks.
 
 use crate::geometry::crowding::Crowding;
 use crate::message::Message;
@@ -23,18 +23,18 @@ pub const MAX_POLYLINES: usize = 20_000;
 pub const MAX_MAP_POINTS: usize = 400_000;
 /// Most corners of all areas of a map.
 pub const MAX_AREA_CORNERS: usize = 250_000;
-/// Most lanes that follow a lane, lead to it or obey a stop sign, and most stretches beside a lane.
+/// Most successors, predecessors or stop signs' lanes of a lane, and most stretches beside a lane.
 pub const MAX_LANE_LINKS: usize = 64;
-/// Most links of a map's lanes in all: to other lanes, to lines beside them, and of stop signs.
+/// Most links of a map's lanes in total: to other lanes, to lines beside them, and of stop signs.
 pub const MAX_MAP_LINKS: usize = 200_000;
 /// Most points in one polyline.
 pub const MAX_POLYLINE_POINTS: usize = 4_096;
 /// Most signals.
 pub const MAX_SIGNALS: usize = 512;
-/// Farthest a coordinate may lie from the origin, metres.
+/// Greatest coordinate, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 
-/// Stretches of a lane's side that count as one link.
+/// Number of stretches of a lane's side that count as one link.
 const BOUNDARIES_A_LINK: usize = 4;
 
 /// The motion of an agent before the start, as far as an answer depends on it.
@@ -43,7 +43,7 @@ const BOUNDARIES_A_LINK: usize = 4;
 enum Before {
     /// Hash of the recording.
     Recorded(ContentHash),
-    /// A single state: the agent was placed there.
+    /// A single state, for an agent that was placed there.
     Put { step: usize, position: Vec2, heading_rad: f64, speed_mps: f64 },
 }
 
@@ -64,7 +64,7 @@ impl Before {
     }
 }
 
-/// Where the scene lies in its source's frame: `source = rotate(scene, rotation) + (x, y, z)`.
+/// Position of the scene in its source's frame: `source = rotate(scene, rotation) + (x, y, z)`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct Origin {
@@ -72,11 +72,11 @@ pub struct Origin {
     pub y_m: f64,
     pub z_m: f64,
     pub rotation_rad: f64,
-    /// Coordinate reference system of the source, when it has one.
+    /// Coordinate reference system of the source, if it has one.
     pub crs: Option<String>,
 }
 
-/// Where a scene came from and what people say about it.
+/// Origin of a scene, and its description.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct Meta {
@@ -94,14 +94,14 @@ pub struct Meta {
     pub objects_of_interest: Vec<AgentId>,
     /// WOMD's `tracks_to_predict`: agent id and difficulty.
     pub tracks_to_predict: Vec<(AgentId, u32)>,
-    /// Source times of the steps in seconds, when they are not exactly 0.1 s apart from zero.
+    /// Source times of the steps in seconds, if they are not exactly 0.1 s apart from zero.
     pub timestamps_s: Option<Vec<f64>>,
 }
 
 /// Steps of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Timing {
-    /// How many steps the scene spans, 1 ..= [`MAX_STEPS`].
+    /// Number of steps of the scene, 1 ..= [`MAX_STEPS`].
     pub steps: usize,
     /// The source's "current" step, kept for export.
     pub now_step: usize,
@@ -119,18 +119,18 @@ pub struct Scene {
     pub signals: Vec<Signal>,
     pub agents: Vec<Agent>,
     pub generated: Option<Generated>,
-    /// Members under `x_` keys that writers of other tools left; kept as they are.
+    /// Members under `x_` keys that other tools wrote; preserved unchanged.
     pub extra: std::collections::BTreeMap<String, serde_json::Value>,
 }
 
-/// Why a set of values is not a scene. `at` is a JSON pointer into the native form.
+/// Why values do not form a scene. `at` is a JSON pointer into the native form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{at}: {message}")]
 pub struct SceneError {
-    /// Where.
+    /// JSON pointer to the value.
     pub at: String,
-    /// Machine word: `out-of-range`, `duplicate`, `too-many-agents`, `map-too-large`, `map-too-complex`,
-    /// `invalid-field`.
+    /// Machine-readable code: `out-of-range`, `duplicate`, `too-many-agents`, `map-too-large`,
+    /// `map-too-complex`, `invalid-field`.
     pub code: &'static str,
     /// What was found and what was expected.
     pub message: Message,
@@ -144,7 +144,7 @@ impl SceneError {
 }
 
 impl Scene {
-    /// Road users on a map for one window from the first step on, with nothing else said.
+    /// Road users on a map for one window from the first step on, without anything else.
     pub fn bare(name: &str, map: LaneMap, agents: Vec<Agent>) -> Self {
         Self {
             id: None,
@@ -159,12 +159,13 @@ impl Scene {
         }
     }
 
-    /// Checks everything that the types cannot guarantee; the only way for scenes to enter the program.
+    /// Checks everything that the types cannot guarantee. Scenes enter the program only through this
+    /// function.
     ///
     /// # Errors
-    /// Up to 32 problems, each with its place: counts over their limits, coordinates that are not
-    /// finite or out of bounds, duplicate ids, lanes with fewer than two points, tracks and runs
-    /// beyond the scene's steps.
+    /// Up to 32 problems, each with its place: counts over their limits, coordinates that are not finite or
+    /// out of bounds, duplicate ids, lanes with fewer than two points, tracks and runs beyond the scene's
+    /// steps.
     pub fn checked(self) -> Result<Self, Vec<SceneError>> {
         let mut problems = Vec::new();
         self.check_words(&mut problems);
@@ -177,7 +178,7 @@ impl Scene {
         if problems.is_empty() { Ok(self) } else { Err(problems) }
     }
 
-    /// Licence of the scene with the futures that it has: the strictest of its own and theirs.
+    /// Licence of the scene including its futures: the stricter of the two.
     pub fn licence(&self) -> Option<String> {
         let generated = self.generated.as_ref().and_then(|generated| generated.licence.as_deref());
         crate::licence::strictest(self.meta.licence.as_deref().into_iter().chain(generated))
@@ -199,10 +200,10 @@ impl Scene {
         ]
     }
 
-    /// Hash of the user's part: everything that decides an answer, without the generated futures, the id and
-    /// the name. Map and recordings enter by their own hashes, which clones of the scene share. A condition
-    /// replaces the value below it: a scene with conditions passed beside it has the hash of the scene that
-    /// contains them.
+    /// Hash of the user's part: everything that determines an answer, without the generated futures, the id
+    /// and the name. Map and recordings enter by their own hashes, which clones of the scene share. A
+    /// condition replaces the value below it, so a scene with conditions passed separately has the hash of
+    /// the scene that contains them.
     pub fn input_hash(&self) -> ContentHash {
         let agents: Vec<_> = self
             .agents
@@ -290,7 +291,8 @@ impl Scene {
         }
     }
 
-    /// Bounds what work on the map grows with beside its size: links, corners of areas, lines over each other.
+    /// Limits the cost drivers of work on the map other than its size: links, corners of areas, overlapping
+    /// lines.
     fn check_complexity(&self, problems: &mut Vec<SceneError>) {
         let map = &*self.map;
         let mut links = 0;
@@ -336,7 +338,7 @@ impl Scene {
             let message = sentences::at_most(corners, what::AREA_CORNERS, MAX_AREA_CORNERS);
             problems.push(SceneError::new("/map", "map-too-complex", message));
         }
-        // Only of places that are numbers within their bounds.
+        // Only if all coordinates are finite and within their bounds.
         if problems.is_empty()
             && let Some(message) = Crowding::of(map.outlines()).excess()
         {

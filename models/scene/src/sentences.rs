@@ -1,8 +1,8 @@
-//! The sentences of faults: general ones, which all readers use, and those of a scene.
+//! The sentences of faults: general ones for all readers, and those of a scene.
 
 use crate::message::{Message, Placeholder, Word};
 
-/// Things that are counted or missing: the values `what` of sentences. A word that several crates need stands here.
+/// Countable or missing things: the values of `what` in sentences. Words that several crates use are here.
 pub mod what {
     crate::words! {
         AREA_CORNERS = "corners of areas";
@@ -18,7 +18,7 @@ pub mod what {
     }
 }
 
-/// The values `expected` of sentences.
+/// The values of `expected` in sentences.
 pub mod wanted {
     crate::words! {
         AS_LONG_AS_X = "as many values as x_m";
@@ -81,7 +81,7 @@ crate::messages! {
         "track-beyond-scene", "track ends after step {end}, the scene has {steps}";
 }
 
-/// A number outside its range, both ends of which are allowed.
+/// A number outside its range, both ends included.
 pub fn out_of_range(found: f64, least: f64, most: f64) -> Message {
     // A number with hundreds of digits is unreadable.
     let found = if found.abs() < 1e15 { found.to_string() } else { format!("{found:e}") };

@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
 
 /// A value shared by all its clones, with its content hash, computed once for all of them. A change makes a
-/// separate copy, whose hash is not yet known.
+/// separate copy without a known hash.
 #[derive(Debug, Default)]
 pub struct Shared<T>(Arc<Inside<T>>);
 
@@ -17,21 +17,21 @@ struct Inside<T> {
 }
 
 impl<T: Clone> Clone for Inside<T> {
-    /// A copy is made to be changed.
+    /// A copy exists only to be changed, so it drops the hash.
     fn clone(&self) -> Self {
         Self { value: self.value.clone(), hash: OnceLock::new() }
     }
 }
 
 impl<T> Shared<T> {
-    /// True for clones of one value. Equal values from different sources are not the same.
+    /// Whether two are clones of one value. Equal values from different sources are not.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
 impl<T: Serialize> Shared<T> {
-    /// Content hash: equal values have equal hashes, whatever they came from.
+    /// Content hash: equal values have equal hashes, whatever their source.
     pub fn hash(&self) -> ContentHash {
         *self.0.hash.get_or_init(|| ContentHash::of(&self.0.value))
     }
@@ -115,7 +115,7 @@ mod tests {
         let clones: Vec<_> = (0..5).map(|_| first.clone()).collect();
         assert!(clones.iter().all(|clone| clone.hash() == first.hash()));
         assert_eq!(WRITTEN.get(), 1);
-        // A change resets the hash, even if only one clone exists.
+        // A change resets the hash, even if there is only one clone.
         let mut own = Shared::from(Counted);
         let before = own.hash();
         *own = Counted;

@@ -1,32 +1,32 @@
-//! A road user as it is shown: what was decided in place of what was recorded. Scores, pictures and writers
-//! of other formats all look at this.
+//! A road user as it is shown: with decided data in place of recorded data. Scores, pictures and writers of
+//! other formats all use this.
 
 use crate::geometry::direction;
 use crate::{Agent, AgentType, Future, Scene, Size, State, Track};
 use std::borrow::Cow;
 
-/// A start fixed this far from the log has not come from there, metres: its history is another's.
+/// A start fixed farther than this from the log does not continue the log, metres: its history is another's.
 const SAME_PLACE_M: f64 = 0.5;
 
 /// Type, box and motion of a road user as they are shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown<'a> {
-    /// The type that the user gave it, else its own.
+    /// The type that the user set, else its own.
     pub agent_type: AgentType,
-    /// With the length and width that the user gave it.
+    /// Size, with the length and width that the user set.
     pub size: Size,
-    /// By scene step.
+    /// Motion by scene step.
     pub track: Cow<'a, Track>,
 }
 
 impl Agent {
-    /// The box with the length and width that the user gave it.
+    /// The size with the length and width that the user set.
     pub fn shown_size(&self) -> Size {
         self.conditions.size_of(self.size)
     }
 
-    /// With one of its futures after its history, or with its log for `None`. A start that is fixed holds from
-    /// the step before the future on: until there is one, nothing says how the log would go on from it.
+    /// The road user with one of its futures after its history, or with its log for `None`. A fixed start
+    /// applies from the step before the future on: without a future, the log does not continue from it.
     pub fn shown(&self, future: Option<&Future>) -> Shown<'_> {
         let track = match future {
             Some(future) => Cow::Owned(joined(self, future)),
@@ -37,7 +37,7 @@ impl Agent {
 }
 
 impl Scene {
-    /// A road user of this scene with its chosen future, where it has one.
+    /// A road user of this scene with its chosen future, if it has one.
     pub fn shown<'a>(&self, agent: &'a Agent) -> Shown<'a> {
         agent.shown(self.generated.as_ref().and_then(|generated| generated.chosen_future(&agent.id)))
     }
@@ -62,7 +62,7 @@ fn joined(agent: &Agent, future: &Future) -> Track {
     Track { first_step, states, z_m: None }
 }
 
-/// Logged state with the fixed start fields in place; `None` when neither gives a position.
+/// Recorded state with the fixed start fields applied; `None` if neither gives a position.
 fn start_state(agent: &Agent, logged: Option<State>) -> Option<State> {
     let start = &agent.conditions.start;
     let mut state = match (logged, start.position) {
@@ -109,7 +109,7 @@ mod tests {
         assert_eq!((shown.track.first_step, shown.track.states.len()), (10, 91));
         let start = shown.track.at(10).unwrap();
         assert_eq!((start.x_m, start.y_m, start.vx_mps), (-30.0, 2.0, 5.0));
-        // Without a future there is no way on from the start: the log stays, the size is decided all the same.
+        // Without a future the start has no continuation: the log stays, but the size is applied.
         let kept = agent.shown(None);
         assert_eq!((kept.size.length_m, &*kept.track), (12.0, &*agent.track));
     }

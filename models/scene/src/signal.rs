@@ -1,4 +1,4 @@
-//! Traffic signals: one state a step for each controlled lane.
+//! Traffic signals: one state per step for each controlled lane.
 
 use crate::Vec2;
 use serde::{Deserialize, Serialize};
@@ -21,12 +21,12 @@ pub enum SignalState {
 }
 
 impl SignalState {
-    /// Traffic on this lane must stop if it can.
+    /// Whether traffic on this lane must stop if it can.
     pub fn is_stop(self) -> bool {
         matches!(self, Self::Stop | Self::ArrowStop | Self::FlashingStop)
     }
 
-    /// Traffic on this lane should stop when it can do so comfortably.
+    /// Whether traffic on this lane should stop if it can do so comfortably.
     pub fn is_caution(self) -> bool {
         matches!(self, Self::Caution | Self::ArrowCaution)
     }
@@ -37,11 +37,11 @@ impl SignalState {
 pub struct Signal {
     /// Lane (or crosswalk) that obeys it.
     pub lane: String,
-    /// Where to stop, when the source says it.
+    /// Stop point, if the source gives one.
     pub stop: Option<Vec2>,
-    /// Height of the stop point, when the source has heights.
+    /// Height of the stop point, if the source has heights.
     pub stop_z_m: Option<f64>,
-    /// Run-length: from this step on, this state. First steps rise; never empty.
+    /// Run-length encoding: first step and state. First steps rise; never empty.
     pub runs: Vec<(usize, SignalState)>,
 }
 
@@ -51,7 +51,8 @@ impl Signal {
         self.runs.iter().rev().find(|(first, _)| *first <= step).map_or(SignalState::Unknown, |r| r.1)
     }
 
-    /// What it showed last at a step, and how many steps ago that began; unknown before anything is known.
+    /// The last known state at a step, and the number of steps since it began; unknown before the first known
+    /// state.
     pub fn last_known(&self, step: usize) -> (SignalState, usize) {
         let mut past = self.runs.iter().rev().filter(|(first, _)| *first <= step);
         let known = past.clone().find(|(_, state)| *state != SignalState::Unknown);

@@ -1,25 +1,25 @@
-//! Places that a road user passes on its way: where, how near, and when if that is fixed.
+//! Via points: places that a road user passes on its way, with a tolerance and, if fixed, a time.
 
 use crate::{STEP_S, State, Vec2};
 use serde::Serialize;
 
 /// Most via points of one road user.
 pub const MAX_VIAS: usize = 4;
-/// Range of a via point's tolerance, metres, both ends allowed.
+/// Range of a via point's tolerance, metres, both ends included.
 pub const VIA_TOLERANCE_M: (f64, f64) = (0.5, 5.0);
 /// Default tolerance, metres.
 pub const DEFAULT_VIA_TOLERANCE_M: f64 = 1.0;
-/// A via point with a time is passed within this of it, seconds.
+/// Greatest deviation from a via point's time, seconds.
 pub const VIA_WITHIN_S: f64 = 0.5;
 
-/// A place on the way, in the order in which they are passed.
+/// A via point; a road user passes its via points in order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Via {
-    /// Of the box centre, metres, scene frame.
+    /// Position of the box centre, metres, scene frame.
     pub position: Vec2,
     /// Passed no farther away than this, metres.
     pub tolerance_m: f64,
-    /// Scene time at which it is passed; when it comes to it where free.
+    /// Scene time at which it is passed; any time if free.
     pub time_s: Option<f64>,
 }
 
@@ -35,37 +35,37 @@ pub struct Passing {
 }
 
 impl Via {
-    /// Whether a motion that comes so near passes it.
+    /// Whether a passing is within the tolerance.
     pub fn is_passed(&self, passing: &Passing) -> bool {
         passing.distance_m <= self.tolerance_m && self.beyond_s(passing) == 0.0
     }
 
-    /// Seconds beyond those in which it may be passed.
+    /// Seconds outside the allowed time.
     fn beyond_s(&self, passing: &Passing) -> f64 {
         let off_s = self.time_s.map_or(0.0, |due_s| (passing.time_s - due_s).abs());
         (off_s - VIA_WITHIN_S - 1e-6).max(0.0)
     }
 
-    /// Cost of taking this for its passing. A time other than the fixed one costs most, so that it is taken
-    /// only where the motion never has that time.
+    /// Cost of a passing. A time other than the fixed one costs most, so it is taken only if the motion never
+    /// has that time.
     fn cost(&self, passing: &Passing) -> f64 {
         let missed_m = (passing.distance_m - self.tolerance_m).max(0.0);
         passing.distance_m + MISSED * missed_m + ANOTHER_TIME * self.beyond_s(passing)
     }
 }
 
-/// Metres that a via point out of its tolerance counts as much as one metre within it.
+/// Weight of a metre outside the tolerance, relative to a metre within it.
 const MISSED: f64 = 100.0;
-/// The same of a second beyond its time.
+/// Weight of a second outside the allowed time.
 const ANOTHER_TIME: f64 = 1e6;
 
-/// How a motion passes via points, one after the other: in that order as few are missed by as little as may be.
-/// `states` follow each other by a step, the first at the scene time `start_s`. Empty where there are no states.
+/// How a motion passes via points in order, with as few and as little misses as possible. `states` are one
+/// step apart, the first at the scene time `start_s`. Empty without states.
 pub fn passings(vias: &[Via], start_s: f64, states: &[State]) -> Vec<Passing> {
     if vias.is_empty() || states.is_empty() {
         return Vec::new();
     }
-    // By via point and stretch between two states: what it costs to pass all so far by then, and where.
+    // By via point and interval between states: the cost of passing all via points up to it, and where.
     let stretches = states.len().saturating_sub(1).max(1);
     let mut best = vec![0.0_f64; stretches];
     let mut chosen: Vec<Vec<usize>> = Vec::with_capacity(vias.len());
@@ -92,7 +92,7 @@ pub fn passings(vias: &[Via], start_s: f64, states: &[State]) -> Vec<Passing> {
     out
 }
 
-/// Where a stretch from a state to the next comes nearest to a via point, in its time where there is one.
+/// The nearest point to a via point between a state and the next, within its time if that is fixed.
 fn nearest(via: &Via, start_s: f64, states: &[State], i: usize) -> Passing {
     let from = states[i].position();
     let chord = states.get(i + 1).map_or(Vec2::zeros(), |s| s.position() - from);
@@ -142,7 +142,7 @@ mod tests {
         let passed = passings(&back, 0.0, &east());
         assert_eq!(back.iter().zip(&passed).filter(|(v, p)| v.is_passed(p)).count(), 1);
         assert!(passed[0].time_s <= passed[1].time_s + STEP_S, "the same stretch may be both");
-        // Out and back: the first is taken on the way out, the second on the way back.
+        // Out and back: the first is passed on the way out, the second on the way back.
         let mut round = east();
         round.extend((0..90).rev().map(|i| State { x_m: f64::from(i), ..State::default() }));
         let passed = passings(&back, 0.0, &round);

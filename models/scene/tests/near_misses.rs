@@ -1,5 +1,5 @@
-//! The choice of futures compares boxes at every third step; it sees nearly all near misses that scores find at every
-//! step.
+//! The choice of futures compares boxes at every third step. It detects nearly all near misses that scores
+//! find at every step.
 #![allow(
     clippy::expect_used,
     clippy::unwrap_used,
@@ -15,10 +15,10 @@ use scene::score::{
 use scene::{Agent, AgentType, LaneMap, STEP_S, State, Subtype};
 
 const STEPS: usize = 91;
-/// Steps from one box of the quick look to the next.
+/// Steps between boxes of the fast test.
 const STRIDE: usize = 3;
 
-/// A car that is at the origin of the map after so many seconds.
+/// A car that is at the origin of the map after `after_s`.
 fn passing(id: &str, heading_rad: f64, speed_mps: f64, after_s: f64) -> Agent {
     let at = |step: usize| {
         let way = direction(heading_rad);
@@ -70,7 +70,7 @@ fn crossing_cars_that_scores_find_too_near_are_seen_between_two_looks() {
         }
     }
     assert!(found > 100, "{found} near misses");
-    // The gap between two moments is estimated from how fast it shrinks at one of them.
+    // The gap between two moments is estimated from its rate at one of them.
     assert!(10 * missed.len() < found, "{} of {found}: {missed:?}", missed.len());
 }
 

@@ -1,6 +1,7 @@
-//! Cases of geometry and verdicts that the engine and the page work out alike. This test works out the expected
-//! values and compares them with `assets/cases/physics.json`; `ACCEPT=1 cargo test -p dragtraffic-scene --test
-//! page_cases` writes them. The page reads the same file (`web/test/model/physics-cases.test.ts`).
+//! Cases of geometry and verdicts that the engine and the page must compute equally. This test computes the
+//! expected values and compares them with `assets/cases/physics.json`; `ACCEPT=1 cargo test -p
+//! dragtraffic-scene --test page_cases` writes them. The page reads the same file
+//! (`web/test/model/physics-cases.test.ts`).
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs, reason = "a test")]
 
 use scene::geometry::obb::{OrientedBox, overlaps, signed_gap};
@@ -64,7 +65,7 @@ fn gaps() -> Vec<Value> {
     others.into_iter().map(case).collect()
 }
 
-/// Two boxes that keep their velocities: the time to collision.
+/// Two boxes at constant velocities: the time to collision.
 fn collision_times() -> Vec<Value> {
     let pairs = [
         (car(0.0, 0.0, 0.0, 10.0), car(24.0, 0.5, 0.0, 5.0)),
@@ -134,9 +135,9 @@ fn with_input<T>(actors: Vec<Actor<'_>>, thresholds: Thresholds, of: impl FnOnce
 }
 
 /// Two road users at constant speeds for 9 s, whose paths cross or stay apart: their post-encroachment time,
-/// and the least gap at a step.
+/// and the smallest gap at a step.
 fn encounters() -> Vec<Value> {
-    // A little off whole decimetres: boxes that just touch at a step are a matter of rounding.
+    // Not on whole decimetres: boxes that just touch at a step would depend on rounding.
     let east = |x, speed| car(x + 0.03, 0.0, 0.0, speed);
     let north = |y, speed| car(0.0, y + 0.04, FRAC_PI_2, speed);
     let pairs = [
@@ -160,7 +161,8 @@ fn encounters() -> Vec<Value> {
     pairs.into_iter().map(case).collect()
 }
 
-/// Braking from 15 m/s at a steady rate after 2 s: the hardest that the verdict sees, and whether it is harsh.
+/// Braking from 15 m/s at a constant rate after 2 s: the hardest braking in the verdict, and whether it is
+/// harsh.
 fn brakings() -> Vec<Value> {
     let speed = |rate: f64, i: usize| (15.0 - rate * (i as f64 * STEP_S - 2.0).max(0.0)).max(0.0);
     let case = |rate: f64| {
@@ -176,7 +178,7 @@ fn brakings() -> Vec<Value> {
     [0.0, 1.5, 3.9, 4.1, 6.0, 8.0].into_iter().map(case).collect()
 }
 
-/// The farthest goal straight ahead that a projection reaches in a time, by type.
+/// The farthest goal straight ahead that a projection reaches in a given time, by type.
 fn reaches() -> Vec<Value> {
     let kinds = [
         ("vehicle", AgentType::Vehicle, Subtype::Car, Size { length_m: 4.7, width_m: 2.0, height_m: None }),

@@ -1,4 +1,4 @@
-//! The engine of the process, and calls that leave the interpreter to others and end with Ctrl-C.
+//! The engine of the process, and calls that release the interpreter lock and stop at Ctrl-C.
 
 use api::{Operations, Problem};
 use experts::{Cancel, Engine};
@@ -14,10 +14,10 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time between two looks for a Ctrl-C.
+/// Time between two checks for Ctrl-C.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The engine of the process that began it.
+/// The engine, with the process that created it.
 static ENGINE: Mutex<Option<ProcessEngine>> = Mutex::new(None);
 
 /// The operations in one process.
@@ -25,13 +25,13 @@ static ENGINE: Mutex<Option<ProcessEngine>> = Mutex::new(None);
 pub struct ProcessEngine {
     process: u32,
     operations: Operations,
-    /// In a process that was forked off, the threads that calls run on: the shared pool of the thread library has lost its
-    /// threads there, and would wait for them.
+    /// Threads of calls in a forked process: the shared pool of the thread library lost its threads in the
+    /// fork, and would wait for them.
     pool: Option<Arc<ThreadPool>>,
 }
 
 impl ProcessEngine {
-    /// That of this process. One that was forked off shares the weights.
+    /// The engine of this process. A forked process shares the weights.
     ///
     /// # Errors
     /// When weights cannot be read, or a forked process gets no threads.
@@ -59,7 +59,7 @@ impl ProcessEngine {
         Ok(known.insert(engine).clone())
     }
 
-    /// Does work of the operations.
+    /// Runs work on the operations.
     pub fn run<T: Send>(&self, work: impl FnOnce(&Operations) -> T + Send) -> T {
         match &self.pool {
             Some(pool) => pool.install(|| work(&self.operations)),
@@ -68,11 +68,11 @@ impl ProcessEngine {
     }
 }
 
-/// Work on a thread beside the interpreter, which other threads of Python have meanwhile. A signal such as Ctrl-C
-/// cancels it.
+/// Runs work on another thread with the interpreter lock released, so that other Python threads go on. A
+/// signal such as Ctrl-C cancels it.
 ///
 /// # Errors
-/// A refusal, what the signal raises, or a defect.
+/// A refusal, the exception of the signal, or a defect.
 pub fn cancellable<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Operations, &Cancel) -> Result<T, Problem> + Send,
@@ -115,7 +115,7 @@ pub fn raised(py: Python<'_>, problem: Problem) -> PyErr {
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
-/// A request out of its JSON form.
+/// Parses a request from JSON.
 pub fn request<T: DeserializeOwned>(py: Python<'_>, bytes: &[u8]) -> PyResult<T> {
     formats::native::from_json(bytes).map_err(|error| raised(py, error.into()))
 }

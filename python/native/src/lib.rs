@@ -1,7 +1,7 @@
 //! The extension module `dragtraffic._native`: the operations of `dragtraffic-api` in the process of Python.
 //!
-//! It is a carrier as HTTP and the command line are. Documents, requests and replies are JSON bytes; states are arrays
-//! of numpy. The package `dragtraffic` around it gives them names and types.
+//! It is a transport, as HTTP and the command line are. Documents, requests and replies are JSON bytes;
+//! states are numpy arrays. The package `dragtraffic` around it adds names and types.
 
 mod calls;
 mod program;
@@ -20,8 +20,8 @@ mod _native {
     use super::scene::NativeScene;
     use super::{Bound, PyModule, PyResult};
 
-    /// The engine's products of matrices are small: to wake a second thread takes longer than a product. Runs and calls
-    /// are cut over threads instead.
+    /// The engine's matrix products are small: waking a second thread takes longer than a product. Runs and
+    /// calls are spread over threads instead.
     #[pymodule_init]
     fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
         gemm::set_threading_threshold(usize::MAX);

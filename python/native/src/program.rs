@@ -1,4 +1,4 @@
-//! The program, in the process of Python: `python -m dragtraffic` and the command `dragtraffic` of the wheel.
+//! The program in the process of Python: `python -m dragtraffic` and the command `dragtraffic` of the wheel.
 
 use pyo3::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Runs: traffic that is stepped beside road users that Python drives.
+//! Runs: stepped traffic around road users that Python drives.
 
 use crate::calls::{ProcessEngine, cancellable, raised, reply, request};
 use crate::scene::NativeScene;
@@ -15,17 +15,17 @@ use scene::State;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Numbers of a state: x, y, heading, velocity in x and in y.
+/// Numbers of a state: x, y, heading, and velocity in x and y.
 const COLUMNS: usize = 5;
 
-/// What a step came to: its number, the time at its end, who is there, their states, and the rest as JSON where there
-/// is any.
+/// Result of a step: its number, the time at its end, the ids of the present road users, their states, and
+/// the rest as JSON if there is any.
 type Stepped<'py> = (u64, f64, Vec<String>, Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyBytes>>);
 
-/// Egos by their ids, a row of a state for each, and what each announces: no rows for nothing.
+/// Ids of the egos, one row of a state for each, and the plan that each announces: no rows for no plan.
 type SaidEgos<'py> = (Vec<String>, PyReadonlyArray2<'py, f64>, Vec<PyReadonlyArray2<'py, f64>>);
 
-/// The others and the states of each, and the rest as JSON.
+/// Ids of the other road users, the states of each, and the rest as JSON.
 type Peeked<'py> = (Vec<String>, Vec<Bound<'py, PyArray2<f64>>>, Bound<'py, PyBytes>);
 
 /// A run at one moment.
@@ -76,8 +76,8 @@ impl NativeRun {
         stepped(py, self.run.present())
     }
 
-    /// One step, at whose end the egos have these states: rows of x, y, heading and velocity. `plans` are the states
-    /// that each announces, 0.1 s apart; none for an ego with zero rows.
+    /// One step; `rows` of x, y, heading and velocity are the egos' states at its end. `plans` are the states
+    /// that each ego announces, 0.1 s apart; an ego with zero rows announces none.
     #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
     fn step<'py>(
         &mut self,
@@ -93,8 +93,8 @@ impl NativeRun {
         stepped(py, step.map_err(|error| raised(py, Problem::from(error)))?)
     }
 
-    /// A step of each of several runs, on several threads; what each takes is that of [`step`](Self::step). All are
-    /// stepped or, when one is refused, none.
+    /// One step of each of several runs, on several threads, with the arguments of [`step`](Self::step). All
+    /// runs are stepped or, if one is refused, none.
     #[staticmethod]
     #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
     fn step_together<'py>(
@@ -127,7 +127,7 @@ impl NativeRun {
         Ok(steps)
     }
 
-    /// What the others would do if egos drove these plans.
+    /// What the other road users would do if the egos drove these plans.
     #[allow(clippy::needless_pass_by_value, reason = "what Python passes is owned")]
     fn peek<'py>(
         &self,
@@ -169,7 +169,7 @@ fn stepped(py: Python<'_>, mut step: RunStep) -> PyResult<Stepped<'_>> {
     Ok((step.number, step.time_s, ids, table(py, states.iter())?, rest))
 }
 
-/// States as an array, a row each.
+/// States as an array, one row each.
 fn table<'py, 's>(
     py: Python<'py>,
     states: impl ExactSizeIterator<Item = &'s State>,
@@ -179,7 +179,7 @@ fn table<'py, 's>(
     PyArray1::from_iter(py, numbers).reshape([count, COLUMNS])
 }
 
-/// The states of an array, a row each.
+/// The states in an array, one row each.
 fn rows(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<State>> {
     let array = array.as_array();
     if array.ncols() != COLUMNS && array.nrows() > 0 {

@@ -1,4 +1,4 @@
-//! Scenes, and what the operations make of them.
+//! Scenes, and the operations on them.
 
 use crate::calls::{cancellable, raised, reply, request};
 use api::export::{self, FilePart, MotionChoice};
@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A scene as the engine has it.
+/// A scene in the form of the engine.
 #[pyclass(frozen, name = "Scene", module = "dragtraffic._native")]
 pub struct NativeScene {
     /// The scene.
@@ -32,7 +32,7 @@ impl NativeScene {
     }
 }
 
-/// Scenes of a file: those to pass over, and the most to take.
+/// Scenes of a file: the number to skip, and the greatest number to read.
 fn of_file(
     content: &[u8],
     path: &Path,
@@ -46,7 +46,7 @@ fn of_file(
     SceneFile::of(&content, None, &name, &beside, window)?.read(&content)
 }
 
-/// A scene as Python has it, with what its reader said.
+/// A scene in the form of Python, with the messages of its reader.
 fn opened<'py>(py: Python<'py>, read: ReadScene) -> PyResult<(NativeScene, Bound<'py, PyBytes>)> {
     let warnings = read.warnings.iter().map(|w| json!({"code": w.code, "detail": w.detail}));
     let warnings = reply(py, &warnings.collect::<Vec<_>>())?;
@@ -55,9 +55,9 @@ fn opened<'py>(py: Python<'py>, read: ReadScene) -> PyResult<(NativeScene, Bound
 
 #[pymethods]
 impl NativeScene {
-    /// The scene at an index of a file's content, and what the reader changed or left out. `path` is where the file
-    /// lies: its name has the ending, and beside it may lie what is read with a table of a recording. `around` is the
-    /// circle of a map that is read: x, y and radius.
+    /// The scene at an index of a file's content, and what the reader changed or left out. `path` is the
+    /// location of the file: the name has the ending, and a recorded table may need files beside it. `around`
+    /// is the circle of a map to read: x, y and radius.
     #[staticmethod]
     #[pyo3(signature = (content, path, index, around = None))]
     fn read<'py>(
@@ -75,7 +75,7 @@ impl NativeScene {
         opened(py, read)
     }
 
-    /// The scene at an index of the recordings of a folder, one after the other.
+    /// The scene at an index of the recordings of a folder, in their order.
     #[staticmethod]
     fn read_folder<'py>(
         py: Python<'py>,
@@ -90,7 +90,7 @@ impl NativeScene {
                 let content = std::fs::read(&file).map_err(unreadable)?;
                 let mut read = match of_file(&content, &file, (0, left.saturating_add(1)), None) {
                     Ok(read) => read,
-                    // A recording that cannot be read is one without a scene.
+                    // A recording that cannot be read counts as one without a scene.
                     Err(problem) if left == 0 => return Err(problem),
                     Err(_) => {
                         left -= 1;
@@ -102,7 +102,7 @@ impl NativeScene {
                     left -= count;
                     continue;
                 }
-                // The last one is the one asked for: a scene, or why it is none.
+                // The last skipped one is the requested one: return the reason.
                 return match read.skipped.pop() {
                     Some((at, problem)) if at == left => Err(problem),
                     _ => read
@@ -132,7 +132,7 @@ impl NativeScene {
         PyBytes::new(py, &written)
     }
 
-    /// The scene with the futures of a request, and what the answer says beside them.
+    /// The scene with the futures of a request, and the other members of the reply.
     fn generate<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<(Self, Bound<'py, PyBytes>)> {
         let body: GenerateRequest = request(py, body)?;
         let answered = cancellable(py, |operations, cancel| {
@@ -163,7 +163,7 @@ impl NativeScene {
         reply(py, &json!({"ended": ended, "tries": tries}))
     }
 
-    /// The scene with more road users, and why some have no place.
+    /// The scene with more road users, and why some of them have no place.
     fn place<'py>(&self, py: Python<'py>, body: &[u8]) -> PyResult<(Self, Bound<'py, PyBytes>)> {
         let body: PlaceBody = request(py, body)?;
         let placement = cancellable(py, |operations, cancel| operations.place(&body, &self.scene, cancel))?;
@@ -183,7 +183,7 @@ impl NativeScene {
         reply(py, &score)
     }
 
-    /// A file in another format, and what it cannot hold.
+    /// A file in another format, and the contents that it cannot hold.
     #[pyo3(signature = (format, sample=None))]
     fn export<'py>(
         &self,

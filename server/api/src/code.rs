@@ -1,4 +1,4 @@
-//! The codes of refusals: one table. Clients switch on a code's name, which never changes.
+//! The codes of refusals, in one table. Clients switch on a code's name, which never changes.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
@@ -15,13 +15,13 @@ macro_rules! codes {
             /// All codes in the order of the documentation.
             pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
 
-            /// The word clients switch on.
+            /// Stable name, on which clients switch.
             pub fn name(self) -> &'static str { match self { $(Self::$variant => $name,)* } }
 
             /// A few words for people, the same for each occurrence.
             pub fn title(self) -> &'static str { match self { $(Self::$variant => $title,)* } }
 
-            /// When it is given and what to do about it.
+            /// When the code is returned and what to do about it.
             pub fn when(self) -> &'static str { match self { $(Self::$variant => $when,)* } }
         }
     };
@@ -88,13 +88,13 @@ codes! {
 }
 
 impl Code {
-    /// The code of this name.
+    /// The code with this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|code| code.name() == name)
     }
 }
 
-/// The word of a [`Code`], as JSON has it.
+/// The name of a [`Code`], as JSON has it.
 #[derive(Clone, Copy, Debug)]
 pub struct CodeName(pub Code);
 

@@ -1,5 +1,5 @@
-//! Futures in few bytes: integers in units of the last rounded digit, as second differences over the steps. No digit
-//! is lost.
+//! Compact form of futures: integers in units of the last rounded digit, as second differences over the
+//! steps. The conversion is lossless.
 
 use formats::native::{AgentFuturesDoc, FutureDoc};
 use scene::judge::{Fault, Manoeuvre, Reaction, Relation};
@@ -74,7 +74,7 @@ pub struct CompactFuture {
 }
 
 impl FuturesDoc {
-    /// Of one road user: all its futures, or only the chosen one.
+    /// The futures of one road user: all of them, or only the chosen one.
     pub fn new(futures: &AgentFutures, all_modes: bool, form: FuturesForm) -> Self {
         let modes = if all_modes {
             futures.modes.as_slice()
@@ -128,7 +128,7 @@ impl CompactFuture {
 mod tests {
     use super::*;
 
-    /// What a client does with a column.
+    /// Decodes a column as a client does.
     fn column(compact: &[i64], per_unit: f64) -> Vec<f64> {
         let (mut value, mut change) = (0, 0);
         let mut next = |(i, number): (usize, &i64)| {

@@ -1,5 +1,5 @@
-//! Facts about road users and requests that clients need too, from the tables of the crates below: what
-//! each kind can do, what conditions may ask for, and what a request has when it does not say.
+//! Facts that clients need too, from the tables of the lower crates: motion limits by kind of road user,
+//! ranges of conditions, and defaults of requests.
 
 use experts::generator::WAITS_STEPS;
 use experts::request::{DEFAULTS, Defaults};
@@ -79,7 +79,7 @@ pub struct KindLimits {
 }
 
 impl KindLimits {
-    /// The limits that projection, scoring and tests read.
+    /// The limits that projection, scoring and tests use.
     pub fn current() -> Self {
         let vehicle = |subtype| MotionLimits::of(AgentType::Vehicle, subtype);
         Self {
@@ -105,7 +105,7 @@ pub struct ConditionRanges {
 }
 
 impl ConditionRanges {
-    /// The ranges that conditions are read against.
+    /// The ranges against which conditions are checked.
     pub fn current() -> Self {
         Self {
             vehicle: Ranges::of(AgentType::Vehicle),
@@ -115,19 +115,19 @@ impl ConditionRanges {
     }
 }
 
-/// What via points may ask for.
+/// Ranges of via points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ViaRanges {
-    /// Of one road user.
+    /// Most via points of one road user.
     most: usize,
-    /// Both ends are allowed.
+    /// Range of the tolerance, both ends included.
     tolerance_m: (f64, f64),
     default_tolerance_m: f64,
-    /// So far from its time one may be passed.
+    /// Greatest deviation from a via point's time.
     within_s: f64,
 }
 
-/// What goals relative to another road user may ask for; both ends are allowed.
+/// Ranges of goals relative to another road user, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RelationRanges {
     gap_m: (f64, f64),
@@ -135,80 +135,80 @@ pub struct RelationRanges {
     after_s: (f64, f64),
     slower_mps: (f64, f64),
     lanes_left: (f64, f64),
-    /// Goals in a row that are relative to each other.
+    /// Longest chain of goals that are relative to each other.
     most_in_a_row: usize,
 }
 
-/// Fixed numbers by which events and verdicts are worked out.
+/// Constants of events and verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judging {
-    /// Two events of the same kind and road users within this time are one, seconds.
+    /// Two events of the same kind and road users within this time are one event, seconds.
     same_event_s: f64,
-    /// A near miss that is closer by more than this is another one, metres.
+    /// A near miss that is closer by more than this is a separate one, metres.
     same_gap_m: f64,
-    /// Shorter braking and steering is no fault, seconds.
+    /// Shortest duration of harsh braking or steering that is a fault, seconds.
     harsh_s: f64,
     /// Steps before and after a moment between which braking and steering are measured.
     harsh_steps: usize,
-    /// Slower than this is standing, m/s.
+    /// Speed below which a road user stands, m/s.
     standing_mps: f64,
-    /// No collision is looked for later, seconds.
+    /// Largest time to collision that is searched, seconds.
     look_ahead_s: f64,
-    /// A road user that travels less has no post-encroachment time, metres.
+    /// Shortest distance travelled of a road user with a post-encroachment time, metres.
     pet_travel_m: f64,
-    /// Paths that meet at less than this angle do not cross, radians.
+    /// Smallest angle at which paths cross, radians.
     pet_angle_rad: f64,
-    /// A motion of less is a stay, metres.
+    /// Motion below which a road user stays, metres.
     stays_m: f64,
-    /// Turning by more is a turn, radians.
+    /// Change of heading above which a motion is a turn, radians.
     turn_rad: f64,
-    /// Turning by more is turning round, radians.
+    /// Change of heading above which a motion is a U-turn, radians.
     turn_round_rad: f64,
-    /// A lane is driven on within this of its middle, metres.
+    /// Greatest distance from the middle of the lane that is driven, metres.
     on_lane_m: f64,
-    /// A lane whose direction differs by more is not driven on, radians.
+    /// Greatest heading difference to the lane that is driven, radians.
     along_lane_rad: f64,
-    /// Motions whose headings differ by less go the same way, radians.
+    /// Greatest heading difference of motions in the same direction, radians.
     same_way_rad: f64,
-    /// Standing longer by less is no wait, seconds.
+    /// Shortest additional standing time that counts as waiting, seconds.
     waits_s: f64,
-    /// Two cards of a round are somewhere at least so far apart, metres.
+    /// At some place, two cards of a round are at least this far apart, metres.
     card_apart_m: f64,
 }
 
-/// Fixed numbers of planning by which a client can show places and ways before an answer.
+/// Constants of planning with which a client can show places and paths before an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PlanningNumbers {
     /// Front bumper to stop line, metres.
     stop_line_gap_m: f64,
-    /// A stop line belongs to a path that passes it nearer than this, metres.
+    /// A stop line belongs to a path that passes it within this distance, metres.
     stop_line_beside_m: f64,
-    /// And whose direction differs from that of the line's lane by less, radians.
+    /// The path's heading then differs from that of the line's lane by less than this, radians.
     stop_line_turned_rad: f64,
     /// Front bumper to a standing road user ahead, metres.
     queue_gap_m: f64,
-    /// A standing road user nearer to a path than this is in the queue on it, metres.
+    /// A standing road user within this distance of a path is in the queue on it, metres.
     in_queue_m: f64,
-    /// A road user whose centre is farther from a path is not in its way, metres.
+    /// A road user whose centre is farther than this from a path is not on it, metres.
     in_the_way_m: f64,
-    /// A route starts on a lane at most so far from the road user, metres.
+    /// Greatest distance between a road user and the lane on which a route starts, metres.
     start_lane_m: f64,
-    /// And whose direction differs by at most this, radians.
+    /// Greatest heading difference to that lane, radians.
     start_turn_rad: f64,
     /// Most lanes from which routes start.
     most_starts: usize,
-    /// A goal lies on a lane at most so far away, metres.
+    /// Greatest distance between a goal and a lane that it lies on, metres.
     goal_lane_m: f64,
-    /// Most lanes on which a goal lies.
+    /// Most lanes that a goal lies on.
     most_goal_lanes: usize,
-    /// Longer routes are detours: times the straight way, and metres more.
+    /// Routes longer than this are detours: factor of the straight distance, and metres in addition.
     longest_route: (f64, f64),
-    /// Speed cap of walkers, m/s.
+    /// Highest walking speed, m/s.
     walking_mps: f64,
 }
 
 impl PlanningNumbers {
-    /// The numbers that routes and futures are planned by.
+    /// The constants by which routes and futures are planned.
     pub fn current() -> Self {
         Self {
             stop_line_gap_m: STOP_LINE_GAP_M,
@@ -229,7 +229,7 @@ impl PlanningNumbers {
 }
 
 impl Judging {
-    /// The numbers that scores and verdicts read.
+    /// The constants of scores and verdicts.
     pub fn current() -> Self {
         Self {
             same_event_s: SAME_S,
@@ -252,16 +252,16 @@ impl Judging {
     }
 }
 
-/// A number that decides what counts.
+/// A threshold of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThresholdRange {
-    /// Unless another one is given.
+    /// Default value.
     usual: f64,
-    /// Least and most.
+    /// Lowest and highest value.
     range: [f64; 2],
 }
 
-/// All of them, as `assets/domain.json` has them.
+/// All facts, in the form of `assets/domain.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Domain {
     /// Version of the program.
@@ -273,16 +273,16 @@ pub struct Domain {
     via: ViaRanges,
     relation: RelationRanges,
     defaults: Defaults,
-    /// What counts as an event, by name.
+    /// Thresholds of events, by name.
     thresholds: BTreeMap<&'static str, ThresholdRange>,
     judging: Judging,
     planning: PlanningNumbers,
-    /// By kind of layout and parameter.
+    /// Ranges of parameters, by kind of layout.
     layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
 }
 
 impl Domain {
-    /// Those of this build.
+    /// The facts of this build.
     pub fn current() -> Self {
         let (limits, condition_ranges) = (KindLimits::current(), ConditionRanges::current());
         let via = ViaRanges {
@@ -316,7 +316,7 @@ impl Domain {
     }
 }
 
-/// Pretty text with a last newline, as it is committed.
+/// Pretty-printed JSON with a final newline, as it is committed.
 pub fn text() -> String {
     let mut text = serde_json::to_string_pretty(&Domain::current()).unwrap_or_default();
     text.push('\n');

@@ -1,6 +1,6 @@
 //! The sentences of refused requests.
 
-/// Things that are counted in requests: the values `what` of sentences.
+/// Countable parts of requests: the values of `what` in sentences.
 pub mod what {
     pub use scene::sentences::what::ENTRIES;
 
@@ -11,7 +11,7 @@ pub mod what {
     }
 }
 
-/// The values `expected` of sentences.
+/// The values of `expected` in sentences.
 pub mod wanted {
     scene::words! {
         AREA = "a ring that encloses some area";

@@ -1,4 +1,4 @@
-//! What a generation gives, as JSON objects: the same whatever carries them.
+//! The events of a generation as JSON objects, the same for every transport.
 
 use crate::compact::{FuturesDoc, FuturesForm};
 use experts::{Draft, Resolved, Warning};
@@ -29,12 +29,12 @@ pub struct DraftBody {
 }
 
 impl DraftBody {
-    /// True of the first guess.
+    /// Whether this is the first draft.
     pub fn is_first(&self) -> bool {
         self.step.is_none()
     }
 
-    /// Of a draft; with `all_modes`, all alternatives, not only the chosen ones.
+    /// The body of a draft; with `all_modes` it has all alternatives, not only the chosen ones.
     pub fn new(draft: &Draft, futures: &Sample, all_modes: bool, form: FuturesForm) -> Self {
         let agents = futures.agents.iter();
         let agents =
@@ -73,15 +73,15 @@ pub struct SampleBody {
 }
 
 impl SampleBody {
-    /// Of a sample.
+    /// The body of a sample.
     pub fn new(sample: &Sample, form: FuturesForm) -> Self {
         let agents = sample.agents.iter().map(|(id, f)| (id.clone(), FuturesDoc::new(f, true, form)));
         Self { agents: agents.collect(), score: sample.score.clone() }
     }
 }
 
-/// Are the probabilities of futures calibrated? Calibrated ones have a log loss 0.15 below that of six equal ones, with
-/// and without goals, and a reliability within 0.05.
+/// Whether the probabilities of futures are calibrated. Calibrated means a log loss 0.15 below that of six
+/// equal probabilities, with and without goals, and a reliability within 0.05.
 pub const CALIBRATED: bool = false;
 
 /// `final`: the answer.
@@ -149,14 +149,14 @@ pub struct GeneratedHead {
 }
 
 impl GeneratedHead {
-    /// Of an answer to come.
+    /// The head of an answer that does not exist yet.
     pub fn new(input_sha256: String, weights: BTreeMap<String, String>, seed: u64, request: Value) -> Self {
         let created_at = String::new();
         let (stale, licence, chosen_sample) = (false, None, 0);
         Self { input_sha256, stale, weights, seed, request, licence, created_at, chosen_sample }
     }
 
-    /// The scene's `generated` with these samples, the first of them chosen.
+    /// The scene's `generated` member with these samples, of which the first is chosen.
     pub fn generated(self, created_at: String, samples: Vec<Sample>) -> Generated {
         let Self { input_sha256, stale, weights, seed, request, licence, .. } = self;
         let chosen_sample = 0;

@@ -1,4 +1,4 @@
-//! Files out of scenes.
+//! Writes scenes as files.
 
 use crate::code::Code;
 use crate::english;
@@ -10,15 +10,15 @@ use scene::message::Message;
 use scene::{Cancel, Scene};
 use serde::Deserialize;
 
-/// A file on its way out.
+/// A written file.
 pub struct WrittenFile {
     /// Content.
     pub bytes: Vec<u8>,
     /// Media type.
     pub media_type: &'static str,
-    /// With the dot.
+    /// Extension, with the dot.
     pub extension: String,
-    /// Codes of what the format cannot hold.
+    /// Losses: what the format cannot hold.
     pub losses: Vec<formats::Loss>,
 }
 
@@ -34,14 +34,14 @@ pub enum MotionChoice {
     Log,
 }
 
-/// Bounds of a file, and the place of a scene in it.
+/// Limits of a file, and the position of a scene in it.
 #[derive(Clone, Debug, Default)]
 pub struct FilePart {
     /// Name of the scene in a file of several scenes.
     pub label: Option<String>,
-    /// Other scenes come before it.
+    /// Whether other scenes precede it.
     pub continued: bool,
-    /// Most bytes of the file.
+    /// Size limit of the file, bytes.
     pub most_bytes: Option<u64>,
     /// Stops the writing when nobody waits for the file any more.
     pub cancel: Cancel,
@@ -50,8 +50,8 @@ pub struct FilePart {
 /// Writes a scene as a file.
 ///
 /// # Errors
-/// `format-unknown`, `cannot-represent`, `reply-too-large`, `cancelled`, or `out-of-range` for a sample that is not
-/// there.
+/// `format-unknown`, `cannot-represent`, `reply-too-large`, `cancelled`, or `out-of-range` for a sample that
+/// does not exist.
 pub fn write(
     scene: &Scene,
     format: &str,

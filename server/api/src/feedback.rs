@@ -1,4 +1,4 @@
-//! What a person said of earlier cards, as a generation takes it.
+//! A person's feedback on earlier cards, as input of a generation.
 
 use crate::english::what;
 use formats::native::Members;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// Most judged cards.
 const MOST_ANSWERS: usize = 200;
-/// Most wishes, and most that is forgotten.
+/// Most wishes, and most ignored traits.
 const MOST_WISHES: usize = 32;
 /// Most different traits of all cards and wishes together.
 const MOST_TRAITS: usize = 64;
@@ -52,7 +52,7 @@ pub struct AnswerDoc {
 }
 
 impl FeedbackDoc {
-    /// The judged cards, preferences and ignored traits.
+    /// Converts the judged cards, wishes and ignored traits.
     ///
     /// # Errors
     /// Lists that are too long and numbers out of their range, each with its place.

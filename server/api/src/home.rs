@@ -12,11 +12,11 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Waker};
 
-/// Where the scenes of a carrier are: a store, a data folder, examples, a browser's storage, a dictionary.
+/// Source of a transport's scenes: a store, a data folder, examples, a browser's storage, a dictionary.
 ///
-/// Its functions may wait, for a disk or another thread; how is the carrier's matter.
+/// Its functions may wait for a disk or another thread, in whatever way the transport does.
 pub trait Home: Sync {
-    /// The scene of a document; its map is looked up when the document names it by its hash.
+    /// The scene of a document. If the document names its map by hash, the map is looked up.
     ///
     /// # Errors
     /// `unknown-map`, or every fault of the scene.
@@ -28,11 +28,11 @@ pub trait Home: Sync {
     /// `not-found`.
     fn open(&self, id: &str) -> impl Future<Output = Result<Opened, Problem>> + Send;
 
-    /// Keeps a scene in memory for the calls that follow, and gives it a name; none in a home without a memory.
+    /// Keeps a scene in memory for later calls, and returns its name; `None` if this home keeps nothing.
     fn hold(&self, scene: Scene) -> (Option<String>, Opened);
 }
 
-/// Scenes by id, in memory. An empty one is the home of calls that carry their scenes.
+/// Scenes by id, in memory. An empty map is the home of calls that carry their scenes.
 impl Home for BTreeMap<String, Opened> {
     async fn read(&self, doc: SceneDoc) -> Result<Scene, Problem> {
         Ok(doc.into_scene(|_| None)?)
@@ -47,12 +47,12 @@ impl Home for BTreeMap<String, Opened> {
     }
 }
 
-/// Nothing has this id.
+/// The refusal of an unknown id.
 pub fn not_found() -> Problem {
     Problem::new(Code::NotFound, "No scene has this id.")
 }
 
-/// What a home gives that never waits. `None` of one that does.
+/// The result of a home that never waits; `None` for a home that does.
 pub fn at_once<T>(given: impl Future<Output = T>) -> Option<T> {
     match pin!(given).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(value) => Some(value),
@@ -65,32 +65,32 @@ pub fn at_once<T>(given: impl Future<Output = T>) -> Option<T> {
 pub struct SceneRef {
     /// The scene itself.
     pub scene: Option<SceneDoc>,
-    /// A scene of the home.
+    /// Id of a scene of the home.
     pub scene_id: Option<String>,
-    /// With `scene_id`: the version that is meant.
+    /// With `scene_id`: the expected version.
     pub etag: Option<String>,
-    /// With `scene`: calls that follow will name it.
+    /// With `scene`: keep it in memory, because later calls refer to it.
     pub hold: bool,
 }
 
-/// A request that is about a scene.
+/// A request about a scene.
 pub trait AboutScene {
     /// Takes the scene out of the request.
     fn take_scene(&mut self) -> SceneRef;
 }
 
-/// The scene that a call is about.
+/// The scene of a call.
 pub struct Subject {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What it comes to as it stands; not for one that came with the call and goes with it.
+    /// Scores of the unchanged scene; `None` for a scene that belongs to this call only.
     pub standings: Option<Arc<Standings>>,
     /// The name under which it is held from now on.
     pub held: Option<String>,
 }
 
 impl Subject {
-    /// A scene that comes with the call and goes with it.
+    /// A scene that belongs to this call only.
     pub fn passing(scene: impl Into<Arc<Scene>>) -> Self {
         Self { scene: scene.into(), standings: None, held: None }
     }
@@ -101,11 +101,11 @@ impl Subject {
 }
 
 impl SceneRef {
-    /// The scene that is named.
+    /// Resolves the scene.
     ///
     /// # Errors
-    /// `invalid-field` unless exactly one is given, `not-found`, `stale-etag`, or every fault of the
-    /// scene, its pointers below `/scene`.
+    /// `invalid-field` unless exactly one is given, `not-found`, `stale-etag`, or every fault of the scene,
+    /// its pointers below `/scene`.
     pub async fn open<H: Home>(self, home: &H) -> Result<Subject, Problem> {
         match (self.scene, self.scene_id) {
             (Some(doc), None) => {
@@ -129,7 +129,7 @@ impl SceneRef {
     }
 }
 
-/// A scene, or the id of one: exactly one of the two members is given, and not as null.
+/// Schema rule: exactly one of `scene` and `scene_id` is given, and not as null.
 pub fn one_scene(schema: &mut schemars::Schema) {
     let given =
         |member: &str| json!({"required": [member], "properties": {member: {"not": {"type": "null"}}}});

@@ -1,4 +1,4 @@
-//! Scenes out of files: the formats of the `formats` crate behind the words that carriers use.
+//! Reads scenes from files: the formats of the `formats` crate under the names that transports use.
 
 use crate::code::Code;
 use crate::english;
@@ -11,7 +11,7 @@ use scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Pointer of faults in the part that is to be read.
+/// Pointer of faults in `around`.
 const AROUND_POINTER: &str = "/query/around";
 
 /// One scene of a file.
@@ -22,11 +22,11 @@ pub struct ReadScene {
     pub warnings: Vec<formats::ImportWarning>,
 }
 
-/// What a file gave.
+/// The result of reading a file.
 pub struct ReadFile {
     /// Scenes in order.
     pub scenes: Vec<ReadScene>,
-    /// Records that are no scenes: position and reason.
+    /// Records that are not scenes: index and reason.
     pub skipped: Vec<(usize, Problem)>,
 }
 
@@ -40,7 +40,7 @@ pub fn table() -> Vec<formats::format::Info> {
     FORMATS.iter().map(|format| format.info()).collect()
 }
 
-/// The id of a format by another word that people have for it.
+/// The id of a format, if `name` is a common alias.
 pub fn known(name: &str) -> &str {
     match name {
         "scene" | "json" | "native" => "dragtraffic",
@@ -54,36 +54,36 @@ pub fn known(name: &str) -> &str {
     }
 }
 
-/// What may come with a file.
+/// Inputs that accompany a file.
 #[derive(Clone, Debug, Default)]
 pub struct Companions {
     /// The network or map that a recording belongs to.
     pub net: Option<Arc<dyn Source>>,
-    /// Which columns of a table say what.
+    /// Meaning of a table's columns.
     pub columns: Option<Arc<dyn Source>>,
-    /// The file's folder: what lies there beside a table of a recording.
+    /// The file's folder, with the other tables of a recording.
     pub folder: Option<FolderFiles>,
-    /// The part of a map that is read; all of it when absent.
+    /// The part of a map to read; everything if absent.
     pub around: Option<Around>,
-    /// The program that makes a network of an extract of OpenStreetMap, where the carrier has one.
+    /// The program that converts an OpenStreetMap extract to a network, if the transport has one.
     pub netconvert: Option<Arc<dyn Netconvert>>,
 }
 
-/// What is to be read out of a file.
+/// What to read from a file.
 pub struct SceneFile {
     /// Id of the format.
     pub format: &'static str,
-    /// What the file is called.
+    /// Name of the file.
     name: String,
     options: ImportOptions,
 }
 
 impl SceneFile {
-    /// Recognises a file from its content when `format` is `None`. `window`: scenes to pass over, and the most to
-    /// take.
+    /// Detects the format from the content if `format` is `None`. `window` is the number of scenes to skip,
+    /// and the most to read.
     ///
     /// # Errors
-    /// `format-unknown`, or `invalid-field` for something beside a file that takes none.
+    /// `format-unknown`, or `invalid-field` for an accompanying input that the format does not accept.
     pub fn of(
         file: &dyn Source,
         format: Option<&str>,
@@ -119,10 +119,10 @@ impl SceneFile {
         Ok(Self { format: info.id, name: name.to_owned(), options })
     }
 
-    /// All of them.
+    /// Reads all scenes.
     ///
     /// # Errors
-    /// Why not one scene of the file can be read.
+    /// Why no scene of the file can be read.
     pub fn read(&self, file: &dyn Source) -> Result<ReadFile, Problem> {
         let mut scenes = Vec::new();
         let skipped = self.each(file, |scene| {
@@ -132,11 +132,11 @@ impl SceneFile {
         Ok(ReadFile { scenes, skipped })
     }
 
-    /// Hands each scene to `take` before the next one is read; gives the records that are no scenes: position and
-    /// reason.
+    /// Passes each scene to `take` before it reads the next one. Returns the records that are not scenes:
+    /// index and reason.
     ///
     /// # Errors
-    /// Why not one scene of the file can be read, and what `take` reports.
+    /// Why no scene of the file can be read, and the errors of `take`.
     pub fn each(
         &self,
         file: &dyn Source,
@@ -162,7 +162,7 @@ impl SceneFile {
     }
 }
 
-/// `X,Y,RADIUS`: the circle of a map that is read.
+/// Parses `X,Y,RADIUS`, the circle of a map to read.
 ///
 /// # Errors
 /// `invalid-field`.
@@ -170,7 +170,7 @@ pub fn around(text: &str) -> Result<Around, Problem> {
     text.parse().map_err(|message| Problem::of(Code::InvalidField, message).at(AROUND_POINTER))
 }
 
-/// `3` or `0..9`, both ends taken.
+/// Parses `3` or `0..9`, both ends included.
 pub fn range(text: &str) -> Result<Range<usize>, Problem> {
     let wrong = || Problem::field("/query/index", Code::InvalidField, "a number or FIRST..LAST expected");
     let number = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n < 1_000_000_000).ok_or_else(wrong);

@@ -1,4 +1,4 @@
-//! What a program with these operations is and can do.
+//! Facts about a program with these operations.
 
 use crate::domain::{ConditionRanges, KindLimits};
 use crate::import;
@@ -50,7 +50,7 @@ pub struct ProgramInfo {
 }
 
 impl ProgramInfo {
-    /// Of an engine; the build and the bounds are the carrier's.
+    /// The facts about an engine; the transport adds build and limits.
     pub fn new(
         generator: &Generator,
         placer: &Placer,

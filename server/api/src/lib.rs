@@ -1,10 +1,10 @@
-//! The operations of DragTraffic as plain functions over an engine and values: open, import, place, map, generate,
-//! feedback, score, export, info.
+//! The operations of DragTraffic as plain functions over an engine and values: open, import, place, map,
+//! generate, feedback, score, export, info.
 //!
-//! Here are the typed requests, replies, events and problems with their JSON form, their ranges, limits and defaults.
-//! There is no HTTP here, no store, thread, clock or file: a carrier (HTTP, an open line, the command line) parses a
-//! request, hands in where its scenes are ([`home::Home`]) and what the time is, and sends the reply. A carrier adds no
-//! default of its own.
+//! This crate has the typed requests, replies, events and problems, with their JSON form, ranges, limits and
+//! defaults. It has no HTTP, store, thread, clock or file. A transport (HTTP, WebSocket, the command line)
+//! parses a request, passes the source of its scenes ([`home::Home`]) and a clock, and sends the reply. A
+//! transport adds no defaults of its own.
 //!
 //! The weights are built into the program:
 //!

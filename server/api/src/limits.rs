@@ -1,4 +1,4 @@
-//! Bounds of one call, whatever carries it.
+//! Limits of one call, the same for every transport.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -11,21 +11,21 @@ pub const MODES: u64 = 6;
 pub const STEPS: u64 = 100;
 /// Greatest scale of the noise.
 pub const DIVERSITY: f64 = 2.0;
-/// Shortest time that is generated, seconds.
+/// Shortest horizon, seconds.
 pub const LEAST_HORIZON_S: f64 = 0.5;
-/// Longest time that is generated, seconds.
+/// Longest horizon, seconds.
 pub const MOST_HORIZON_S: f64 = scene::MAX_HORIZON_STEPS as f64 * scene::STEP_S;
 /// Longest wait for a draft, milliseconds.
 pub const DRAFT_MS: u64 = 1000;
-/// Intervals of re-planning, seconds: the paper's.
+/// Replan intervals, seconds: those of the paper.
 pub const REPLAN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
-/// Bounds of the work and the reply of one call. A carrier may set others.
+/// Limits of the work and the reply of one call. A transport may set others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CallLimits {
     /// Road users regenerated or reacting in one call.
     pub regenerated_agents: u64,
-    /// Samples x modes x road users x steps of a reply.
+    /// Product of samples, modes, road users and steps in a reply.
     pub reply_points: u64,
     /// Expected work of a generation, seconds of a core.
     pub work_s: u64,

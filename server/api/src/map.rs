@@ -1,4 +1,4 @@
-//! Maps from nothing.
+//! New maps from templates.
 
 use crate::problem::Problem;
 use formats::native::{AnyDoc, MapForm, SceneDoc};
@@ -64,7 +64,7 @@ pub struct TemplateList {
 }
 
 impl TemplateList {
-    /// Those of this build.
+    /// The templates of this build.
     pub fn current() -> Self {
         let item = |template: &Template| {
             let layout = json!({ "template": template.name(), "parameters": template.all_parameters() });
@@ -75,7 +75,7 @@ impl TemplateList {
 }
 
 impl MapBody {
-    /// Draws the map.
+    /// Builds the map.
     ///
     /// # Errors
     /// Every fault of the parameters.
@@ -96,7 +96,7 @@ impl MapBody {
         Ok((layout, scene, built))
     }
 
-    /// Draws the map and checks it.
+    /// Builds the map and checks it.
     ///
     /// # Errors
     /// Every fault of the parameters.

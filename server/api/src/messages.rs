@@ -4,7 +4,7 @@ use crate::english;
 use scene::message::MessageKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Words of sentences by the name of their value.
+/// Words in sentences, by the name of their value.
 fn words() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     let [files, instead] = formats::kinds::words();
     let lists: [(&str, &[&str]); 8] = [
@@ -24,7 +24,8 @@ fn words() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     all
 }
 
-/// The table of sentences: of refused requests and files, the engine, map checks and the readers' warnings. Codes are unique.
+/// The sentences of refused requests and files, the engine, map checks and the readers' warnings. Codes are
+/// unique.
 pub fn all() -> impl Iterator<Item = &'static MessageKind> {
     let tables = [
         english::MESSAGES,
@@ -37,7 +38,7 @@ pub fn all() -> impl Iterator<Item = &'static MessageKind> {
     tables.into_iter().flatten()
 }
 
-/// The table as it is committed, for clients that write the sentences in another language.
+/// The table as it is committed, for clients that translate the sentences.
 pub fn text() -> String {
     let document = serde_json::json!({"sentences": all().collect::<Vec<_>>(), "words": words()});
     let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();

@@ -1,6 +1,6 @@
-//! The operations that need the engine. Reading a file ([`crate::import::SceneFile`]), opening a scene
-//! ([`crate::SceneRef::open`]), drawing a map ([`crate::map::MapBody::reply`]) and writing a file ([`crate::export`]) need
-//! none and stand in their own modules.
+//! The operations that need the engine. The others are in their own modules: reading a file
+//! ([`crate::import::SceneFile`]), opening a scene ([`crate::SceneRef::open`]), building a map
+//! ([`crate::map::MapBody::reply`]) and writing a file ([`crate::export`]).
 
 use crate::feedback::FeedbackDoc;
 use crate::generate::{GenerateRequest, GenerationPlan, GenerationRun};
@@ -27,14 +27,14 @@ pub struct Operations {
     pub generator: Arc<Generator>,
     /// Maps to road users.
     pub placer: Arc<Placer>,
-    /// Bounds of one call.
+    /// Limits of one call.
     pub limits: CallLimits,
-    /// Measures drafts and timings. It stands unless a carrier hands one in.
+    /// Clock for drafts and timings. It never advances unless a transport sets another one.
     pub clock: Clock,
 }
 
 impl Operations {
-    /// Over an engine, with the usual bounds and without a clock.
+    /// Operations over an engine, with the default limits and without a clock.
     pub fn new(engine: Engine) -> Self {
         Self {
             generator: Arc::new(engine.generator),
@@ -44,12 +44,12 @@ impl Operations {
         }
     }
 
-    /// The same engine, each generation on `threads` threads of its own.
+    /// The same engine with separate threads, `threads` for each generation.
     pub fn beside(&self, threads: usize) -> Self {
         Self { generator: Arc::new(self.generator.beside(threads)), ..self.clone() }
     }
 
-    /// A checked generation that can be priced and queued before it starts.
+    /// Checks a generation, which can then be priced and queued before it starts.
     ///
     /// # Errors
     /// Every fault of the options, conditions and ids.
@@ -59,7 +59,7 @@ impl Operations {
         Ok(plan)
     }
 
-    /// Futures of a plan, event after event. Dropping the iterator ends the work.
+    /// Starts a plan: an iterator of its events. Dropping the iterator ends the work.
     ///
     /// # Errors
     /// A scene that the engine refuses; a cancelled call.
@@ -67,10 +67,10 @@ impl Operations {
         plan.start(&self.generator, cancel, self.clock)
     }
 
-    /// [`Self::plan`] and [`Self::start`] at once.
+    /// [`Self::plan`] followed by [`Self::start`].
     ///
     /// # Errors
-    /// As both.
+    /// Those of both.
     pub fn generate(
         &self,
         request: &GenerateRequest,
@@ -80,7 +80,7 @@ impl Operations {
         self.start(self.plan(request, about)?, cancel)
     }
 
-    /// The next round of cards, by what a person said of earlier ones.
+    /// The next round of cards, from a person's feedback on earlier ones.
     ///
     /// # Errors
     /// As [`Self::generate`].
@@ -95,7 +95,7 @@ impl Operations {
         self.generate(&request, about, cancel)
     }
 
-    /// Road users where there are none yet.
+    /// Places road users on a map.
     ///
     /// # Errors
     /// Every fault of the options; a cancelled call.
@@ -108,7 +108,7 @@ impl Operations {
         request.run(scene, &self.placer, cancel)
     }
 
-    /// Begins a run: traffic that is stepped, beside road users that the caller drives.
+    /// Begins a run: stepped traffic around road users that the caller drives.
     ///
     /// # Errors
     /// As [`RunBody::begin`].
@@ -116,7 +116,7 @@ impl Operations {
         request.begin(scene, &self.generator, cancel)
     }
 
-    /// One step of a run.
+    /// Makes one step of a run.
     ///
     /// # Errors
     /// As [`StepBody::step`].
@@ -132,7 +132,7 @@ impl Operations {
         request.peek(run, &self.generator, cancel)
     }
 
-    /// Collisions, near misses, off-road driving, kinematics, goals.
+    /// Scores collisions, near misses, off-road driving, kinematics and goals.
     ///
     /// # Errors
     /// Every fault of the given motion and thresholds.

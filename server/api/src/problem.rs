@@ -1,7 +1,7 @@
-//! Refusals as values: a code of one table, what happened, and where.
+//! Refusals as values: a code from one table, a description, and the place.
 //!
-//! A carrier writes them in its own form: HTTP as RFC 9457, the command line as a sentence with an exit code. Programs
-//! switch on `code`, which never changes.
+//! A transport writes them in its own form: HTTP as RFC 9457, the command line as a sentence with an exit
+//! code. Programs switch on `code`, which never changes.
 
 use crate::code::Code;
 use crate::english;
@@ -69,15 +69,15 @@ pub struct ProblemMembers {
 /// One refusal.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// What sort.
+    /// Code of the refusal.
     pub code: Code,
-    /// What happened this time, in English; never has paths, queries or stack traces.
+    /// What happened this time, in English; it never contains paths, queries or stack traces.
     pub detail: String,
-    /// Further members, such as `limit` or `errors`.
+    /// Other members, such as `limit` or `errors`.
     pub members: Box<ProblemMembers>,
-    /// Facts that a carrier needs beside the document, by name: the methods that an address has, for instance.
+    /// Facts that a transport needs besides the document, by name, such as the methods of an address.
     pub facts: BTreeMap<&'static str, String>,
-    /// Of a defect: what the log has to say about it. Not for the caller.
+    /// Cause of a defect for the log, not for the caller.
     pub cause: Option<String>,
 }
 
@@ -92,7 +92,7 @@ impl Problem {
         Self::new(code, message.to_string()).with(|m| m.message = Some(message))
     }
 
-    /// One field's fault.
+    /// The fault of one field.
     pub fn field(pointer: &str, code: Code, detail: impl Into<String>) -> Self {
         Self::new(code, detail).at(pointer)
     }
@@ -105,12 +105,12 @@ impl Problem {
             .with(|m| (m.message, m.errors) = (message, Some(vec![error])))
     }
 
-    /// A defect: the cause is for the log, the caller gets a plain sentence.
+    /// A defect: the log gets the cause, the caller a general sentence.
     pub fn internal(cause: impl std::fmt::Display) -> Self {
         Self { cause: Some(cause.to_string()), ..Self::of(Code::Internal, english::defect()) }
     }
 
-    /// Says that it is about one field.
+    /// Attributes the refusal to one field.
     #[must_use]
     pub fn at(self, pointer: &str) -> Self {
         let error = self.as_fault(pointer);
@@ -144,7 +144,7 @@ impl Problem {
         self
     }
 
-    /// Names the bound that was met.
+    /// Adds the limit that was reached.
     #[must_use]
     pub fn limit(self, limit: u64) -> Self {
         self.with(|m| m.limit = Some(limit))
@@ -156,7 +156,7 @@ impl Problem {
         self.retry_after_ms(1_000 * seconds)
     }
 
-    /// Milliseconds after which to ask again; the header has whole seconds.
+    /// Adds the milliseconds after which to retry; the header has whole seconds.
     #[must_use]
     pub fn retry_after_ms(self, milliseconds: u64) -> Self {
         self.with(|m| {
@@ -165,7 +165,7 @@ impl Problem {
         })
     }
 
-    /// Puts a prefix before the pointers: the problem is about a part of the body.
+    /// Prefixes the pointers, for a problem in a part of the body.
     #[must_use]
     pub fn under(mut self, prefix: &str) -> Self {
         for error in self.members.errors.iter_mut().flatten() {
@@ -175,7 +175,7 @@ impl Problem {
     }
 }
 
-/// Refuses what has faults.
+/// Refuses if there are faults.
 ///
 /// # Errors
 /// All of them, at most [`formats::problem::MAX_PROBLEMS`].
@@ -189,7 +189,7 @@ pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
     FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message)
 }
 
-/// An id as a message shows it: outside data may be long.
+/// An id shortened for a message: outside data may be long.
 pub(crate) fn shortened(id: &str) -> String {
     id.chars().take(64).collect()
 }

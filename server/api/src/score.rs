@@ -43,7 +43,7 @@ pub enum ReferenceMotion {
 }
 
 impl<'de> Deserialize<'de> for ReferenceMotion {
-    /// Read as it comes: what is kept to be tried twice would lose where its faults are.
+    /// Parses the input directly: serde's untagged enums buffer it, which would lose the positions of faults.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Either;
 
@@ -108,7 +108,7 @@ impl AboutScene for ScoreRequest {
     }
 }
 
-/// Numbers out of their range.
+/// Thresholds out of their range.
 pub(crate) fn beyond(thresholds: &Thresholds) -> impl Iterator<Item = FieldProblem> {
     thresholds.outside().map(|(threshold, got)| {
         let (least, most) = threshold.range;
@@ -199,10 +199,10 @@ fn states(
     Some(states.collect())
 }
 
-/// Score of an input in which so many road users move otherwise than in the scene of the standings.
+/// Score of an input in which `changed` road users move differently from the unchanged scene.
 pub(crate) fn with_standings(input: &ScoreInput<'_>, changed: usize, standings: Option<&Standings>) -> Score {
     let usual = input.pairs == PairChoice::default() && input.thresholds == Thresholds::default();
-    // Where most have changed, what stands saves nothing.
+    // If most road users have changed, the cached scores save nothing.
     match standings.filter(|_| usual && 2 * changed <= input.actors.len()) {
         Some(standings) => standings.over(&input.steps, input.drivable).score(input),
         None => scene::score::score(input),

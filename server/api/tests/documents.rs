@@ -1,4 +1,4 @@
-//! Documents that are committed are those of this build.
+//! The committed documents equal those of this build.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 

@@ -1,4 +1,4 @@
-//! The committed table of sentences is that of the program. `MESSAGES_ACCEPT=1` writes it.
+//! The committed table of sentences equals that of the program. `MESSAGES_ACCEPT=1` writes it.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 

@@ -1,4 +1,4 @@
-//! The path below which a proxy publishes this server, such as `/tools/drag`. A process has one.
+//! The base path under which a proxy publishes this server, such as `/tools/drag`. There is one per process.
 
 use std::sync::OnceLock;
 
@@ -7,7 +7,7 @@ static BASE: OnceLock<String> = OnceLock::new();
 /// Sets the path, once. A trailing slash is dropped.
 ///
 /// # Errors
-/// A sentence for a text that is no path.
+/// A sentence about an invalid path.
 pub fn set(path: &str) -> Result<(), String> {
     let path = path.strip_suffix('/').unwrap_or(path);
     let plain = |c: char| c.is_ascii_alphanumeric() || "-._~/".contains(c);
@@ -29,7 +29,7 @@ pub fn published(path: &str) -> String {
     format!("{}{path}", base())
 }
 
-/// The address within this server of one that a client sees.
+/// The server's address for one that a client sees.
 pub fn within(path: &str) -> Option<&str> {
     below(base(), path)
 }

@@ -1,5 +1,5 @@
-//! Values kept in memory by key. Where they are too many, the party with most of them drops the one that it has not
-//! used for longest.
+//! A cache of values by key. When it is full, the party with the largest share drops its least recently used
+//! value.
 
 use super::memory::{Lender, Memory, MemoryShare};
 use super::party::Party;
@@ -9,7 +9,7 @@ use std::fmt;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// A cache of values that are cheap to clone, bounded by what they weigh together, bytes.
+/// A cache of values that are cheap to clone, limited by their total weight in bytes.
 pub struct Cache<K: Hash + Eq, V> {
     inside: Mutex<CacheEntries<K, V>>,
     memory: Arc<Memory>,
@@ -18,7 +18,7 @@ pub struct Cache<K: Hash + Eq, V> {
 struct CacheEntries<K: Hash + Eq, V> {
     values: LruCache<K, CacheEntry<V>>,
     weight: MemoryShare,
-    /// Part of the weight, by the party that brought it.
+    /// Weight by the party that added the values.
     shares: BTreeMap<Party, usize>,
 }
 
@@ -36,17 +36,17 @@ impl<K: Hash + Eq, V: Clone> Cache<K, V> {
     }
 
     fn lock(&self) -> MutexGuard<'_, CacheEntries<K, V>> {
-        // A cache of whole values is usable after a panic elsewhere.
+        // A cache of complete values is usable after a panic elsewhere.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The value of a key, which counts as a use.
+    /// The value of a key; this counts as a use.
     pub fn get(&self, key: &K) -> Option<V> {
         self.lock().values.get(key).map(|entry| entry.value.clone())
     }
 
-    /// Keeps a value that a party brought, in place of the key's older one; not one for which there is no room even
-    /// without all others.
+    /// Stores a value for a party and replaces the key's older one. A value that would not fit even into an
+    /// empty cache is not stored.
     pub fn put(&self, key: K, value: V, weight: usize, party: Party)
     where
         K: Clone,
@@ -56,7 +56,7 @@ impl<K: Hash + Eq, V: Clone> Cache<K, V> {
         if weight as u64 > self.memory.most() {
             return;
         }
-        // The newest has part in the decision which party makes room.
+        // The new value counts in the choice of the party that makes room.
         *inside.shares.entry(party).or_default() += weight;
         while !inside.weight.grow_within(weight) {
             if !inside.make_room() {
@@ -88,7 +88,7 @@ impl<K: Hash + Eq, V> CacheEntries<K, V> {
         self.shares.retain(|_, share| *share > 0);
     }
 
-    /// Drops the longest unused value of the party with the largest share; false where it has none.
+    /// Drops the least recently used value of the party with the largest share; false if there is none.
     fn make_room(&mut self) -> bool
     where
         K: Clone,
@@ -139,7 +139,7 @@ mod tests {
         (0..5).for_each(|key| cache.put(key, key, 2, OWN));
         cache.put(5, 5, 7, OWN);
         assert_eq!((0..6).filter(|key| cache.get(key).is_some()).collect::<Vec<_>>(), [4, 5]);
-        // A newer value takes the place of the older one, and its weight.
+        // A newer value replaces the older one and its weight.
         cache.put(5, 6, 8, OWN);
         assert_eq!((cache.get(&4), cache.get(&5)), (Some(4), Some(6)));
         cache.put(4, 4, 11, OWN);

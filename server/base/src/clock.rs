@@ -1,4 +1,4 @@
-//! Wall-clock time as RFC 3339 text in UTC, with milliseconds; and time that passes evenly.
+//! Wall-clock time as RFC 3339 text in UTC, with milliseconds; and monotonic time.
 
 use jiff::Timestamp;
 use std::sync::LazyLock;
@@ -15,7 +15,7 @@ pub fn now() -> String {
     text(SystemTime::now())
 }
 
-/// A point in time; those before 1970, or past the calendar, are shown as 1970.
+/// A point in time as text; before 1970, or past the calendar, it is shown as 1970.
 pub fn text(time: SystemTime) -> String {
     let known = Timestamp::try_from(time).ok().filter(|time| *time >= Timestamp::UNIX_EPOCH);
     format!("{:.3}", known.unwrap_or(Timestamp::UNIX_EPOCH))

@@ -1,5 +1,5 @@
-//! A folder that is read through its handle: a name that leads out of the folder, or to a pipe or device, is not
-//! opened.
+//! A folder that is read through its handle: a name that leads out of the folder, or to a pipe or device, is
+//! not opened.
 
 use formats::{FolderFiles, Source, table};
 use std::fs::File;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// Largest file taken from it into memory, with what is read with it.
+/// Size limit of a file in memory, including the files that are read with it.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// A file in memory, with the files of its folder that are read with it.
@@ -16,22 +16,22 @@ const MOST_BYTES: u64 = 256 << 20;
 pub struct HeldFile {
     /// Its bytes.
     pub bytes: Vec<u8>,
-    /// The others, by name.
+    /// The other files, by name.
     pub others: Vec<(String, Arc<Vec<u8>>)>,
 }
 
 impl HeldFile {
-    /// A file with nothing beside it.
+    /// A file without others.
     pub fn alone(bytes: Vec<u8>) -> Self {
         Self { bytes, others: Vec::new() }
     }
 
-    /// Bytes of all of them.
+    /// Total bytes.
     pub fn length(&self) -> u64 {
         self.others.iter().map(|(_, other)| other.len()).chain([self.bytes.len()]).sum::<usize>() as u64
     }
 
-    /// The others as what comes with the file of this name; nothing where there are none.
+    /// The other files as companions of the file with this name; `None` without others.
     pub fn folder(&self, name: &str) -> Option<FolderFiles> {
         let other =
             |(name, bytes): &(String, Arc<Vec<u8>>)| (name.clone(), Arc::clone(bytes) as Arc<dyn Source>);
@@ -40,7 +40,7 @@ impl HeldFile {
     }
 }
 
-/// A file of a folder, opened each time that it is read.
+/// A file of a folder, opened anew for each reading.
 #[derive(Debug)]
 struct FolderFile {
     folder: Arc<DataFolder>,
@@ -58,8 +58,9 @@ impl Source for FolderFile {
     }
 }
 
-/// What of its folder is read with the file at a path: the other tables of a recording, and the maps of its place.
-/// Nothing for other files, and where the folder cannot be read. Links are followed inside the folder alone.
+/// The files of its folder that are read with the file at a path: the other tables of a recording, and the
+/// maps of its place. `None` for other files, and if the folder cannot be read. Links are followed only
+/// inside the folder.
 pub fn beside(path: &Path, columns: Option<&dyn Source>) -> Option<FolderFiles> {
     let name = path.file_name()?.to_str()?;
     let mut opened = None;
@@ -79,7 +80,7 @@ pub fn beside(path: &Path, columns: Option<&dyn Source>) -> Option<FolderFiles> 
     (!others.is_empty()).then(|| FolderFiles { name: name.to_owned(), others })
 }
 
-/// The recordings of a folder: the table of each by which it is opened, by name.
+/// The recordings of a folder, each by its main table, sorted by name.
 ///
 /// # Errors
 /// When the folder cannot be read.
@@ -103,7 +104,7 @@ impl DataFolder {
     /// Opens a folder.
     ///
     /// # Errors
-    /// When it is none, or may not be read.
+    /// When it is not a folder, or cannot be read.
     #[cfg(target_os = "linux")]
     pub fn open(path: &Path) -> io::Result<Self> {
         use rustix::fs::{Mode, OFlags, open};
@@ -114,7 +115,7 @@ impl DataFolder {
     /// Opens a folder.
     ///
     /// # Errors
-    /// When it is none, or may not be read.
+    /// When it is not a folder, or cannot be read.
     #[cfg(not(target_os = "linux"))]
     pub fn open(path: &Path) -> io::Result<Self> {
         std::fs::read_dir(path)?;
@@ -132,7 +133,7 @@ impl DataFolder {
             PathBuf::from(std::ffi::OsStr::from_bytes(entry.file_name().to_bytes()))
         };
         let entries = rustix::fs::Dir::read_from(&self.handle)?.filter_map(Result::ok).map(name);
-        // Of the folder itself and the one above.
+        // Without the entries of the folder itself and its parent.
         let mut names: Vec<PathBuf> =
             entries.filter(|name| name.file_name().is_some() && name != Path::new(".")).collect();
         names.sort();
@@ -151,19 +152,19 @@ impl DataFolder {
         Ok(names)
     }
 
-    /// The names that are text.
+    /// The names that are valid text.
     fn texts(&self) -> io::Result<Vec<String>> {
         let text = |name: PathBuf| name.into_os_string().into_string().ok();
         Ok(self.names()?.into_iter().filter_map(text).collect())
     }
 
-    /// A folder below this one.
+    /// A subfolder.
     #[cfg(target_os = "linux")]
     fn below(&self, name: &Path) -> io::Result<Self> {
         Ok(Self { handle: self.file(name)?.into() })
     }
 
-    /// A folder below this one.
+    /// A subfolder.
     #[cfg(not(target_os = "linux"))]
     fn below(&self, name: &Path) -> io::Result<Self> {
         let path = self.path.join(name).canonicalize()?;
@@ -173,16 +174,16 @@ impl DataFolder {
         Ok(Self { path })
     }
 
-    /// When a file was last changed, where the system says it.
+    /// Time of the last change of a file, if the system has it.
     pub fn modified(&self, name: &Path) -> Option<SystemTime> {
         self.file(name).and_then(|file| file.metadata()?.modified()).ok()
     }
 
-    /// The bytes of a file, whatever its name leads to now, and those of what is read with it: the other tables of a
-    /// recording, and the maps of its place, as far as they are plain files of the same folder.
+    /// The bytes of the file that a name leads to now, and of the files that are read with it. Those are the
+    /// other tables of a recording and the maps of its place, if they are plain files of the same folder.
     ///
     /// # Errors
-    /// When there is none below the folder, it is no plain file, or all are too large together.
+    /// When the file does not exist below the folder, is not a plain file, or all are too large together.
     pub fn read(&self, name: &Path) -> io::Result<HeldFile> {
         let mut left = MOST_BYTES;
         let mut take = |file: File| {
@@ -202,7 +203,7 @@ impl DataFolder {
             Some(parent) => inner.insert(self.below(parent)?).texts(),
             None => self.texts(),
         };
-        // A folder whose names are not told has nothing beside the file.
+        // If the folder cannot be listed, there are no other files.
         let names = table::beside(own, None, list).unwrap_or_default();
         let folder = inner.as_ref().unwrap_or(self);
         let mut others = Vec::new();
@@ -214,7 +215,7 @@ impl DataFolder {
         Ok(HeldFile { bytes, others })
     }
 
-    /// A file that is neither a pipe nor a device nor a folder.
+    /// Opens a file that is neither a pipe nor a device nor a folder.
     fn plain_file(&self, name: &Path) -> io::Result<File> {
         let file = self.file(name)?;
         if !file.metadata()?.is_file() {
@@ -223,7 +224,7 @@ impl DataFolder {
         Ok(file)
     }
 
-    /// Links are followed inside the folder; a pipe is opened without waiting for its other end.
+    /// Links are followed only inside the folder; a pipe is opened without waiting for its other end.
     #[cfg(target_os = "linux")]
     fn file(&self, name: &Path) -> io::Result<File> {
         use rustix::fs::{Mode, OFlags, ResolveFlags, openat, openat2};
@@ -294,7 +295,7 @@ mod tests {
                 std::fs::write(at.join(name), name).unwrap();
             }
         }
-        // Links are followed inside the folder alone, and a pipe is not waited for.
+        // Links are followed only inside the folder, and a pipe does not block.
         std::fs::remove_file(inner.join("0_recordingMeta.csv")).unwrap();
         std::os::unix::fs::symlink("../0_recordingMeta.csv", inner.join("0_recordingMeta.csv")).unwrap();
         std::os::unix::fs::symlink(outside.path().join("a.osm"), inner.join("b.osm")).unwrap();

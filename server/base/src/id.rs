@@ -1,24 +1,24 @@
 //! Ids of scenes, jobs and clients: `[A-Za-z0-9_-]{1,64}`.
 
-/// Most characters of an id.
+/// Longest id, characters.
 const LONGEST: usize = 64;
 
-/// True for a character that an id may have.
+/// Whether a character may occur in an id.
 fn is_legal(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '-' || c == '_'
 }
 
-/// True for text that can be an id.
+/// Whether a text is a valid id.
 pub fn is_id(text: &str) -> bool {
     (1..=LONGEST).contains(&text.len()) && text.chars().all(is_legal)
 }
 
-/// Text as an id: other characters become `-`, what is too long is cut.
+/// Converts a text to an id: invalid characters become `-`, and it is cut to the longest length.
 pub fn cleaned(text: &str) -> String {
     text.chars().map(|c| if is_legal(c) { c } else { '-' }).take(LONGEST).collect()
 }
 
-/// A new id that nothing else has.
+/// A new unique id.
 pub fn fresh() -> String {
     uuid::Uuid::now_v7().to_string()
 }

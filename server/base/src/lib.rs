@@ -1,4 +1,4 @@
-//! Foundations of all modules: ids, the clock, limits, refusals, counters, facts about the domain.
+//! Foundations of all server modules: ids, the clock, limits, memory, refusals, counters.
 
 pub mod base_path;
 pub mod cache;

@@ -1,4 +1,4 @@
-//! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
+//! Every limit of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
 
 use super::memory::OWN_BYTES;
 use api::limits::{Bound, CallLimits, MODES, SAMPLES};
@@ -16,7 +16,7 @@ macro_rules! limits {
         }
 
         impl Limits {
-            /// Name, number and meaning of each bound.
+            /// Name, value and meaning of each limit.
             pub fn table(&self) -> Vec<(&'static str, u64, &'static str)> {
                 vec![$((stringify!($field), self.$field, $what),)*]
             }
@@ -78,14 +78,14 @@ limits! {
     shutdown_s = 10, "time running work gets when the server stops";
 }
 
-/// Bounds without which nothing could be answered.
+/// Limits that must not be zero, because nothing could be answered.
 const NEVER_ZERO: [&str; 7] =
     ["connections", "imports", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
 
-/// Least memory of a server: the program, and as much for one request of the usual size.
+/// Least memory of a server: the program, plus one request of the usual size.
 const LEAST_MEMORY_BYTES: u64 = OWN_BYTES + (128 << 20);
 
-/// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
+/// Limits that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
 fn fixed() -> [(&'static str, u64, &'static str); 16] {
     [
         ("json_depth", 128, "nesting of a JSON document"),
@@ -123,7 +123,7 @@ impl Limits {
     /// Applies one `NAME=N`.
     ///
     /// # Errors
-    /// A sentence when the name or the number cannot be read.
+    /// A sentence about an invalid name or number.
     pub fn set(&mut self, assignment: &str) -> Result<(), String> {
         let (name, number) =
             assignment.split_once('=').ok_or_else(|| format!("\"{assignment}\": NAME=N expected"))?;
@@ -143,12 +143,12 @@ impl Limits {
         Ok(())
     }
 
-    /// Bytes that requests and what is kept for them may take together.
+    /// Budget of requests and cached data, bytes.
     pub fn budget_bytes(&self) -> u64 {
         self.memory_bytes.saturating_sub(OWN_BYTES)
     }
 
-    /// Those of one call.
+    /// The limits of one call.
     pub fn of_a_call(&self) -> CallLimits {
         CallLimits {
             regenerated_agents: self.regenerated_agents,
@@ -166,13 +166,13 @@ impl Limits {
         }
     }
 
-    /// Calls that may be worked on beside them and never wait for them: reading and writing of documents.
+    /// Additional threads for reading and writing documents, which never wait for generations.
     pub fn readers(&self) -> usize {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         cores.saturating_sub(self.workers()).clamp(1, 4)
     }
 
-    /// All bounds for `/v1/info`.
+    /// All limits for `/v1/info`.
     pub fn bounds(&self) -> BTreeMap<&'static str, Bound> {
         let rows = self.table().into_iter().chain(fixed());
         let in_force = |name, number| if name == "running" { self.workers() as u64 } else { number };

@@ -1,14 +1,14 @@
-//! What the machine gives to this process: memory, room on a disk, kind and abilities of a file system.
+//! Resources of the machine: memory, disk space, kind and abilities of a file system.
 
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Bytes that a probe writes: a page of the store.
+/// Bytes that a probe writes: one page of the store.
 const PROBE_BYTES: usize = 4_096;
 
-/// Most memory that the process may have, bytes, and what sets it: the machine, its control group (containers, systemd)
-/// or a limit of address space. `None` where the system does not report it.
+/// Memory limit of the process, bytes, and its source: the machine, its control group (containers, systemd)
+/// or a limit of address space. `None` if the system does not report it.
 #[cfg(target_os = "linux")]
 pub fn memory() -> Option<(u64, &'static str)> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
@@ -20,7 +20,7 @@ pub fn memory() -> Option<(u64, &'static str)> {
     all.into_iter().flatten().min()
 }
 
-/// The least limit of the process's control group and those above it (cgroups(7)).
+/// The smallest limit of the process's control group and its parents (cgroups(7)).
 #[cfg(target_os = "linux")]
 fn control_group() -> Option<u64> {
     let groups = std::fs::read_to_string("/proc/self/cgroup").ok()?;
@@ -38,7 +38,7 @@ fn control_group() -> Option<u64> {
         let above =
             Path::new(path).ancestors().map(|path| path.to_string_lossy().trim_start_matches('/').to_owned());
         let read = |path: String| std::fs::read_to_string(Path::new(root).join(path).join(file)).ok();
-        // "max" is no number.
+        // "max" is not a number.
         above.filter_map(read).filter_map(|text| text.trim().parse::<u64>().ok()).min()
     };
     limits.filter_map(of_group).min()
@@ -50,7 +50,8 @@ pub fn memory() -> Option<(u64, &'static str)> {
     None
 }
 
-/// Bytes that this process may still write to the file system of a folder; `None` where the system does not report it.
+/// Bytes that this process can still write to a folder's file system; `None` if the system does not report
+/// it.
 #[cfg(target_os = "linux")]
 pub fn free_bytes(folder: &Path) -> Option<u64> {
     let found = rustix::fs::statvfs(folder).ok()?;
@@ -63,8 +64,8 @@ pub fn free_bytes(_: &Path) -> Option<u64> {
     None
 }
 
-/// Name of a file system that several machines may share, on which a store must not lie: the log of SQLite needs memory
-/// that all its users share.
+/// Name of a network file system, on which a store must not lie: SQLite's log needs memory that all its users
+/// share.
 #[cfg(target_os = "linux")]
 pub fn network_file_system(folder: &Path) -> Option<&'static str> {
     // Numbers of statfs(2).
@@ -87,10 +88,10 @@ pub fn network_file_system(_: &Path) -> Option<&'static str> {
     None
 }
 
-/// Does in a folder what a store does there: makes a file, writes, locks, syncs, renames and removes it.
+/// Tries the operations of a store in a folder: creates a file, writes, locks, syncs, renames and removes it.
 ///
 /// # Errors
-/// The first step that the file system refuses, by name.
+/// The name of the first step that fails.
 pub fn try_folder(folder: &Path) -> Result<(), (&'static str, io::Error)> {
     let at = |step: &'static str| move |error: io::Error| (step, error);
     let probe =
@@ -109,7 +110,7 @@ pub fn try_folder(folder: &Path) -> Result<(), (&'static str, io::Error)> {
     Ok(())
 }
 
-/// With the kind of lock that SQLite takes.
+/// Uses the kind of lock that SQLite takes.
 #[cfg(target_os = "linux")]
 fn lock(file: &File) -> io::Result<()> {
     Ok(rustix::fs::fcntl_lock(file, rustix::fs::FlockOperation::NonBlockingLockExclusive)?)

@@ -1,35 +1,35 @@
-//! One budget of memory: bodies, lines, imports, exports, replies, runs and what is kept for later calls take from it.
-//! What does not fit is refused, in place of a process that the system ends.
+//! One memory budget for bodies, WebSockets, imports, exports, replies, runs and caches. Requests that do not
+//! fit are refused, so that the system does not kill the process.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// What the program itself takes: code, weights, threads, the store's cache, and the work of the pool. Measured: 92 MB
-/// at rest, 190 MB beside calls of the largest kinds.
+/// Memory of the program itself: code, weights, threads, the store's cache, and the work of the pool.
+/// Measured: 92 MB at rest, 190 MB with calls of the largest kinds.
 pub const OWN_BYTES: u64 = 256 << 20;
 
-/// Values that can be had again, such as open scenes: they make room for what cannot.
+/// A cache of values that can be recomputed, such as open scenes; it makes room for data that cannot.
 pub trait Lender: Send + Sync {
-    /// Drops values of at least so many bytes together, or all.
+    /// Drops values of at least this many bytes in total, or all.
     fn give_back(&self, bytes: usize);
 }
 
-/// Bytes that can be taken, in all or for one purpose.
+/// A memory budget, or a part of one for one purpose.
 pub struct Memory {
     most: usize,
     taken: AtomicUsize,
-    /// What this is a part of.
+    /// The budget of which this is a part.
     above: Option<Arc<Self>>,
     lenders: Mutex<Vec<Weak<dyn Lender>>>,
 }
 
 impl Memory {
-    /// So many bytes.
+    /// A budget of this size, bytes.
     pub fn new(most: u64) -> Arc<Self> {
         Self::below(most, None)
     }
 
-    /// At most so many bytes of this.
+    /// A part of this budget with its own limit, bytes.
     pub fn part(self: &Arc<Self>, most: u64) -> Arc<Self> {
         Self::below(most, Some(Arc::clone(self)))
     }
@@ -39,7 +39,7 @@ impl Memory {
         Arc::new(Self { most, taken: AtomicUsize::new(0), above, lenders: Mutex::default() })
     }
 
-    /// Most bytes that one can take, with nothing else taken.
+    /// Most bytes that can be taken if nothing else is taken.
     pub fn most(&self) -> u64 {
         let above = self.above.as_ref().map_or(u64::MAX, |above| above.most());
         above.min(self.most as u64)
@@ -50,23 +50,23 @@ impl Memory {
         self.taken.load(Ordering::Relaxed) as u64
     }
 
-    /// Has these values make room where it is short.
+    /// Registers a cache that makes room when memory is short.
     pub fn lend(&self, lender: Weak<dyn Lender>) {
         self.lenders.lock().unwrap_or_else(PoisonError::into_inner).push(lender);
     }
 
-    /// The same for the whole of which this is a part.
+    /// The same for the whole budget of which this is a part.
     pub fn lend_whole(&self, lender: Weak<dyn Lender>) {
         self.above.as_deref().unwrap_or(self).lend(lender);
     }
 
-    /// Takes bytes; `None` where so many are not free, even after lenders have made room.
+    /// Takes bytes; `None` if they are not free, even after caches have made room.
     pub fn take(self: &Arc<Self>, bytes: usize) -> Option<MemoryShare> {
         let mut share = self.nothing();
         share.grow(bytes).then_some(share)
     }
 
-    /// A share without any bytes yet.
+    /// A share of zero bytes.
     pub fn nothing(self: &Arc<Self>) -> MemoryShare {
         MemoryShare { memory: Arc::clone(self), bytes: 0 }
     }
@@ -90,7 +90,7 @@ impl Memory {
         }
     }
 
-    /// Asks for what can be had again, here and above.
+    /// Asks caches to make room, here and in the budget above.
     fn ask_back(&self, bytes: usize) {
         let lenders: Vec<_> = self
             .lenders
@@ -112,7 +112,7 @@ impl std::fmt::Debug for Memory {
     }
 }
 
-/// Bytes that are taken until this is dropped.
+/// Bytes that are held until this is dropped.
 #[derive(Debug)]
 pub struct MemoryShare {
     memory: Arc<Memory>,
@@ -120,12 +120,12 @@ pub struct MemoryShare {
 }
 
 impl MemoryShare {
-    /// How many.
+    /// Number of bytes.
     pub fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Takes more, after lenders have made room where it is short; false where so many are not free.
+    /// Takes more bytes, after caches have made room if needed; false if they are not free.
     pub fn grow(&mut self, bytes: usize) -> bool {
         if self.grow_within(bytes) {
             return true;
@@ -134,14 +134,14 @@ impl MemoryShare {
         self.grow_within(bytes)
     }
 
-    /// The same for a lender, which makes room by itself.
+    /// The same for a cache, which makes room itself.
     pub fn grow_within(&mut self, bytes: usize) -> bool {
         let fits = self.memory.try_take(bytes);
         self.bytes += if fits { bytes } else { 0 };
         fits
     }
 
-    /// Gives some of it back.
+    /// Returns some of the bytes.
     pub fn shrink(&mut self, bytes: usize) {
         let bytes = bytes.min(self.bytes);
         self.bytes -= bytes;

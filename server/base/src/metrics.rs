@@ -49,7 +49,7 @@ const HISTOGRAMS: &[(&str, &str)] = &[
 /// Installs the recorder of this process.
 ///
 /// # Errors
-/// When one is installed already.
+/// When one is already installed.
 pub fn install() -> Result<PrometheusHandle, String> {
     let handle = PrometheusBuilder::new()
         .set_buckets_for_metric(Matcher::Suffix("_seconds".into()), SECONDS)
@@ -61,7 +61,7 @@ pub fn install() -> Result<PrometheusHandle, String> {
     Ok(handle)
 }
 
-/// One finished request; no method where that could not be read.
+/// Counts a finished request; without a method if it could not be read.
 pub fn request(route: &str, method: Option<&Method>, status: StatusCode, seconds: f64) {
     const KNOWN: [Method; 6] =
         [Method::GET, Method::HEAD, Method::POST, Method::PUT, Method::PATCH, Method::DELETE];
@@ -72,7 +72,7 @@ pub fn request(route: &str, method: Option<&Method>, status: StatusCode, seconds
     histogram!("dragtraffic_http_request_seconds", "route" => route.to_owned()).record(seconds);
 }
 
-/// Work of a kind ended as `final`, `error`, `superseded` or `cancelled`.
+/// Counts work of a kind that ended as `final`, `error`, `superseded` or `cancelled`.
 pub fn ended(kind: &'static str, outcome: &'static str) {
     counter!("dragtraffic_work_total", "kind" => kind, "outcome" => outcome).increment(1);
     if kind == "generate" {
@@ -80,7 +80,7 @@ pub fn ended(kind: &'static str, outcome: &'static str) {
     }
 }
 
-/// Time that work of a kind took: `queue` before a worker had it, `work` with one.
+/// Time of work of a kind: `queue` before a worker took it, `work` after.
 pub fn work(kind: &'static str, phase: &'static str, seconds: f64) {
     histogram!("dragtraffic_work_seconds", "kind" => kind, "phase" => phase).record(seconds);
 }
@@ -90,28 +90,28 @@ pub fn phase(phase: &'static str, seconds: f64) {
     histogram!("dragtraffic_generate_seconds", "phase" => phase).record(seconds);
 }
 
-/// One denoising step of one expert.
+/// Counts a denoising step of an expert.
 pub fn step(expert: &'static str) {
     counter!("dragtraffic_steps_total", "expert" => expert).increment(1);
 }
 
-/// Road users that an expert answered for.
+/// Counts road users that an expert generated.
 pub fn agents(expert: &'static str, count: u64) {
     counter!("dragtraffic_agents_total", "expert" => expert).increment(count);
 }
 
-/// Jobs of a lane that wait and that are under way.
+/// Numbers of waiting and running jobs of a lane.
 pub fn load(lane: &'static str, queued: usize, running: usize) {
     gauge!("dragtraffic_queue_length", "lane" => lane).set(queued as f64);
     gauge!("dragtraffic_running", "lane" => lane).set(running as f64);
 }
 
-/// An event that a slow reader did not get.
+/// Counts an event that a slow reader did not get.
 pub fn dropped_event() {
     counter!("dragtraffic_events_dropped_total").increment(1);
 }
 
-/// An import or export; `format` is a name of the formats table.
+/// Counts an import or export; `format` is a name of the formats table.
 pub fn transfer(exports: bool, format: &str, outcome: &'static str) {
     let name = if exports { "dragtraffic_exports_total" } else { "dragtraffic_imports_total" };
     counter!(name, "format" => format.to_owned(), "outcome" => outcome).increment(1);
@@ -123,7 +123,7 @@ pub fn store(scenes: u64, bytes: u64) {
     gauge!("dragtraffic_store_bytes").set(bytes as f64);
 }
 
-/// Bytes of the budget that requests and what is kept for them have taken, and all of it.
+/// Taken bytes of the budget, and its size.
 pub fn memory(taken: u64, most: u64) {
     gauge!("dragtraffic_memory_taken_bytes").set(taken as f64);
     gauge!("dragtraffic_memory_budget_bytes").set(most as f64);

@@ -1,4 +1,4 @@
-//! SUMO's netconvert, where this machine has it.
+//! SUMO's netconvert, if this machine has it.
 
 use api::import::Companions;
 use formats::netconvert::Netconvert;
@@ -15,13 +15,13 @@ use std::time::{Duration, Instant};
 const PLACE: &str = "DRAGTRAFFIC_NETCONVERT";
 /// The name of the network that it writes.
 const NETWORK: &str = "map.net.xml";
-/// Longest that it may work: a town of some kilometres takes a few seconds.
+/// Time limit: a town of some kilometres takes a few seconds.
 const TIME: Duration = Duration::from_secs(60);
-/// Most bytes of its output, and most bytes kept of its messages.
+/// Limits of its output, and of the stored messages, bytes.
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_WORDS: u64 = 2_000;
 
-/// The program, searched at each call: it may be installed while the server runs.
+/// The program, searched at each call, because it may be installed while the server runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Installed;
 

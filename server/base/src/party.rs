@@ -1,10 +1,10 @@
-//! Parties: what shares of the server's room are measured by: names where callers have them, else addresses. A
-//! connection is none, since a client opens as many as it likes.
+//! Parties, by which the server divides its resources: names if callers have them, else addresses. A
+//! connection is not a party, because a client can open any number.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::net::IpAddr;
 
-/// Who a request comes from.
+/// The party of a request.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Party {
     /// The program itself.
@@ -12,21 +12,21 @@ pub enum Party {
     Own,
     /// A machine, or the network of one.
     Peer(IpAddr),
-    /// A user of this machine, by its number, on the unix socket.
+    /// A user of this machine on the unix socket, by user id.
     Local(u32),
-    /// Somebody with a name of the server's: of a token, or one that a trusted proxy has signed in. Its hash.
+    /// A named user: of a token, or authenticated by a trusted proxy. Hash of the name.
     Named(u64),
 }
 
 impl Party {
-    /// Of a name, from wherever its owner connects.
+    /// The party of a name, from any address.
     pub fn named(name: &str) -> Self {
         let mut hasher = DefaultHasher::new();
         name.hash(&mut hasher);
         Self::Named(hasher.finish())
     }
 
-    /// Of a peer's address. A machine has 2^64 addresses of IPv6 (RFC 6177), which count as one.
+    /// The party of a peer's address. A machine has 2^64 IPv6 addresses (RFC 6177), which count as one.
     pub fn of(peer: IpAddr) -> Self {
         match peer.to_canonical() {
             IpAddr::V6(ip) => {

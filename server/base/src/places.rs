@@ -1,14 +1,14 @@
-//! Places of which one party has at most half.
+//! A limited number of places, of which one party gets at most half.
 
 use super::party::Party;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time for which a place is expected to be taken before one was given back.
+/// Expected time for which a place is held, before any has been returned.
 const FIRST_GUESS_S: f64 = 1.0;
 
-/// A number of places that parties take and give back.
+/// A number of places that parties take and return.
 #[derive(Debug)]
 pub struct SharedPlaces {
     most: usize,
@@ -17,27 +17,27 @@ pub struct SharedPlaces {
 
 #[derive(Debug)]
 struct PlacesState {
-    /// Number of those that each party has.
+    /// Number of places held by each party.
     taken: BTreeMap<Party, usize>,
-    /// Running mean of the time for which a place is taken, seconds.
+    /// Running mean of the time for which a place is held, seconds.
     taken_s: f64,
-    /// Refusals so far.
+    /// Number of refusals so far.
     refused: usize,
 }
 
 /// Why a party gets no place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacesFull {
-    /// Most places: those of one party where it has them, else all.
+    /// The exhausted limit: that of one party, or of all.
     pub limit: usize,
-    /// The party itself has as many as it may.
+    /// Whether the party itself is at its limit.
     pub is_own: bool,
-    /// Time until one of them is free, as far as one can tell: a moment of its own for each refused caller in turn.
+    /// Estimated time until a place is free; refused callers get successive times.
     pub wait: Duration,
 }
 
 impl SharedPlaces {
-    /// So many places.
+    /// This number of places.
     pub fn new(most: usize) -> Arc<Self> {
         let state = PlacesState { taken: BTreeMap::new(), taken_s: FIRST_GUESS_S, refused: 0 };
         Arc::new(Self { most, state: Mutex::new(state) })
@@ -63,13 +63,13 @@ impl SharedPlaces {
         Ok(TakenPlace { party, since: Instant::now(), places: Arc::clone(self) })
     }
 
-    /// Numbers are usable after a panic elsewhere.
+    /// Counts are usable after a panic elsewhere.
     fn lock(&self) -> MutexGuard<'_, PlacesState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A place that is taken until this is dropped.
+/// A place that is held until this is dropped.
 #[derive(Debug)]
 pub struct TakenPlace {
     party: Party,

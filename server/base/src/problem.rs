@@ -1,6 +1,6 @@
 //! Refusals over HTTP: RFC 9457 `application/problem+json`.
 //!
-//! A handler ends with a [`Refusal`]; `http::observe` writes it out once the request id and the path are at hand.
+//! A handler ends with a [`Refusal`]; `http::observe` writes it once the request id and the path are known.
 
 use super::base_path;
 pub use super::status::{code_of, status_of};
@@ -41,7 +41,7 @@ pub struct ProblemDoc {
 }
 
 impl ProblemDoc {
-    /// Of a problem that occurred at an address, in a request.
+    /// The document of a problem at an address, in a request.
     pub fn of(problem: &Problem, instance: Option<&str>, request_id: Option<&str>) -> Self {
         Self {
             page: base_path::published(&format!("/docs/problems#{}", problem.code.name())),
@@ -57,7 +57,7 @@ impl ProblemDoc {
 
     /// The document as text.
     pub fn text(&self) -> String {
-        // Plain members with string keys: serde_json writes those without fail.
+        // It has plain members with string keys, which serde_json always writes.
         serde_json::to_string(self).unwrap_or_default()
     }
 }
@@ -70,7 +70,7 @@ pub fn logged(mut problem: Problem) -> Problem {
     problem
 }
 
-/// A problem as the end of a request.
+/// A problem that ends a request.
 #[derive(Clone, Debug)]
 pub struct Refusal(pub Problem);
 
@@ -81,7 +81,7 @@ impl From<Problem> for Refusal {
 }
 
 impl Refusal {
-    /// Takes a time for which a reply is held back off the one that its client is asked to wait.
+    /// Subtracts the time for which a reply was held back from the time that its client is asked to wait.
     pub fn hold(response: &mut Response, time: Duration) {
         let Some(Self(problem)) = response.extensions_mut().get_mut::<Self>() else { return };
         let Some(asked_ms) = problem.members.retry_after_ms else { return };
@@ -91,7 +91,7 @@ impl Refusal {
         headers.into_iter().for_each(|(name, value)| drop(response.headers_mut().insert(name, value)));
     }
 
-    /// Headers that go with it.
+    /// Headers for the problem.
     fn headers(&self) -> Vec<(HeaderName, HeaderValue)> {
         let Self(problem) = self;
         let text = |name: &str| problem.facts.get(name).and_then(|value| HeaderValue::from_str(value).ok());
@@ -113,9 +113,9 @@ impl Refusal {
     }
 }
 
-/// Fact of a problem: the methods that an address knows, as the header Allow has them.
+/// Fact of a problem: the allowed methods, in the form of the header Allow.
 pub const ALLOWED: &str = "allowed";
-/// Fact of a problem: the encodings that a body may have, as the header Accept-Encoding has them.
+/// Fact of a problem: the accepted encodings, in the form of the header Accept-Encoding.
 pub const ENCODINGS: &str = "encodings";
 
 impl IntoResponse for Refusal {

@@ -2,7 +2,7 @@
 
 use metrics::gauge;
 
-/// Measures the process. Other systems give nothing.
+/// Measures the process; does nothing on other systems.
 pub fn measure() {
     let facts = facts().unwrap_or_default();
     for (name, value) in facts {
@@ -10,14 +10,14 @@ pub fn measure() {
     }
 }
 
-/// Times in /proc count in hundredths of a second, whatever the kernel's own clock.
+/// Times in /proc are in hundredths of a second, whatever the kernel's own clock.
 #[cfg(target_os = "linux")]
 const TICKS: f64 = 100.0;
 
 #[cfg(target_os = "linux")]
 fn facts() -> Option<[(&'static str, f64); 6]> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The second field, the name, is in brackets and may contain anything.
+    // The second field, the name, is in parentheses and may contain anything.
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let number = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
     let status = std::fs::read_to_string("/proc/self/status").ok()?;

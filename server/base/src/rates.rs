@@ -1,4 +1,4 @@
-//! Rates of requests, by party: a bucket of tokens, kept as the time at which it is full again (GCRA, ITU-T I.371).
+//! Request rates by party: a token bucket, stored as the time at which it is full again (GCRA, ITU-T I.371).
 
 use super::limits::Limits;
 use super::party::Party;
@@ -7,26 +7,26 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Parties that are remembered; the one that was silent longest begins anew.
+/// Number of remembered parties; the one silent longest is forgotten.
 const PARTIES: NonZeroUsize = NonZeroUsize::new(8_192).unwrap();
-/// Between two entries of the audit log about the refusals of one party.
+/// Interval between audit entries about the refusals of one party.
 const LOG_INTERVAL: Duration = Duration::from_secs(60);
 
 /// Requests that each party may send.
 #[derive(Debug)]
 pub struct PartyRates {
-    /// Between two requests on average; `None` where they are unbounded.
+    /// Average time between requests; `None` if the rate is unlimited.
     each: Option<Duration>,
-    /// For which an average of requests may be ahead.
+    /// Time by which requests may be ahead of the average.
     ahead: Duration,
     parties: Mutex<LruCache<Party, PartyBucket>>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct PartyBucket {
-    /// When all tokens are there again.
+    /// When the bucket is full again.
     full_at: Instant,
-    /// When a refusal was logged last.
+    /// When a refusal was last logged.
     logged_at: Option<Instant>,
 }
 
@@ -35,12 +35,12 @@ struct PartyBucket {
 pub struct RateExceeded {
     /// Time after which one more is allowed.
     pub wait: Duration,
-    /// The first of its party within an interval: it is to be logged.
+    /// Whether it is the first of its party within the log interval.
     pub is_logged: bool,
 }
 
 impl PartyRates {
-    /// As the limits have it; a rate of zero is none.
+    /// The rates of the limits; zero means unlimited.
     pub fn new(limits: &Limits) -> Self {
         let each = (limits.party_rate > 0).then(|| Duration::from_secs_f64(1.0 / limits.party_rate as f64));
         let burst = u32::try_from(limits.party_burst.saturating_sub(1)).unwrap_or(u32::MAX);
@@ -48,10 +48,10 @@ impl PartyRates {
         Self { each, ahead, parties: Mutex::new(LruCache::new(PARTIES)) }
     }
 
-    /// Takes a token for a request that comes now.
+    /// Takes a token for a request at `now`.
     ///
     /// # Errors
-    /// Where there is none.
+    /// When there is none.
     pub fn take(&self, party: Party, now: Instant) -> Result<(), RateExceeded> {
         let Some(each) = self.each else { return Ok(()) };
         let mut parties = self.parties.lock().unwrap_or_else(PoisonError::into_inner);
@@ -91,10 +91,10 @@ mod tests {
         assert!((0..3).all(|_| at(0).is_ok()));
         assert_eq!(at(0), Err(RateExceeded { wait: 100 * MS, is_logged: true }));
         assert_eq!(at(30), Err(RateExceeded { wait: 70 * MS, is_logged: false }));
-        // The wait is long enough, and a refusal costs nothing.
+        // The given wait suffices, and a refusal costs no token.
         assert_eq!((at(100), at(100).map_err(|refused| refused.wait)), (Ok(()), Err(100 * MS)));
         assert_eq!(rates.take(Party::Local(2), start), Ok(()), "another party has tokens of its own");
-        // All are there again.
+        // The bucket is full again.
         assert!((0..3).all(|_| at(2_000).is_ok()) && at(2_000).is_err());
         assert!((0..3).all(|_| at(70_000).is_ok()));
         assert!(at(70_000).is_err_and(|refused| refused.is_logged), "logged again after a minute");

@@ -2,7 +2,7 @@
 
 use api::Code;
 
-/// Status that a refusal with this code is sent with.
+/// Status of a refusal with this code.
 pub fn status_of(code: Code) -> u16 {
     match code {
         Code::MalformedJson | Code::MalformedFile | Code::BadHeader | Code::BadHost => 400,
@@ -47,7 +47,7 @@ pub fn status_of(code: Code) -> u16 {
     }
 }
 
-/// The code that stands for a bare status of the HTTP layers below.
+/// The code for a bare status of the lower HTTP layers.
 pub fn code_of(status: u16) -> Code {
     match status {
         401 => Code::Unauthorized,

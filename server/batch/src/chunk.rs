@@ -1,4 +1,4 @@
-//! Chunks: so many units, one after the other, that are written at once.
+//! Chunks: consecutive units that are written at once.
 
 use crate::unit::UnitList;
 use scene::ContentHash;
@@ -9,18 +9,19 @@ const DIGITS: usize = 6;
 /// Hex digits of its hash in its name.
 const HASH_DIGITS: usize = 16;
 
-/// Some units of a list.
+/// A range of units of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BatchChunk {
-    /// From 0.
+    /// Number of the chunk, from 0.
     pub number: u64,
     /// Numbers of its units.
     pub units: Range<u64>,
-    /// What shards divide: chunks with an equal number belong to one process, as one follows from the other.
+    /// Key by which shards are divided: chunks with an equal key belong to one process, because each follows
+    /// from the previous one.
     pub share: u64,
 }
 
-/// All chunks of so many units, `size` in each but the last.
+/// All chunks of `units` units, with `size` units in each but the last.
 pub fn chunks(units: u64, size: u64) -> impl Iterator<Item = BatchChunk> {
     let size = size.max(1);
     (0..units.div_ceil(size)).map(move |number| {

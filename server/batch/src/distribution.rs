@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Drawn numbers have so many steps in one unit: four digits behind the point.
+/// Resolution of drawn numbers, steps per unit: four decimal places.
 const STEPS_PER_UNIT: f64 = 1e4;
 /// Most values of a number in a grid.
 pub const MOST_POINTS: usize = 10_000;
 
-/// Where a number comes from.
+/// Source of a number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Always this one.
+    /// A fixed value.
     Fixed(f64),
-    /// Even between two bounds, with so many values in a grid.
+    /// Uniform between two bounds.
     Uniform {
         /// Least.
         low: f64,
@@ -27,7 +27,7 @@ pub enum Distribution {
         /// Values in a grid, both bounds among them.
         points: Option<usize>,
     },
-    /// One of these.
+    /// One of these values.
     Choice(Vec<f64>),
 }
 
@@ -44,12 +44,12 @@ struct DistributionTable {
 }
 
 impl Distribution {
-    /// Does it have one value alone?
+    /// Whether it has only one value.
     pub fn is_fixed(&self) -> bool {
         matches!(self, Self::Fixed(_))
     }
 
-    /// The value that has this share of all values before it, 0 to 1; rounded to four digits behind the point.
+    /// The quantile at this share, 0 to 1; rounded to four decimal places.
     pub fn at(&self, share: f64) -> f64 {
         match self {
             Self::Fixed(value) => *value,
@@ -70,7 +70,7 @@ impl Distribution {
         }
     }
 
-    /// A value of a grid, by its place.
+    /// A value of a grid, by its index.
     pub fn point(&self, place: usize) -> f64 {
         match self {
             Self::Fixed(value) => *value,
@@ -83,7 +83,7 @@ impl Distribution {
         }
     }
 
-    /// Holds every value that it can give against a range, and its own members against each other.
+    /// Checks every possible value against a range, and its members against each other.
     pub(crate) fn check(&self, path: &str, (least, most): (f64, f64), faults: &mut Vec<PlanFault>) {
         let mut fault = |detail: String| faults.push(PlanFault::new(path, detail));
         let values = match self {

@@ -1,4 +1,4 @@
-//! The numbers of a situation: every combination of a grid, or so many draws.
+//! The numbers of a situation: every combination of a grid, or a number of draws.
 
 use crate::distribution::Distribution;
 use crate::fault::PlanFault;
@@ -8,7 +8,7 @@ use crate::{latin_hypercube, sobol};
 use scene::random::Key;
 use std::collections::BTreeMap;
 
-// A situation has conditions or the fewer parameters of a template.
+// A situation has conditions, or a template's parameters, which are fewer.
 const _: () = assert!(MOST_CONDITIONS <= sobol::DIMENSIONS);
 
 /// Number of draws of a situation for one road user of one scene.
@@ -18,13 +18,14 @@ pub fn count(situation: &BatchSituation, sampling: &BatchSampling) -> u64 {
         let points = dimensions.iter().map(|dimension| dimension.distribution.points() as u64);
         return points.fold(1, u64::saturating_mul);
     }
-    // Equal numbers are drawn once.
+    // Without a varied number there is only one draw.
     let varies = dimensions.iter().any(|dimension| !dimension.distribution.is_fixed());
     if varies { sampling.draws } else { 1 }
 }
 
-/// The numbers of one draw, by path. A draw depends on the scene, the road user, the situation and the number alone:
-/// neither other situations nor other scenes change it. A search has none: its numbers follow from its earlier tries.
+/// The numbers of one draw, by path. A draw depends only on the scene, the road user, the situation and its
+/// number. Neither other situations nor other scenes change it. A search has none: its numbers follow from
+/// its earlier tries.
 pub fn drawn(
     situation: &BatchSituation,
     sampling: &BatchSampling,
@@ -49,7 +50,7 @@ pub fn drawn(
             SamplingMethod::Sobol => sobol::share(&key, varied, draw),
             SamplingMethod::Search => return None,
         };
-        // The first dimensions spread best: none is spent on a fixed number.
+        // The first dimensions spread best, so fixed numbers use none.
         varied += usize::from(!distribution.is_fixed());
         Some(distribution.at(share))
     };
@@ -62,7 +63,7 @@ pub fn drawn(
         .collect()
 }
 
-/// What keeps a situation from being drawn.
+/// Checks that a situation can be drawn.
 pub(crate) fn check(
     situation: &BatchSituation,
     sampling: &BatchSampling,

@@ -1,4 +1,4 @@
-//! What is wrong with a plan, and where.
+//! Faults of a plan, with their places.
 
 use crate::names::hint;
 use api::Problem;
@@ -10,25 +10,25 @@ use std::fmt;
 /// One fault of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanFault {
-    /// The member, as TOML names it: `situations[0].goal.speed_mps`; empty for the whole plan.
+    /// Path of the member in TOML: `situations[0].goal.speed_mps`; empty for the whole plan.
     pub path: String,
-    /// Value found and value expected, with a hint where the name is a slip.
+    /// Value found and value expected, with a hint if the name is probably a typo.
     pub detail: String,
 }
 
 impl PlanFault {
-    /// About one member.
+    /// A fault of one member.
     pub fn new(path: impl Into<String>, detail: impl Into<String>) -> Self {
         Self { path: path.into(), detail: detail.into() }
     }
 
-    /// Of a document that was not of the wanted shape.
+    /// The faults of a document with another structure.
     pub(crate) fn of_read(error: ReadError) -> Vec<Self> {
         let fault = |pointer: &str, detail: &str| Self::new(dotted(pointer), hinted(detail));
         error.problems.iter().map(|problem| fault(&problem.pointer, &problem.detail)).collect()
     }
 
-    /// Of a refusal of the operations, about a part of the plan.
+    /// The faults of a refused operation, for a part of the plan.
     pub(crate) fn of_problem(under: &str, problem: &Problem) -> Vec<Self> {
         let errors = problem.members.errors.as_deref().unwrap_or_default();
         let under = |pointer: &str| format!("{under}.{}", dotted(pointer));
@@ -39,7 +39,7 @@ impl PlanFault {
 /// Reads a document in TOML.
 ///
 /// # Errors
-/// Its faults, each with its path; an unknown member has the name that was probably meant.
+/// Its faults, each with its path; an unknown member has a suggestion.
 pub(crate) fn document<T: DeserializeOwned>(text: &str) -> Result<T, Vec<PlanFault>> {
     let whole = |detail: String| vec![PlanFault::new("", detail)];
     let table: toml::Table = text.parse().map_err(|error: toml::de::Error| whole(error.to_string()))?;
@@ -54,7 +54,7 @@ impl fmt::Display for PlanFault {
     }
 }
 
-/// A JSON pointer as a path of TOML.
+/// Converts a JSON pointer to a TOML path.
 fn dotted(pointer: &str) -> String {
     pointer.split('/').skip(1).fold(String::new(), |path, token| {
         let token = token.replace("~1", "/").replace("~0", "~");
@@ -66,7 +66,7 @@ fn dotted(pointer: &str) -> String {
     })
 }
 
-/// The message about an unknown member with the name that was meant, where one is close.
+/// The message about an unknown member, with a suggestion if a known name is close.
 fn hinted(detail: &str) -> String {
     let mut names = detail.split('`').skip(1).step_by(2);
     let (true, Some(found)) = (detail.starts_with("unknown "), names.next()) else {

@@ -1,4 +1,4 @@
-//! An index of recordings: what each road user that moves does in them, as a table that queries choose scenes by.
+//! An index of recordings: what each moving road user does, as a table by which queries select scenes.
 
 use crate::case::facts::{self, CaseFacts, RecordedFacts};
 use formats::columnar::{self, Column, ColumnValues};
@@ -8,9 +8,9 @@ use std::io;
 
 /// A recorded scene in the index.
 pub struct IndexedScene {
-    /// Its file, as it was given.
+    /// Path of its file, as given.
     pub file: String,
-    /// Its number in the file, from 0.
+    /// Index of the scene in the file, from 0.
     pub index: u64,
     /// Its name in results.
     pub name: String,
@@ -21,7 +21,7 @@ pub struct IndexedScene {
 }
 
 impl IndexedScene {
-    /// Of a scene of a file.
+    /// The entry of a scene in a file.
     pub fn new(file: String, index: u64, name: String, scene: &Scene) -> Self {
         let moving = facts::recorded(scene, &Drivable::new(&scene.map));
         let duration_s = scene.time.steps.saturating_sub(1) as f64 * STEP_S;
@@ -29,7 +29,7 @@ impl IndexedScene {
         Self { file, index, name, road_users, signals, duration_s, moving }
     }
 
-    /// Number of its rows: one for each road user that moves.
+    /// Number of its rows: one per moving road user.
     pub fn rows(&self) -> usize {
         self.moving.len()
     }

@@ -1,18 +1,18 @@
-//! Latin hypercube samples: a range is cut into as many strata as there are draws, and each stratum has one draw.
+//! Latin hypercube samples: a range is cut into as many strata as there are draws, with one draw in each.
 
 use scene::random::Key;
 
-/// Rounds of the shuffle for each binary digit of the count; the source proves that six suffice.
+/// Rounds of the shuffle per binary digit of the count; the source proves that six suffice.
 const ROUNDS_PER_DIGIT: u32 = 6;
 
-/// Share of a range that one of `draws` draws gets, 0 to 1. `key` decides which stratum is whose.
+/// Share of a range, 0 to 1, for one of `draws` draws. `key` determines the assignment of strata.
 pub fn share(key: &Key, draw: u64, draws: u64) -> f64 {
     let inside = key.clone().number(draw).stream().unit();
     (place(key, draw, draws) as f64 + inside) / draws.max(1) as f64
 }
 
-/// Place of an item in a random order of `count` items, found without the order of the others. The swap-or-not
-/// shuffle of Hoang, Morris and Rogaway, "An Enciphering Scheme Based on a Card Shuffle" (2012).
+/// Index of an item in a random order of `count` items, computed without the order of the others. The
+/// swap-or-not shuffle of Hoang, Morris and Rogaway, "An Enciphering Scheme Based on a Card Shuffle" (2012).
 fn place(key: &Key, item: u64, count: u64) -> u64 {
     let rounds = ROUNDS_PER_DIGIT * (u64::BITS - count.leading_zeros());
     (0..rounds).fold(item, |item, round| {

@@ -1,6 +1,6 @@
-//! Plans of many generations, as values: what is varied, the units of work that follow, their names, and the chunks
-//! and shards that they are worked on in; what happens in results, and what they cover;
-//! patterns of the road, and events in recordings. Nothing here opens a file.
+//! Plans of many generations, as values: varied numbers, the resulting units of work with their names, and
+//! their chunks and shards. Also the events in results and their coverage, patterns of the road, and events
+//! in recordings. This crate opens no files.
 //!
 //! ```
 //! use batch::plan::BatchPlan;

@@ -69,14 +69,14 @@ impl Default for BatchMap {
 }
 
 impl BatchMap {
-    /// The map of the template; `None` for maps of files.
+    /// The map of the template; `None` for maps from files.
     pub fn drawn(&self) -> Option<MapBody> {
         let template = self.template.as_ref()?;
         let body = json!({ "template": template, "parameters": self.parameters, "name": self.name });
         serde_json::from_value(body).ok()
     }
 
-    /// What names its scenes, `of` being the name of the file.
+    /// Prefix of its scenes' names; `of` is the name of the file.
     pub fn label<'a>(&'a self, of: &'a str) -> &'a str {
         self.name.as_deref().or(self.template.as_deref()).unwrap_or(of)
     }
@@ -93,7 +93,7 @@ impl BatchMap {
         }
     }
 
-    /// Every fault of it; `path` is its place in the plan.
+    /// Checks the map; `path` is its path in the plan.
     pub(crate) fn check(&self, path: &str, faults: &mut Vec<PlanFault>) {
         static DENSITY: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(DensityDoc));
         static PARKED: LazyLock<Schema> = LazyLock::new(|| schemars::schema_for!(ParkedDoc));

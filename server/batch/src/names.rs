@@ -1,28 +1,28 @@
-//! Names that are close to each other, for hints at a slip.
+//! Similar names, for hints at typos.
 
-/// Letters of a name that are compared.
+/// Number of letters that are compared.
 const MOST_LETTERS: usize = 80;
-/// Most letters that a slip changes.
+/// Most letters that a typo changes.
 const SLIP: usize = 3;
 
-/// The known name that a slip turned into `name`; `None` where none is close enough.
+/// The known name of which `name` is probably a typo; `None` if none is close enough.
 fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let close = known.into_iter().filter_map(|known| Some((distance(known, name)?, known)));
     close.min().map(|(_, known)| known)
 }
 
-/// The hint that follows a name that is unknown; empty where no known name is close.
+/// The hint after an unknown name; empty if no known name is close.
 pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(name, known).map_or_else(String::new, |meant| format!(" (did you mean {meant}?)"))
 }
 
-/// Is it 1 to `most` letters, digits, - and _?
+/// Whether it is 1 to `most` letters, digits, - and _.
 pub(crate) fn is_name(name: &str, most: usize) -> bool {
     let legal = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     (1..=most).contains(&name.len()) && name.chars().all(legal)
 }
 
-/// Letters that differ, where they are few enough for a slip.
+/// Edit distance, if it is small enough for a typo.
 fn distance(a: &str, b: &str) -> Option<usize> {
     let b: Vec<char> = b.chars().take(MOST_LETTERS).collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,17 +1,17 @@
-//! Where the units of a plan stand: blocks of scene and situation, with road users, draws and seeds in each.
+//! The order of the units of a plan: blocks of scene and situation, each with road users, draws and seeds.
 
 use crate::catalogue::CatalogueScene;
 use crate::draws;
 use crate::plan::BatchPlan;
 
-/// Where a unit stands in its plan, by indices.
+/// The place of a unit in its plan, by indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnitPlace {
     /// Scene of the catalogue.
     pub scene: usize,
     /// Situation of the plan.
     pub situation: usize,
-    /// Road user among those that the situation concerns in the scene.
+    /// Road user among those of the situation in the scene.
     pub actor: usize,
     /// Number of the draw.
     pub draw: u64,
@@ -24,23 +24,24 @@ pub struct UnitBlock {
     scene: usize,
     /// Situation of the plan.
     pub situation: usize,
-    /// Draws for each road user and seed.
+    /// Draws per road user and seed.
     pub draws: u64,
     actors: u64,
     seeds: u64,
-    /// Units before it.
+    /// Number of units before it.
     first: u64,
-    /// Searches before it, where each road user and seed is one.
+    /// Number of searches before it; each road user and seed is a search.
     first_search: u64,
 }
 
 impl UnitBlock {
-    /// The blocks of a plan over a catalogue. One unit says that an input is no scene, or that nobody is meant.
+    /// The blocks of a plan over a catalogue. A single unit reports an input that is not a scene, or a
+    /// situation without road users.
     pub fn all(plan: &BatchPlan, scenes: &[CatalogueScene]) -> Vec<Self> {
         let seeds = plan.seeds.list().len() as u64;
         let (mut blocks, mut first, mut first_search) = (Vec::new(), 0, 0);
         for (i, scene) in scenes.iter().enumerate() {
-            // An input that is no scene is one unit: its row says why.
+            // An input that is not a scene is one unit, whose row gives the reason.
             let most = if scene.problem.is_some() { 1 } else { plan.situations.len() };
             for (situation, of) in plan.situations.iter().enumerate().take(most) {
                 let actors = scene.actors.get(situation).and_then(Option::as_ref);
@@ -63,7 +64,7 @@ impl UnitBlock {
         self.actors * self.seeds
     }
 
-    /// Number of the unit behind its last one.
+    /// Number of the unit after its last one.
     pub fn end(&self) -> u64 {
         self.first + self.searches() * self.draws
     }
@@ -74,7 +75,7 @@ impl UnitBlock {
         blocks.get(at).filter(|block| number < block.end())
     }
 
-    /// Where a unit stands: seeds change first, then draws, then road users.
+    /// The place of a unit: seeds vary fastest, then draws, then road users.
     pub fn place(blocks: &[Self], number: u64) -> Option<UnitPlace> {
         let block = Self::of_unit(blocks, number)?;
         let Self { scene, situation, draws, seeds, first, .. } = *block;
@@ -83,13 +84,13 @@ impl UnitBlock {
         Some(UnitPlace { scene, situation, actor, draw, seed: seed as usize })
     }
 
-    /// The number of the search that has a unit, where the draws of a search follow each other.
+    /// The number of the search of a unit, if the draws of a search are consecutive.
     pub fn search_of(blocks: &[Self], number: u64) -> Option<u64> {
         let block = Self::of_unit(blocks, number)?;
         Some(block.first_search + (number - block.first) / block.draws)
     }
 
-    /// The block of a search, and where its first draw stands.
+    /// The block of a search, and the place of its first draw.
     pub fn of_search(blocks: &[Self], search: u64) -> Option<(&Self, UnitPlace)> {
         let at = blocks.partition_point(|block| block.first_search <= search).checked_sub(1)?;
         let block = blocks.get(at)?;
@@ -100,7 +101,7 @@ impl UnitBlock {
         (within < block.searches()).then_some((block, place))
     }
 
-    /// Number of the first unit of a search of the block, where the draws of a search follow each other.
+    /// Number of the first unit of a search of the block, if the draws of a search are consecutive.
     pub fn first_of(&self, search: u64) -> u64 {
         self.first + (search - self.first_search) * self.draws
     }

@@ -71,9 +71,9 @@ fn chunk_units() -> u64 {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum BatchSeeds {
-    /// 0, 1, 2, ...
+    /// Number of seeds: 0, 1, 2, ...
     Count(u64),
-    /// These.
+    /// A list of seeds.
     List(Vec<u64>),
 }
 
@@ -202,12 +202,12 @@ impl BatchPlan {
     /// Reads a plan from TOML.
     ///
     /// # Errors
-    /// Its faults, each with its path; an unknown member has the name that was probably meant.
+    /// Its faults, each with its path; an unknown member has a suggestion.
     pub fn parse(text: &str) -> Result<Self, Vec<PlanFault>> {
         Self::parse_with(text, &|_| Err("a file is not read here".into()))
     }
 
-    /// The same, with the files of patterns, whose text `file` gives.
+    /// The same with pattern files, whose text `file` returns.
     ///
     /// # Errors
     /// Its faults and those of the patterns, each with its path.
@@ -232,7 +232,7 @@ impl BatchPlan {
         if faults.is_empty() { plan.checked() } else { Err(faults) }
     }
 
-    /// Reads a plan from JSON, its form in the results.
+    /// Reads a plan from JSON, the form in which results store it.
     ///
     /// # Errors
     /// Its faults, each with its path.
@@ -249,8 +249,8 @@ impl BatchPlan {
         if faults.is_empty() { Ok(self) } else { Err(faults) }
     }
 
-    /// For each situation the road users of a scene that get its conditions, or the places where its pattern fits; `None`
-    /// for one that names none.
+    /// For each situation, the road users of a scene that get its conditions, or the places where its pattern
+    /// fits; `None` for a situation that names none.
     pub fn actors(&self, scene: &Scene) -> Vec<Option<Vec<String>>> {
         let start_step = self.generate.start_step();
         let graph = OnceCell::new();
@@ -268,7 +268,7 @@ impl BatchPlan {
         self.situations.iter().map(of).collect()
     }
 
-    /// What is wrong with it.
+    /// Faults of the plan.
     pub(crate) fn faults(&self) -> Vec<PlanFault> {
         let mut faults = Vec::new();
         let mut fault = |path: &str, detail: String| faults.push(PlanFault::new(path, detail));
@@ -313,7 +313,7 @@ impl BatchPlan {
         for (i, map) in self.maps.iter().enumerate() {
             let path = format!("maps[{i}]");
             map.check(&path, &mut faults);
-            // The names of files are not known here.
+            // File names are not known here.
             let label = map.label("");
             if !label.is_empty() && !labels.insert(label) {
                 let detail = format!("another map is called {label}; give each a name");

@@ -1,4 +1,4 @@
-//! What a batch writes about each unit: a row of a table, and a line for each result that is kept.
+//! Output of a batch for each unit: a row of a table, and a line for each kept result.
 
 use crate::case::facts::CaseFacts;
 use crate::catalogue::UnitProblem;
@@ -28,7 +28,7 @@ impl UnitOutcome {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Kept, Self::LeftOut, Self::NobodyFits, Self::Failed];
 
-    /// Its word in the tables.
+    /// Name of the outcome in the tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kept => "kept",
@@ -50,7 +50,7 @@ pub struct BatchRow {
     pub name: String,
     /// Name of the situation.
     pub situation: String,
-    /// The road user that was asked, where it was a single one.
+    /// The road user that gets the conditions, if it is a single one.
     pub actor: Option<String>,
     /// The road user that the situation affects.
     pub other: Option<String>,
@@ -60,7 +60,7 @@ pub struct BatchRow {
     pub drawn: BTreeMap<String, f64>,
     /// Seed of the generation.
     pub seed: u64,
-    /// How it ended.
+    /// Outcome.
     pub outcome: UnitOutcome,
     /// Why it failed.
     pub problem: Option<UnitProblem>,
@@ -72,15 +72,15 @@ pub struct BatchRow {
     pub reacting: Option<u64>,
     /// What the actor does, in one sentence.
     pub what: Option<String>,
-    /// How far the result is from the condition of the plan, 0 where it holds.
+    /// How far the result is from the condition of the plan; 0 if it holds.
     pub miss: Option<f64>,
     /// Figures of the score by name.
     pub figures: BTreeMap<String, f64>,
-    /// What happens in the result; empty without one.
+    /// Facts of the result; empty without one.
     pub facts: CaseFacts,
 }
 
-/// A result that is kept, by reference: what makes it again, and its figures.
+/// A kept result by reference: the inputs that reproduce it, and its figures.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptCase {
@@ -94,13 +94,13 @@ pub struct KeptCase {
     pub name: String,
     /// Name of the situation.
     pub situation: String,
-    /// The road user that was asked, where it was a single one.
+    /// The road user that gets the conditions, if it is a single one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub actor: Option<String>,
     /// The road user that the situation affects.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub other: Option<String>,
-    /// What the actor does.
+    /// What the actor does, in one sentence.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub what: Option<String>,
     /// Conditions of the request, by road user.
@@ -117,7 +117,7 @@ pub struct KeptCase {
 }
 
 impl KeptCase {
-    /// Of a row whose result is kept.
+    /// The kept case of a row.
     pub fn of(row: &BatchRow, conditions: BTreeMap<String, ConditionsDoc>) -> Self {
         Self {
             unit: row.unit.clone(),
@@ -136,9 +136,9 @@ impl KeptCase {
         }
     }
 
-    /// Its line, with the line's end.
+    /// Its JSON line, with the newline.
     pub fn line(&self) -> String {
-        // Documents have string keys and plain values; serde_json writes those without fail.
+        // The document has string keys and plain values, which serde_json always writes.
         serde_json::to_string(self).unwrap_or_default() + "\n"
     }
 }
@@ -151,8 +151,8 @@ pub fn table(rows: &[BatchRow], figures: &'static [String]) -> io::Result<Vec<u8
     columnar::write([columns(rows, figures)], Vec::new())
 }
 
-/// Kept cases as Parquet, a group of rows after the other: the columns of [`table`], and the code of the case that each is
-/// a near copy of, which is the second list of a group.
+/// Kept cases as Parquet, one row group after the other. The columns are those of [`table`], and the code of
+/// the case of which each is a near copy, from the second list of a group.
 ///
 /// # Errors
 /// None is expected.
@@ -205,7 +205,7 @@ fn column(name: &'static str, required: bool, values: ColumnValues) -> Column {
     Column { name, required, values }
 }
 
-/// Rows of a table, each with the text or number of every column that has one.
+/// Rows of a table, each with its values by column.
 ///
 /// # Errors
 /// `malformed-file` and the like.
@@ -254,18 +254,18 @@ pub fn read(bytes: &Vec<u8>) -> Result<Vec<BatchRow>, ReadError> {
     Ok(rows)
 }
 
-/// What names a row.
+/// Identifiers of a row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RowName {
     /// Id of the unit.
     pub unit: String,
-    /// Code of its result, where it has one.
+    /// Code of its result, if it has one.
     pub code: Option<String>,
-    /// The result is kept.
+    /// Whether the result is kept.
     pub is_kept: bool,
 }
 
-/// The names of the rows of a table, without the rest of it.
+/// Reads only the identifiers of the rows of a table.
 ///
 /// # Errors
 /// `malformed-file` and the like.

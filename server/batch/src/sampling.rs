@@ -45,7 +45,7 @@ pub enum SamplingMethod {
 }
 
 impl BatchSampling {
-    /// What is out of range.
+    /// Checks the ranges.
     pub(crate) fn check(&self, faults: &mut Vec<PlanFault>) {
         if !(1..=MOST_DRAWS).contains(&self.draws) {
             faults.push(PlanFault::new("sampling.draws", format!("1 to {MOST_DRAWS} expected")));

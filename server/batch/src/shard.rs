@@ -1,8 +1,8 @@
-//! Which chunks one of several processes works on.
+//! Division of the chunks among several processes.
 
 use std::str::FromStr;
 
-/// One of so many equal shares of the chunks.
+/// One of several equal shares of the chunks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BatchShard {
     index: u64,
@@ -13,7 +13,7 @@ pub struct BatchShard {
 const MOST: u64 = 100_000;
 
 impl Default for BatchShard {
-    /// All of them.
+    /// The share of all chunks.
     fn default() -> Self {
         Self { index: 0, count: 1 }
     }
@@ -22,7 +22,7 @@ impl Default for BatchShard {
 impl FromStr for BatchShard {
     type Err = String;
 
-    /// `I/N`, I from 0 on.
+    /// Parses `I/N`, with I from 0.
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || "I/N expected, I from 0 to N - 1, such as 0/8".to_owned();
         let (index, count) = text.split_once('/').ok_or_else(expected)?;
@@ -36,9 +36,9 @@ impl BatchShard {
         (index < count && count <= MOST).then_some(Self { index, count })
     }
 
-    /// The share that a cluster gives this process: of a Slurm array (`SLURM_ARRAY_TASK_ID`, `_COUNT`, `_MIN`,
-    /// `_STEP`), or of an Indexed Job of Kubernetes (`JOB_COMPLETION_INDEX` and, set by the job file,
-    /// `JOB_COMPLETION_COUNT`). `None` outside of both.
+    /// The share that a cluster assigns to this process, by a Slurm array (`SLURM_ARRAY_TASK_ID`, `_COUNT`,
+    /// `_MIN`, `_STEP`) or an Indexed Job of Kubernetes (`JOB_COMPLETION_INDEX` and, set by the job file,
+    /// `JOB_COMPLETION_COUNT`). `None` outside both.
     ///
     /// # Errors
     /// One sentence about the variables.
@@ -66,12 +66,12 @@ impl BatchShard {
         shard.map(Some).ok_or_else(|| format!("{} lies outside of {} = {count}", names.0, names.1))
     }
 
-    /// Does this process work on the chunks of a share?
+    /// Whether this process works on the chunks of a share.
     pub fn has(self, share: u64) -> bool {
         share % self.count == self.index
     }
 
-    /// `I/N`.
+    /// The shard as `I/N`.
     pub fn words(self) -> String {
         format!("{}/{}", self.index, self.count)
     }

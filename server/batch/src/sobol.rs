@@ -1,5 +1,5 @@
-//! Sobol points: each power of two of them has one point in each interval of a range, also in several dimensions
-//! at once. Scrambled after Owen, so that seeds give other points with the same spread.
+//! Sobol points: each power of two of them has one point in each interval of a range, also in several
+//! dimensions at once. Owen scrambling makes seeds differ with the same spread.
 
 use scene::random::Key;
 
@@ -39,24 +39,25 @@ const DIRECTIONS: [(u32, &[u32]); 27] = [
     (31, &[1, 1, 7, 13, 1, 19, 1]),
 ];
 
-/// Share of a range that a point has in a dimension, above 0 and below 1. `key` decides how the dimension is
-/// scrambled.
+/// Share of a range for a point in a dimension, between 0 and 1 exclusive. `key` determines the scrambling of
+/// the dimension.
 pub fn share(key: &Key, dimension: usize, point: u64) -> f64 {
     let digits = scrambled(coordinate(dimension, point), key);
     (f64::from(digits) + 0.5) / 2_f64.powi(DIGITS as i32)
 }
 
-/// Coordinate of a point as a binary fraction. Points beyond 2^32 and dimensions beyond the table begin again.
+/// Coordinate of a point as a binary fraction. Points beyond 2^32 and dimensions beyond the table wrap
+/// around.
 fn coordinate(dimension: usize, point: u64) -> u32 {
     let directions = directions(dimension % DIMENSIONS);
     let of_point = directions.iter().enumerate().filter(|(digit, _)| point >> digit & 1 == 1);
     of_point.fold(0, |sum, (_, direction)| sum ^ direction)
 }
 
-/// Direction numbers of a dimension as binary fractions: one for each binary digit of the point's number.
+/// Direction numbers of a dimension as binary fractions: one per binary digit of the point's number.
 fn directions(dimension: usize) -> [u32; DIGITS as usize] {
     let mut all = [0; DIGITS as usize];
-    // The first dimension mirrors the digits of the number.
+    // The first dimension reverses the digits of the number.
     let (polynomial, first) = dimension.checked_sub(1).map_or((0, &[][..]), |row| DIRECTIONS[row]);
     let degree = first.len();
     for i in 0..all.len() {
@@ -73,8 +74,8 @@ fn directions(dimension: usize) -> [u32; DIGITS as usize] {
     all
 }
 
-/// Nested uniform scrambling: each digit is flipped or not, by a random choice that depends on the digits before it.
-/// Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences" (1995).
+/// Nested uniform scrambling: each digit is flipped at random, depending on the digits before it. Owen,
+/// "Randomly permuted (t,m,s)-nets and (t,s)-sequences" (1995).
 fn scrambled(digits: u32, key: &Key) -> u32 {
     (0..DIGITS).fold(0, |out, digit| {
         let before = u64::from(digits) >> (DIGITS - digit);
@@ -90,7 +91,7 @@ mod tests {
     use scene::random::Key;
     use std::collections::BTreeSet;
 
-    /// So many points, each a row; scrambled by a seed.
+    /// Scrambled points, one per row.
     fn points(seed: u64, count: u64, dimensions: usize) -> Vec<Vec<f64>> {
         let of = |point| move |d: usize| share(&Key::default().number(seed).number(d as u64), d, point);
         (0..count).map(|point| (0..dimensions).map(of(point)).collect()).collect()
@@ -101,13 +102,13 @@ mod tests {
         (0..count).map(|_| (0..dimensions).map(|_| stream.unit()).collect()).collect()
     }
 
-    /// Number of boxes with a point, where two dimensions are cut into 2^a and 2^b intervals.
+    /// Number of boxes with a point, if two dimensions are cut into 2^a and 2^b intervals.
     fn boxes(points: &[Vec<f64>], a: i32, b: i32) -> usize {
         let of = |point: &Vec<f64>| ((point[0] * 2_f64.powi(a)) as u64, (point[1] * 2_f64.powi(b)) as u64);
         points.iter().map(of).collect::<BTreeSet<_>>().len()
     }
 
-    /// Mean square of the share of points in a box from the origin less its volume, over all boxes, as a root.
+    /// Root mean square, over all boxes from the origin, of the share of points in a box minus its volume.
     /// Warnock, "Computational investigations of low-discrepancy point sets" (1972).
     fn discrepancy(points: &[Vec<f64>]) -> f64 {
         let n = points.len() as f64;

@@ -1,4 +1,5 @@
-//! The units of a batch: one generation each, in a fixed order, found by number without a list of all.
+//! The units of a batch: one generation each, in a fixed order, computed from their number without a list of
+//! all.
 
 use crate::catalogue::CatalogueScene;
 use crate::chunk::{self, BatchChunk};
@@ -22,12 +23,12 @@ pub struct BatchUnit {
     pub scene: usize,
     /// Index of the situation in the plan.
     pub situation: usize,
-    /// The road user that gets the conditions, where the situation names road users and the scene has one; or the place
-    /// of a pattern.
+    /// The road user that gets the conditions, if the situation names road users and the scene has one; or
+    /// the place of a pattern.
     pub actor: Option<String>,
     /// Number of the draw.
     pub draw: u64,
-    /// Drawn numbers by path; those of a search have [`GroupSearch`](crate::search::GroupSearch).
+    /// Drawn numbers by path; for a search, [`GroupSearch`](crate::search::GroupSearch) has them.
     pub drawn: BTreeMap<String, f64>,
     /// Seed of the generation.
     pub seed: u64,
@@ -39,20 +40,20 @@ pub struct UnitList<'a> {
     scenes: &'a [CatalogueScene],
     seeds: Vec<u64>,
     order: UnitOrder,
-    /// Of all that the units share: version, weights, tuning and options.
+    /// Hash of what all units share: version, weights, tuning and options.
     shared: ContentHash,
 }
 
 /// The order of the units.
 enum UnitOrder {
-    /// Draws that do not depend on each other.
+    /// Independent draws.
     Draws(Vec<UnitBlock>),
-    /// Tries that follow from each other.
+    /// Tries that follow from earlier ones.
     Searches(SearchOrder),
 }
 
 impl<'a> UnitList<'a> {
-    /// Of a plan. `engine` names the hashes of weights and tuning.
+    /// The units of a plan. `engine` holds the hashes of weights and tuning.
     pub fn new(plan: &'a BatchPlan, scenes: &'a [CatalogueScene], engine: &BTreeMap<String, String>) -> Self {
         let blocks = UnitBlock::all(plan, scenes);
         let order = if plan.sampling.method == SamplingMethod::Search {
@@ -72,7 +73,7 @@ impl<'a> UnitList<'a> {
         }
     }
 
-    /// Is there none?
+    /// Whether there are no units.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -85,7 +86,7 @@ impl<'a> UnitList<'a> {
         }
     }
 
-    /// The order of the tries of a plan that searches.
+    /// The order of the tries, if the plan searches.
     pub(crate) fn searches(&self) -> Option<&SearchOrder> {
         match &self.order {
             UnitOrder::Draws(_) => None,
@@ -93,12 +94,12 @@ impl<'a> UnitList<'a> {
         }
     }
 
-    /// Does a chunk follow from the chunks of its share before it?
+    /// Whether a chunk follows from the previous chunks of its share.
     pub fn is_searched(&self) -> bool {
         self.searches().is_some()
     }
 
-    /// The unit of a number below [`Self::len`].
+    /// The unit with a number below [`Self::len`].
     pub fn unit(&self, number: u64) -> Option<BatchUnit> {
         self.at(match &self.order {
             UnitOrder::Draws(blocks) => UnitBlock::place(blocks, number)?,
@@ -106,7 +107,7 @@ impl<'a> UnitList<'a> {
         })
     }
 
-    /// The unit of a place.
+    /// The unit at a place.
     pub(crate) fn at(&self, place: UnitPlace) -> Option<BatchUnit> {
         let UnitOf { scene, situation, actor, seed, is_nobody } = self.of(place)?;
         let draw = place.draw;
@@ -116,7 +117,7 @@ impl<'a> UnitList<'a> {
             let of = actor.unwrap_or_default();
             draws::drawn(situation, &self.plan.sampling, &scene.sha256, of, draw)
         };
-        // The numbers of a search follow from its ranges and from what it looks for.
+        // The numbers of a search follow from its ranges and its condition.
         let searched = self.searches().map(|_| (situation, &self.plan.sampling, &self.plan.filter));
         let (name, template) = (situation.name(), &situation.template);
         let id = ContentHash::of(&(
@@ -135,7 +136,7 @@ impl<'a> UnitList<'a> {
         Some(BatchUnit { id, scene: place.scene, situation: place.situation, actor, draw, drawn, seed })
     }
 
-    /// The search of a road user and a seed, at its start; `None` where nobody is meant.
+    /// The search of a road user and a seed, at its start; `None` if no road user fits.
     pub(crate) fn search(&self, place: UnitPlace) -> Option<SearchState<'a>> {
         let UnitOf { scene, situation, actor, seed, is_nobody } = self.of(place)?;
         let words = ["batch search", situation.name(), &scene.sha256, actor.unwrap_or_default()];
@@ -143,7 +144,7 @@ impl<'a> UnitList<'a> {
         (!is_nobody).then(|| SearchState::new(situation, key))
     }
 
-    /// What a place names.
+    /// The parts of a plan at a place.
     fn of(&self, place: UnitPlace) -> Option<UnitOf<'a>> {
         let scene = self.scenes.get(place.scene)?;
         let actors = scene.actors.get(place.situation).and_then(Option::as_ref);
@@ -157,13 +158,13 @@ impl<'a> UnitList<'a> {
     }
 }
 
-/// What a unit is about.
+/// The parts of a plan that a unit belongs to.
 struct UnitOf<'a> {
     scene: &'a CatalogueScene,
     situation: &'a BatchSituation,
     actor: Option<&'a str>,
     seed: u64,
-    /// The input is no scene, or has nobody whom the situation concerns.
+    /// The input is not a scene, or has no road user for the situation.
     is_nobody: bool,
 }
 
@@ -196,7 +197,7 @@ mod tests {
         let scenes = [scene("a", &["1", "2"]), broken, scene("empty", &[])];
         let plan = plan();
         let list = UnitList::new(&plan, &scenes, &BTreeMap::new());
-        // Three seeds of the template, two road users by two speeds by three seeds; one; three and one.
+        // Three seeds of the template; two road users by two speeds by three seeds; one; three and one.
         assert_eq!(list.len(), (3 + 12) + 1 + (3 + 1));
         let units: Vec<_> = (0..list.len()).map(|number| list.unit(number).unwrap()).collect();
         let ids: BTreeSet<_> = units.iter().map(|unit| unit.id).collect();
@@ -222,7 +223,7 @@ mod tests {
         let mut other = plan.clone();
         other.generate.horizon_s = 6.0;
         assert_ne!(first, id(&other, &scenes, &engine("x")));
-        // What is kept, and the size of chunks, change no generation.
+        // The filter and the size of chunks change no generation.
         other = BatchPlan { filter: Some("collisions == 0".into()), chunk_units: 7, ..plan.clone() };
         assert_eq!(first, id(&other, &scenes, &engine("x")));
     }
@@ -243,10 +244,10 @@ mod tests {
         };
         let scenes = [scene("a", &["1", "2"]), scene("empty", &[]), scene("b", &["3"])];
         let list = UnitList::new(&plan, &scenes, &BTreeMap::new());
-        // Ten tries for each road user and seed, and one where nothing varies; one for nobody.
+        // Ten tries for each road user and seed, and one if nothing varies; one if nobody fits.
         assert_eq!(list.len(), (40 + 4) + (1 + 1) + (20 + 2));
         let chunks: Vec<_> = list.chunks().collect();
-        // Two searches are a group, with populations of six tries.
+        // Two searches form a group, with populations of six tries.
         let sizes: Vec<_> = chunks.iter().map(|c| (c.number, c.share, c.units.end - c.units.start)).collect();
         let expected = [
             [(0, 0, 12), (1, 0, 8)].as_slice(),

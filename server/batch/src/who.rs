@@ -1,9 +1,9 @@
-//! Which road users: ids, or words for sets of them.
+//! Selectors of road users: ids, or words for sets of them.
 
 use scene::{AgentType, STANDING_MPS, Scene};
 use std::str::FromStr;
 
-/// Road users of a scene.
+/// A selector of road users.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AgentSelector {
     /// All road users that can be generated.
@@ -16,7 +16,7 @@ pub enum AgentSelector {
     Ego,
     /// No road user.
     Nobody,
-    /// This one.
+    /// The road user with this id.
     Id(String),
 }
 
@@ -41,11 +41,11 @@ impl FromStr for AgentSelector {
     }
 }
 
-/// The ids that these selectors match in a scene, each once, in the order of the scene; plain ids pass through, known or
-/// not. `None` for all.
+/// The ids that these selectors match in a scene, each once, in the order of the scene. Plain ids pass
+/// through, known or not. `None` for all.
 ///
 /// # Errors
-/// A selector that matches no road user, in words.
+/// A sentence about a selector that matches no road user.
 pub fn ids(who: &[AgentSelector], scene: &Scene, start_step: usize) -> Result<Option<Vec<String>>, String> {
     let mut ids: Vec<String> = Vec::new();
     for who in who {
@@ -71,8 +71,8 @@ pub fn ids(who: &[AgentSelector], scene: &Scene, start_step: usize) -> Result<Op
     Ok(Some(ids))
 }
 
-/// The road users of a scene that are there at the start and meant by these selectors, each on its own; an id of another
-/// scene means nobody here.
+/// The road users of a scene that are present at the start and match these selectors, separately. An id that
+/// the scene does not have matches nobody.
 pub fn actors(of: &[AgentSelector], scene: &Scene, start_step: usize) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
     for selector in of {

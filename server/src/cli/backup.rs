@@ -1,4 +1,4 @@
-//! `dragtraffic backup`: a copy of the saved scenes, while a server works on them or not.
+//! `dragtraffic backup`: copies the saved scenes, whether or not a server uses them.
 
 use super::serve::default_db;
 use super::{Common, Exit, Failure, output};
@@ -20,7 +20,7 @@ pub struct BackupArgs {
     force: bool,
 }
 
-/// Copies the store whole, looks through the copy, and puts it in its place.
+/// Copies the whole store, checks the copy, and puts it in its place.
 ///
 /// # Errors
 /// Exit 2 when the two are one file, 3 when there is no store to copy, 8 when the output exists, else 1.
@@ -47,12 +47,12 @@ pub fn run(args: BackupArgs, common: &Common) -> Result<(), Failure> {
     Ok(())
 }
 
-/// It is a file, or nothing yet.
+/// Whether the path is a file or does not exist.
 pub fn takes_a_file(path: &Path) -> bool {
     path != Path::new("-") && path.metadata().map_or(true, |found| found.is_file())
 }
 
-/// Are both paths the same file, or is one a side file of the database?
+/// Whether both paths are the same file, or one is a side file of the database.
 pub fn same_file(db: &Path, output: &Path) -> bool {
     let Ok(db) = db.canonicalize() else { return false };
     let output = output.canonicalize().unwrap_or_else(|_| {

@@ -1,4 +1,4 @@
-//! Flags of every command, and what follows from them: log lines, and the engine with its weights.
+//! Flags of every command, and what they configure: the log, and the engine with its weights.
 
 use super::{Exit, Failure, output};
 use api::Operations;
@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-/// Heading of these flags in every help.
+/// Heading of these flags in the help.
 const HEADING: &str = "Global options";
-/// Most losses, warnings or road users that are listed without `--verbose`.
+/// Number of losses, warnings or road users that are listed without `--verbose`.
 const MOST_LISTED: usize = 10;
 
 /// Flags of every command.
@@ -50,7 +50,7 @@ impl Common {
         }
     }
 
-    /// The first lines, and how many `things` the rest is about; all of them under `--verbose`.
+    /// The first lines, and the number of omitted `things`; all lines under `--verbose`.
     pub fn listed(&self, mut lines: Vec<String>, things: &str) -> Vec<String> {
         let more = lines.len().saturating_sub(MOST_LISTED);
         if more > 0 && !self.verbose {
@@ -66,7 +66,7 @@ impl Common {
         let filter = tracing_subscriber::EnvFilter::try_new(level)
             .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
         let terminal = std::io::stderr().is_terminal();
-        // A log that cannot be written, on a full disk say, is no reason to refuse anybody.
+        // If the log cannot be written, for example on a full disk, requests are still served.
         let builder = tracing_subscriber::fmt()
             .with_env_filter(filter)
             .with_writer(std::io::stderr)
@@ -81,7 +81,7 @@ impl Common {
         let _ = done;
     }
 
-    /// Generator and placer, from a folder or from inside the program.
+    /// Generator and placer, from a folder or from the built-in weights.
     ///
     /// # Errors
     /// Exit 7.
@@ -102,7 +102,7 @@ impl Common {
         Ok(Operations { clock: clock::monotonic, ..Operations::new(self.engine()?) })
     }
 
-    /// The same, each call on so many threads.
+    /// The same, with this number of threads per call.
     ///
     /// # Errors
     /// Exit 7.

@@ -1,4 +1,4 @@
-//! Options of the server from a TOML file: they stand behind those of the command line and of the environment.
+//! Server options from a TOML file. The command line and the environment take precedence.
 
 use clap::{Arg, ArgMatches, Command};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 /// Commands with the options of the server.
 pub const COMMANDS: [&str; 2] = ["serve", "doctor"];
 
-/// The command line, where its options from the file are the defaults; `None` where no file is named.
+/// The parsed command line with the file's options as defaults; `None` if no file is named.
 ///
 /// # Errors
 /// A sentence about the file.
@@ -30,19 +30,19 @@ pub fn with_file(command: Command, matches: &ArgMatches) -> Result<Option<Comman
             None => arg,
         })
     };
-    // A command that is asked for by itself has no others below it.
+    // If `command` is itself one of these commands, it has no such subcommands.
     let named = |name: &&str| command.find_subcommand(name).is_some();
     let named: Vec<&str> = COMMANDS.into_iter().filter(named).collect();
     Ok(Some(filled(named.into_iter().fold(command, |command, name| command.mut_subcommand(name, filled)))))
 }
 
 fn with_default(arg: Arg, values: &[String]) -> Arg {
-    // Read once for the whole run of the program.
+    // Leaked on purpose: read once per process.
     let values = values.iter().map(|value| &*Box::leak(value.clone().into_boxed_str()));
     arg.default_values(values)
 }
 
-/// Values by the name of their option.
+/// The file's values, by name of the option.
 fn read(path: &Path) -> Result<Vec<(String, Vec<String>)>, String> {
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     let table: toml::Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;

@@ -1,4 +1,5 @@
-//! `dragtraffic doctor`: what this machine lacks to serve, beyond the faults of options that `serve --check` finds.
+//! `dragtraffic doctor`: checks whether this machine can serve, beyond the options that `serve --check`
+//! checks.
 
 use super::listen::ServerEndpoint;
 use super::plan::ServePlan;
@@ -11,9 +12,9 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// Least room on the disk of the store: its log, the reserve for deletes, and a few scenes.
+/// Least free disk space of the store: its log, the reserve for deletes, and a few scenes.
 const LEAST_DISK_BYTES: u64 = 64 << 20;
-/// A clock before this moment (2026-01-01) is wrong: this program was not made yet.
+/// A clock before this moment (2026-01-01) is wrong, because it precedes this program.
 const EARLIEST: Duration = Duration::from_secs(1_767_225_600);
 
 /// Flags of `doctor`: those of the server that is to run.
@@ -26,18 +27,18 @@ pub struct DoctorArgs {
     json: bool,
 }
 
-/// Judgement of one thing.
+/// Result of one check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum FindingState {
     Ok,
-    /// The server works, but with less than it is set to.
+    /// The server works, but not fully as configured.
     Warning,
-    /// The server does not start, or loses what it is told to keep.
+    /// The server does not start, or loses data.
     Fault,
 }
 
-/// One thing that a server needs.
+/// One check of the server's needs.
 #[derive(Clone, Debug, Serialize)]
 struct Finding {
     what: &'static str,
@@ -46,18 +47,18 @@ struct Finding {
 }
 
 fn finding(what: &'static str, verdict: FindingState, detail: impl Into<String>) -> Finding {
-    // The words of system errors, without their numbers.
+    // The texts of system errors, without their numbers.
     Finding { what, verdict, detail: Failure::input(detail).message }
 }
 
-/// What is found, as JSON.
+/// The findings as JSON.
 #[derive(Serialize)]
 struct DoctorReport<'a> {
     ok: bool,
     findings: &'a [Finding],
 }
 
-/// Looks at options and machine, and prints what it finds.
+/// Checks options and machine, and prints the findings.
 ///
 /// # Errors
 /// Exit 1 with a fault.
@@ -110,7 +111,7 @@ fn line(found: &Finding) -> String {
     format!("{verdict:<8}{:<12} {}\n", found.what, found.detail)
 }
 
-/// The addresses, taken for a moment.
+/// Checks the addresses by binding them briefly.
 fn addresses(plan: &ServePlan) -> Result<Vec<Finding>, Failure> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
     let own = (plan.endpoint.clone(), plan.endpoint.shown());
@@ -119,7 +120,7 @@ fn addresses(plan: &ServePlan) -> Result<Vec<Finding>, Failure> {
         match runtime.block_on(endpoint.listen()) {
             Ok(_) => {
                 if let ServerEndpoint::File(path, _) = &endpoint {
-                    // It was made for this look.
+                    // The socket file was created for this check.
                     let _ = std::fs::remove_file(path);
                 }
                 finding("address", FindingState::Ok, format!("{shown} is free"))
@@ -133,7 +134,7 @@ fn addresses(plan: &ServePlan) -> Result<Vec<Finding>, Failure> {
 /// The file of the store, its folder and its disk.
 fn store(db: &Path, most_bytes: u64) -> Vec<Finding> {
     let folder = db.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    // The server makes the folders of its own default.
+    // The server creates the folders of its default path.
     let there: PathBuf = folder.ancestors().find(|folder| folder.is_dir()).unwrap_or(folder).into();
     let shown = there.display();
     let mut findings = vec![match machine::try_folder(&there) {

@@ -86,10 +86,10 @@ pub struct InfoArgs {
     markdown: bool,
 }
 
-/// Prints what `/v1/info` gives, or a part of it.
+/// Prints the reply of `/v1/info`, or a part of it.
 ///
 /// # Errors
-/// Exit 2 for a part that there is not, 7 without weights.
+/// Exit 2 for an unknown part, 7 without weights.
 pub fn info(args: InfoArgs, common: &Common) -> Result<(), Failure> {
     if args.markdown {
         return match args.part.as_deref() {

@@ -1,25 +1,25 @@
-//! How commands end.
+//! Exit codes of commands.
 
-/// How a command ends; the numbers are part of the interface.
+/// Exit code of a command; the numbers are part of the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Anything that has no number of its own.
+    /// Any failure without its own code.
     Failure = 1,
-    /// The command line makes no sense.
+    /// The command line is invalid.
     Usage = 2,
-    /// Input cannot be read or is not valid.
+    /// Input cannot be read or is invalid.
     Input = 3,
-    /// Some items failed, the rest are done.
+    /// Some items failed, the others are done.
     Partly = 4,
-    /// Something was lost under `--strict`.
+    /// There were losses under `--strict`.
     Lossy = 5,
-    /// The address is taken.
+    /// The address is in use.
     AddressInUse = 6,
-    /// Weights are missing or wrong.
+    /// Weights are missing or invalid.
     Weights = 7,
     /// The output exists.
     OutputExists = 8,
-    /// Ctrl-C; commands that write result by result keep the finished ones.
+    /// Ctrl-C; commands that write result by result keep the completed ones.
     Interrupted = 130,
 }
 
@@ -28,22 +28,22 @@ pub enum Exit {
 pub struct Failure {
     /// Exit code.
     pub exit: Exit,
-    /// One sentence; empty when it was printed already.
+    /// One sentence; empty if it was already printed.
     pub message: String,
 }
 
 impl Failure {
-    /// A failure with one sentence; the numbers of the system's errors are left out.
+    /// A failure with one sentence; numbers of system errors are removed.
     pub fn new(exit: Exit, message: impl Into<String>) -> Self {
         Self { exit, message: without_error_numbers(&message.into()) }
     }
 
-    /// A command line that makes no sense.
+    /// A failure of an invalid command line.
     pub fn usage(message: impl Into<String>) -> Self {
         Self::new(Exit::Usage, message)
     }
 
-    /// Input that cannot be taken.
+    /// A failure of invalid input.
     pub fn input(message: impl Into<String>) -> Self {
         Self::new(Exit::Input, message)
     }
@@ -55,7 +55,7 @@ impl From<std::io::Error> for Failure {
     }
 }
 
-/// The words of system errors say what happened: "No such file or directory (os error 2)".
+/// Removes numbers such as that of "No such file or directory (os error 2)": the text is enough.
 fn without_error_numbers(message: &str) -> String {
     let mut parts = message.split(" (os error ");
     let first = parts.next().unwrap_or_default().to_owned();

@@ -1,4 +1,5 @@
-//! `dragtraffic export-all`: every saved scene as a file, for whoever has no program to read the store.
+//! `dragtraffic export-all`: writes every saved scene as a file, for users without a program that reads the
+//! store.
 
 use super::convert::{ids, writable};
 use super::serve::default_db;
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// Format of the store.
 const NATIVE: &str = "dragtraffic";
-/// List of the files, beside them. Ids of scenes have no dot.
+/// List of the files, in the same folder. Ids of scenes contain no dot.
 const LIST: &str = "scenes.ndjson";
 
 /// Flags of `export-all`.
@@ -42,14 +43,14 @@ struct ListLine<'a> {
     etag: &'a str,
     created_at: &'a str,
     updated_at: &'a str,
-    /// Codes of what the format cannot hold.
+    /// Codes of losses.
     losses: Vec<&'static str>,
 }
 
 /// Writes the files and their list.
 ///
 /// # Errors
-/// Exit 3 when there is no store, or a scene cannot be had in the format; 8 when the folder exists; else 1.
+/// Exit 3 when there is no store, or a scene cannot be converted; 8 when the folder exists; else 1.
 pub fn run(args: ExportAllArgs, common: &Common) -> Result<(), Failure> {
     let db = args.db.map_or_else(default_db, Ok)?;
     if !db.is_file() {
@@ -93,7 +94,7 @@ fn line<'a>(scene: &'a DumpedScene, file: &'a str, losses: &[&'static str]) -> L
     ListLine { file, id, name, etag, created_at, updated_at, losses: losses.to_vec() }
 }
 
-/// A scene in a format, with the codes of what it cannot hold. The native one has the stored text.
+/// A scene in a format, with the codes of its losses. The native format is the stored text.
 fn written(scene: &DumpedScene, format: &str) -> Result<(Vec<u8>, Vec<&'static str>), Problem> {
     let whole = record::with_map(&scene.json, &scene.map)?;
     if format == NATIVE {

@@ -1,4 +1,5 @@
-//! `dragtraffic health`: asks a running server, for supervisors of machines and images without an HTTP client.
+//! `dragtraffic health`: probes a running server, for supervisors of machines and images without an HTTP
+//! client.
 
 use super::listen::{ServerEndpoint, UNIX};
 use super::serve::ServeArgs;
@@ -10,9 +11,9 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpStream, ToSocketAddrs}
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Most bytes of a reply that are read.
+/// Limit of the bytes of a reply.
 const MOST: u64 = 64 << 10;
-/// Port of a URL without one.
+/// Default port of a URL.
 const PORT: u16 = 80;
 
 /// Flags of `health`.
@@ -30,7 +31,7 @@ pub struct HealthArgs {
     timeout: u64,
 }
 
-/// Where a server is asked.
+/// Address of the probed server.
 #[derive(Debug, PartialEq, Eq)]
 enum Asked {
     /// Host with its port, and the base path.
@@ -39,10 +40,10 @@ enum Asked {
     File(PathBuf),
 }
 
-/// Asks the server and prints its word.
+/// Probes the server and prints the reply.
 ///
 /// # Errors
-/// Exit 1 when it does not answer, or refuses; exit 2 for an address that is none.
+/// Exit 1 when it does not answer, or refuses; exit 2 for an invalid address.
 pub fn run(args: HealthArgs, common: &Common) -> Result<(), Failure> {
     let asked = match &args.server {
         Some(text) => Asked::of(text).map_err(Failure::usage)?,
@@ -73,7 +74,7 @@ impl Asked {
         Ok(Self::Http(host, if base.is_empty() { String::new() } else { format!("/{base}") }))
     }
 
-    /// Where a server with these options answers probes.
+    /// The address at which a server with these options answers probes.
     fn by_options(options: &ServeArgs) -> Result<Self, Failure> {
         if let Some(text) = &options.ops_address {
             let address = text.parse::<SocketAddr>();
@@ -93,7 +94,7 @@ impl Asked {
         }
     }
 
-    /// The whole reply as text.
+    /// The complete reply as text.
     fn get(&self, path: &str, patience: Duration) -> std::io::Result<String> {
         let (host, base) = match self {
             Self::Http(host, base) => (host.as_str(), base.as_str()),
@@ -128,7 +129,7 @@ impl Asked {
     }
 }
 
-/// The address at which a server that listens on all addresses is reached from its own machine.
+/// The address by which this machine reaches a server that listens on all addresses.
 fn reached(address: SocketAddr) -> SocketAddr {
     let ip = match address.ip() {
         IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
@@ -145,14 +146,14 @@ fn exchange(mut stream: impl Read + Write, head: &str) -> std::io::Result<String
     Ok(String::from_utf8_lossy(&reply).into_owned())
 }
 
-/// The word of a server that is well.
+/// The status word of a healthy server.
 ///
 /// # Errors
-/// What it says otherwise.
+/// The status word of any other server.
 fn word(reply: &str) -> Result<String, String> {
     let (head, body) = reply.split_once("\r\n\r\n").ok_or("the reply breaks off")?;
     let status = head.split(' ').nth(1).unwrap_or_default();
-    // Replies to probes are short documents, so the object is whole whatever stands around it.
+    // Replies to probes are short documents, so the outermost braces enclose the whole object.
     let object = body.find('{').zip(body.rfind('}')).and_then(|(from, to)| body.get(from..=to));
     let document: Value = object.and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
     match (status, document.get("status").and_then(Value::as_str)) {

@@ -1,4 +1,4 @@
-//! `dragtraffic index`: who does what in recorded scenes, as a table.
+//! `dragtraffic index`: what each road user does in recorded scenes, as a table.
 
 use super::inputs::Inputs;
 use super::output;

@@ -1,19 +1,20 @@
-//! Ctrl-C and its like: files are whole or not there, and long runs may keep what is done.
+//! Ctrl-C and similar signals: files are complete or absent, and long runs may keep finished results.
 
 use super::{Exit, output};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::signal::unix::{SignalKind, signal};
 
-/// What a process that was asked to terminate ends with.
+/// Exit code of a process that was asked to terminate.
 const TERMINATED: i32 = 143;
 
-/// Watches for Ctrl-C and a request to terminate: what is half written goes, and the program ends.
+/// Watches for Ctrl-C and termination requests: removes incomplete files and ends the program.
 pub fn watch() {
     listen(None);
 }
 
-/// As [`watch`], but the first request sets a flag, for work that ends by itself soon; the second ends the program.
+/// As [`watch`], but the first request sets a flag for work that ends soon by itself; the second one ends the
+/// program.
 #[cfg(feature = "lab")]
 pub fn gently() -> Arc<AtomicBool> {
     let asked = Arc::new(AtomicBool::new(false));
@@ -23,7 +24,7 @@ pub fn gently() -> Arc<AtomicBool> {
 
 fn listen(gentle: Option<Arc<AtomicBool>>) {
     let Ok(runtime) = tokio::runtime::Builder::new_current_thread().enable_all().build() else { return };
-    // Registered before this returns: no request that comes later is missed.
+    // Registered before this returns, so no later request is missed.
     let guard = runtime.enter();
     let signals = signal(SignalKind::interrupt()).and_then(|int| Ok((int, signal(SignalKind::terminate())?)));
     drop(guard);

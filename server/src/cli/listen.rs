@@ -1,4 +1,4 @@
-//! Where a server listens: an address, or a unix socket.
+//! The endpoint of a server: an address, or a unix socket.
 
 use super::serve::ServeArgs;
 use super::{Exit, Failure};
@@ -8,23 +8,24 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 use tokio::net::TcpListener;
 
-/// Before the path of a unix socket.
+/// Prefix of the path of a unix socket.
 pub const UNIX: &str = "unix:";
 
-/// What a server listens on.
+/// Endpoint of a server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ServerEndpoint {
     /// An address.
     Address(SocketAddr),
-    /// A file with a mode.
+    /// Path of a unix socket, with its mode.
     File(PathBuf, u32),
 }
 
 impl ServerEndpoint {
-    /// As the command line says.
+    /// The endpoint of the command line.
     ///
     /// # Errors
-    /// Exit 2: no address, or one that other machines reach on a server without tokens.
+    /// Exit 2 for an invalid address, or for a server without tokens on an address that other machines can
+    /// reach.
     pub fn of(args: &ServeArgs) -> Result<Self, Failure> {
         if let Some(text) = &args.listen {
             let path = text.strip_prefix(UNIX).filter(|path| !path.is_empty());
@@ -46,7 +47,7 @@ impl ServerEndpoint {
         Ok(Self::Address(SocketAddr::new(ip, args.port)))
     }
 
-    /// For people.
+    /// The endpoint, for messages.
     pub fn shown(&self) -> String {
         match self {
             Self::Address(address) => format!("http://{address}{}", base_path::published("/")),
@@ -54,10 +55,10 @@ impl ServerEndpoint {
         }
     }
 
-    /// The listener, and the address that it has.
+    /// The listener, and its address.
     ///
     /// # Errors
-    /// Exit 6 for an address that is taken, exit 1 for what else the system refuses.
+    /// Exit 6 for an address in use, exit 1 for other errors of the system.
     pub async fn listen(&self) -> Result<(Listener, Option<SocketAddr>), Failure> {
         match self {
             Self::Address(address) => {
@@ -77,7 +78,7 @@ impl ServerEndpoint {
     }
 }
 
-/// A unix socket; the one of a server that has ended is replaced.
+/// A unix socket; it replaces the socket of a server that has ended.
 #[cfg(unix)]
 fn socket(path: &Path, mode: u32) -> Result<Listener, Failure> {
     use std::os::unix::fs::{FileTypeExt, PermissionsExt};

@@ -1,4 +1,4 @@
-//! `dragtraffic map`: the same work as `POST /v1/map`, to a file.
+//! `dragtraffic map`: the operation of `POST /v1/map`, to a file.
 
 use super::{Common, Failure, output};
 use api::map::{MapBody, TemplateList};
@@ -44,7 +44,7 @@ struct Setting {
     value: Value,
 }
 
-/// `PATH=VALUE`; a value that is no JSON is a word.
+/// Parses `PATH=VALUE`; a value that is not JSON is text.
 fn setting(text: &str) -> Result<Setting, String> {
     let (path, value) = text.split_once('=').ok_or("a place and = expected first, as in kerb_radius_m=6")?;
     let path: Vec<String> = path.split('.').map(str::to_owned).collect();
@@ -55,7 +55,7 @@ fn setting(text: &str) -> Result<Setting, String> {
     Ok(Setting { path, value })
 }
 
-/// Draws a map and writes the scene with it.
+/// Builds a map and writes a scene with it.
 ///
 /// # Errors
 /// Exit 2, 3, 8.
@@ -84,12 +84,12 @@ pub fn run(args: MapArgs, common: &Common) -> Result<(), Failure> {
     output::write_scene(args.output.as_deref(), &native::write(&scene), args.force, args.json)
 }
 
-/// A pointer into the body as `--set` has it.
+/// Converts a pointer into the body to the form of `--set`.
 fn flag(pointer: &str) -> String {
     pointer.trim_start_matches("/parameters").trim_start_matches('/').replace('/', ".")
 }
 
-/// The request that the flags say.
+/// The request of the flags.
 fn request(args: &MapArgs) -> Result<MapBody, Failure> {
     let (mut template, mut parameters) = (args.template, json!({}));
     if let Some(path) = &args.parameters_file {
@@ -113,7 +113,7 @@ fn request(args: &MapArgs) -> Result<MapBody, Failure> {
     Ok(MapBody { template, parameters: Some(AnyDoc(parameters)), name: args.name.clone() })
 }
 
-/// Puts one value in its place; a list that is reached into is first taken from the template.
+/// Sets one value; if it lies within a list, the list is first copied from the template.
 fn put(parameters: &mut Value, template: Template, setting: &Setting) -> Result<(), Failure> {
     let unknown = || Failure::usage(format!("--set {}: there is no such parameter", setting.path.join(".")));
     let own = template.all_parameters();

@@ -1,4 +1,4 @@
-//! `dragtraffic match`: places of maps where a pattern fits, and a scene for each.
+//! `dragtraffic match`: finds the places of maps where a pattern fits, and writes a scene for each.
 
 use super::inputs::{Inputs, Item};
 use super::output::{self, Folder};
@@ -16,7 +16,7 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The word for all patterns that come with the program.
+/// The argument for all built-in patterns.
 const ALL: &str = "all";
 
 /// Flags of `match`.
@@ -64,11 +64,11 @@ struct PlaceLine<'a> {
     y_m: f64,
 }
 
-/// What was found in a map.
+/// The result of one map.
 struct MatchedMap {
     name: String,
     lanes: usize,
-    /// For each pattern.
+    /// Places by pattern.
     places: Vec<Vec<PatternPlace>>,
 }
 
@@ -79,7 +79,7 @@ struct MatchCount {
     places: usize,
 }
 
-/// Looks for a pattern.
+/// Finds the places of a pattern.
 ///
 /// # Errors
 /// Exit 2 without a pattern of that name, 3 when a pattern or no map can be read, 4 when some maps cannot, 8.
@@ -100,7 +100,7 @@ pub fn run(args: &MatchArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
-/// The patterns of a word.
+/// The patterns of an argument.
 fn patterns(word: &str) -> Result<Vec<RoadPattern>, Failure> {
     if word == ALL {
         return Ok(shipped::all().to_vec());
@@ -131,7 +131,7 @@ fn of_map(item: Item, patterns: &[RoadPattern], folder: Option<&Folder>) -> Resu
     Ok(MatchedMap { name: item.name, lanes, places })
 }
 
-/// Writes a scene for each place, with the standard values.
+/// Writes a scene for each place, with the default values.
 fn write(
     folder: &Folder,
     pattern: &RoadPattern,
@@ -148,7 +148,7 @@ fn write(
     Ok(())
 }
 
-/// How many lanes match, a line for each pattern.
+/// How many lanes match, one line per pattern.
 fn counts(patterns: &[RoadPattern], maps: &[MatchedMap]) -> String {
     let lanes: usize = maps.iter().map(|map| map.lanes).sum();
     let mut text = String::new();
@@ -164,7 +164,7 @@ fn counts(patterns: &[RoadPattern], maps: &[MatchedMap]) -> String {
     text
 }
 
-/// The places as a list.
+/// The places as JSON.
 fn json(patterns: &[RoadPattern], maps: &[MatchedMap]) -> String {
     let lines = maps.iter().flat_map(|map| {
         let of = patterns.iter().zip(&map.places);
@@ -180,6 +180,6 @@ fn json(patterns: &[RoadPattern], maps: &[MatchedMap]) -> String {
             })
         })
     });
-    // Numbers and texts: serde_json writes those without fail.
+    // It holds only numbers and texts, which serde_json always writes.
     serde_json::to_string_pretty(&lines.collect::<Vec<_>>()).unwrap_or_default() + "\n"
 }

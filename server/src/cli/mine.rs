@@ -1,4 +1,4 @@
-//! `dragtraffic mine`: what happens in recorded scenes.
+//! `dragtraffic mine`: tags events in recorded scenes.
 
 use super::inputs::Inputs;
 use super::output;
@@ -47,7 +47,7 @@ pub fn run(args: &MineArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
-/// How often each tag is there, and in how many scenes.
+/// How often each tag occurs, and in how many scenes.
 fn counts(scenes: &[MinedScene]) -> String {
     let mut text = format!("{:<16}{:>8}{:>8}\n", "tag", "events", "scenes");
     for tag in MinedTag::ALL {
@@ -61,6 +61,6 @@ fn counts(scenes: &[MinedScene]) -> String {
 
 fn json(scenes: &[MinedScene]) -> String {
     let lines: Vec<_> = scenes.iter().flat_map(MinedScene::lines).collect();
-    // Numbers and texts: serde_json writes those without fail.
+    // It holds only numbers and texts, which serde_json always writes.
     serde_json::to_string_pretty(&lines).unwrap_or_default() + "\n"
 }

@@ -1,6 +1,6 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
-/// Two calls of a command, for the end of its help.
+/// Two example calls of a command, for the end of its help.
 macro_rules! examples {
     ($first:literal, $second:literal) => {
         concat!(
@@ -68,7 +68,7 @@ struct Cli {
     common: Common,
 }
 
-/// How commands end, for the end of the program's help.
+/// Exit codes, for the end of the program's help.
 const EXIT_CODES: &str = "\
 Exit codes:
   0 done   1 failure   2 command line   3 input   4 some items failed   5 lossy under --strict
@@ -153,7 +153,8 @@ enum Command {
     Lab(lab::LabCommand),
 }
 
-/// Parses a command line, whose first word is the program's name, and runs the command. Returns the exit code.
+/// Parses a command line, whose first word is the program's name, and runs the command. Returns the exit
+/// code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let cli = match parsed(&arguments) {
@@ -164,7 +165,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
                 output::complain(&message);
                 return code;
             }
-            // Help into a closed pipe is no failure.
+            // Help into a closed pipe is not a failure.
             let _ = error.print();
             return code;
         }
@@ -199,7 +200,7 @@ fn parsed(arguments: &[OsString]) -> Result<Cli, clap::Error> {
     Cli::from_arg_matches(&matches)
 }
 
-/// Hides the options of every command in the help of each; one line there names them.
+/// Hides the global options in the help of each command; one line there refers to them.
 fn without_global_options(mut whole: clap::Command) -> clap::Command {
     fn hidden(command: clap::Command) -> clap::Command {
         let each = |arg: clap::Arg| if arg.is_global_set() { arg.hide(true) } else { arg };
@@ -209,7 +210,7 @@ fn without_global_options(mut whole: clap::Command) -> clap::Command {
     whole.mut_subcommands(hidden)
 }
 
-/// Refuses server flags before another command, where they have no effect.
+/// Refuses server flags before another command, for which they have no effect.
 fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
     let server = serve::ServeArgs::augment_args(clap::Command::new("serve"));
     for flag in server.get_arguments() {
@@ -242,7 +243,7 @@ fn renamed(error: &clap::Error) -> Option<String> {
     (error.kind() == ErrorKind::UnknownArgument).then(|| format!("{old} is {new} now"))
 }
 
-/// The hint for a command of the lab that stands outside of `lab`, or for one that this program lacks.
+/// The hint for a lab command outside `lab`, or for one that this program lacks.
 fn elsewhere(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return None };
     if name == "drive" {
@@ -272,7 +273,8 @@ const LAB_COMMANDS: &[&str] = &[
 ];
 
 impl Command {
-    /// Ctrl-C is the command's own: the server ends in order, and training with a checkpoint.
+    /// Whether the command handles Ctrl-C itself: the server shuts down in order, and training writes a
+    /// checkpoint.
     fn ends_by_itself(&self) -> bool {
         match self {
             Self::Serve(_) => true,

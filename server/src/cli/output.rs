@@ -7,7 +7,7 @@ use std::io::{ErrorKind, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// One line on stderr.
+/// Prints one line to stderr.
 pub fn complain(message: &str) {
     let _ = writeln!(std::io::stderr(), "dragtraffic: {message}");
 }
@@ -26,7 +26,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     result.map_err(|error| Failure::new(Exit::Input, format!("{}: {error}", path.display())))
 }
 
-/// Reads a text; - is standard input.
+/// Reads text; `-` is standard input.
 ///
 /// # Errors
 /// Exit 3.
@@ -35,7 +35,7 @@ pub fn read_text(path: &Path) -> Result<String, Failure> {
         .map_err(|_| Failure::input(format!("{}: this is no text in UTF-8", path.display())))
 }
 
-/// Writes to stdout. A reader that has closed its end is no failure.
+/// Writes to stdout. A closed pipe is not a failure.
 ///
 /// # Errors
 /// Exit 1.
@@ -47,7 +47,7 @@ pub fn print(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Refuses a file or folder that is there already, before work on what is to go there.
+/// Refuses an existing file or folder before the work on its content.
 ///
 /// # Errors
 /// Exit 8.
@@ -59,8 +59,8 @@ pub fn keep(path: &Path, force: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a file whole or not at all, or stdout for `-` and `None`. Links are followed, and a device or a pipe
-/// is written into, never replaced.
+/// Writes a file completely or not at all, or stdout for `-` and `None`. Links are followed, and a device or
+/// a pipe is written to, never replaced.
 ///
 /// # Errors
 /// Exit 8 when the file exists and `force` is not given; exit 1.
@@ -68,13 +68,13 @@ pub fn write(path: Option<&Path>, bytes: &[u8], force: bool) -> Result<(), Failu
     let Some(path) = path.filter(|p| *p != Path::new("-")) else { return print(bytes) };
     keep(path, force)?;
     match files::replace(path, bytes) {
-        // A reader of a pipe that has closed its end is no failure.
+        // A closed pipe is not a failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result.map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()))),
     }
 }
 
-/// Would the output go to a terminal, where a scene is unreadable?
+/// Whether the output would go to a terminal, where a scene is unreadable.
 pub fn is_terminal(path: Option<&Path>) -> bool {
     path.is_none() && std::io::stdout().is_terminal()
 }
@@ -90,7 +90,7 @@ pub fn write_scene(path: Option<&Path>, bytes: &[u8], force: bool, json: bool) -
     print_size(bytes.len(), " of JSON", "--json")
 }
 
-/// Prints the size of a document that a terminal does not show, and the flags that write it.
+/// Prints the size of a document instead of its text, and the flags that print or write it.
 ///
 /// # Errors
 /// Those of [`print`].
@@ -99,7 +99,7 @@ pub fn print_size(bytes: usize, of: &str, flag: &str) -> Result<(), Failure> {
     print(format!("{size} kB{of}: --output FILE writes them, {flag} prints them\n").as_bytes())
 }
 
-/// A folder that results go to, each under a name of its own.
+/// A folder for results, each with a unique name.
 pub struct Folder {
     path: PathBuf,
     force: bool,
@@ -107,15 +107,15 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// The folder that `-o` names, where it names one: it is there, or it ends with a slash.
+    /// Whether `-o` names a folder: it exists, or the path ends with a slash.
     pub fn named(path: &Path) -> bool {
         path.is_dir() || path.to_string_lossy().ends_with('/')
     }
 
-    /// A folder, made when the first file is written.
+    /// A folder that is created when the first file is written.
     ///
     /// # Errors
-    /// Exit 2 when a file is there.
+    /// Exit 2 when the path is a file.
     pub fn new(path: &Path, force: bool) -> Result<Self, Failure> {
         if path.exists() && !path.is_dir() {
             let message =
@@ -125,7 +125,7 @@ impl Folder {
         Ok(Self { path: path.to_path_buf(), force, taken: Mutex::default() })
     }
 
-    /// Where a file of this name goes.
+    /// The path of a file with this name.
     pub fn at(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }

@@ -1,11 +1,12 @@
-//! Work on many items side by side, with results in the order of the items and a bounded number of them waiting.
+//! Parallel work on many items, with results in the order of the items and a limited number of waiting
+//! results.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 
-/// Results that may wait for an earlier one, for each worker.
+/// Results per worker that may wait for an earlier one.
 const AHEAD: usize = 4;
 
 /// Default number of workers: one per core.
@@ -13,7 +14,7 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }
 
-/// How far the results have been taken: workers do not run on too far ahead of it.
+/// Number of taken results: workers do not run too far ahead of it.
 #[derive(Default)]
 struct Taken {
     count: Mutex<usize>,
@@ -28,12 +29,12 @@ impl Taken {
 
     fn wait_for(&self, least: usize) {
         let count = self.count.lock().unwrap_or_else(PoisonError::into_inner);
-        // Nothing is half done under this lock, so a panic elsewhere does not spoil it.
+        // The state under this lock is always consistent, so a panic elsewhere does not corrupt it.
         drop(self.more.wait_while(count, |count| *count < least));
     }
 }
 
-/// Lets all others run to their end when a worker panics.
+/// Releases all waiting workers if one panics.
 struct Release<'a>(&'a Taken);
 
 impl Drop for Release<'_> {
@@ -44,7 +45,8 @@ impl Drop for Release<'_> {
     }
 }
 
-/// Works on all items with so many workers and hands each result to `take`, the first item's first.
+/// Processes all items with this number of workers and passes the results to `take` in the order of the
+/// items.
 pub fn in_order<T: Sync, R: Send>(
     items: &[T],
     workers: usize,
@@ -99,7 +101,7 @@ mod tests {
         let work = |item: &usize| {
             let ahead = running.fetch_add(1, Ordering::SeqCst) + 1;
             most.fetch_max(ahead, Ordering::SeqCst);
-            // The first of each ten is slow, so others get ahead of it.
+            // The first of every ten items is slow, so others overtake it.
             if item.is_multiple_of(10) {
                 std::thread::sleep(std::time::Duration::from_millis(2));
             }

@@ -1,4 +1,4 @@
-//! `dragtraffic place`: the same work as `POST /v1/place`, from file to file.
+//! `dragtraffic place`: the operation of `POST /v1/place`, from file to file.
 
 use super::inputs::{Inputs, Item, Reading, Source, no_ids};
 use super::output::{self, Folder};
@@ -127,7 +127,7 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
-/// `8..14` as two numbers.
+/// Parses `8..14`.
 fn speeds(text: &str) -> Result<[f64; 2], String> {
     let speed = within(0.0, MAX_SPEED_MPS, "m/s");
     let (from, to) = text.split_once("..").ok_or("FROM..TO expected, as in 8..14")?;
@@ -146,7 +146,7 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// The scene with its new road users as a file, and how many they are.
+    /// The scene with its new road users as a file, and lines about them.
     fn place(&self, source: &Source, item: Item) -> Result<(Vec<u8>, Vec<String>), Failure> {
         let scene = Arc::new(item.scene);
         let placement = self
@@ -167,7 +167,7 @@ impl Work<'_> {
     }
 }
 
-/// The arms of one scene, a line each.
+/// Prints the arms of one scene, one line each.
 fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(), Failure> {
     let [source] = sources else { return Err(Failure::usage("--arms takes one scene")) };
     let scene = Arc::new(source.first(reading)?.scene);
@@ -181,7 +181,7 @@ fn tell_arms(work: &Work<'_>, sources: &[Source], reading: &Reading) -> Result<(
     output::write(work.args.output.as_deref(), text.as_bytes(), work.args.force)
 }
 
-/// The request that the flags say.
+/// The request of the flags.
 fn request(args: &PlaceArgs) -> Result<PlaceBody, Failure> {
     let density = match (args.count, args.density) {
         (None, None) => None,
@@ -219,7 +219,7 @@ fn not_a_polygon(path: &Path) -> Failure {
     Failure::input(message)
 }
 
-/// Open outer ring of a Polygon, of a Feature that is one, or of a collection of one such feature.
+/// Open outer ring of a Polygon, of a Feature with one, or of a collection with one such feature.
 fn polygon(value: &Value) -> Option<Vec<[f64; 2]>> {
     match value.get("type")?.as_str()? {
         "FeatureCollection" => match value.get("features")?.as_array()?.as_slice() {
@@ -231,7 +231,7 @@ fn polygon(value: &Value) -> Option<Vec<[f64; 2]>> {
             let [ring] = value.get("coordinates")?.as_array()?.as_slice() else { return None };
             let corner = |c: &Value| Some([c.get(0)?.as_f64()?, c.get(1)?.as_f64()?]);
             let mut ring = ring.as_array()?.iter().map(corner).collect::<Option<Vec<_>>>()?;
-            // GeoJSON closes its rings.
+            // GeoJSON rings repeat their first point.
             if ring.len() > 1 && ring.first() == ring.last() {
                 ring.pop();
             }

@@ -1,4 +1,4 @@
-//! What a server is asked to do, checked before anything starts.
+//! The plan of a server, checked before anything starts.
 
 use super::listen::ServerEndpoint;
 use super::serve::{ServeArgs, db_path};
@@ -13,25 +13,25 @@ use std::sync::Arc;
 
 /// A checked command line of `serve`.
 pub struct ServePlan {
-    /// Bounds.
+    /// Limits.
     pub limits: Limits,
-    /// Tokens, where callers need one.
+    /// Tokens, if callers need one.
     pub tokens: Option<Arc<TokenList>>,
     /// Trusted proxies.
     pub proxies: TrustedProxies,
-    /// Where it listens.
+    /// Endpoint.
     pub endpoint: ServerEndpoint,
-    /// Where it answers probes without token.
+    /// Address for probes without token.
     pub ops: Option<SocketAddr>,
-    /// The store.
+    /// File of the store.
     pub db: PathBuf,
 }
 
 impl ServePlan {
-    /// Of the command line.
+    /// The plan of a command line.
     ///
     /// # Errors
-    /// All faults, a line each, with the exit code of the first.
+    /// All faults, one line each, with the exit code of the first.
     pub fn of(args: &ServeArgs) -> Result<Self, Failure> {
         let mut faults = Vec::new();
         let limits = kept(limits(args), &mut faults);
@@ -68,7 +68,7 @@ impl ServePlan {
         }
     }
 
-    /// The plan for people, a fact a line.
+    /// The plan as text, one fact per line.
     pub fn lines(&self, args: &ServeArgs) -> String {
         let access = match (&self.tokens, &args.token_file) {
             (Some(tokens), Some(file)) => format!("{} from {}", tokens.summary(), file.display()),
@@ -110,7 +110,7 @@ fn limits(args: &ServeArgs) -> Result<Limits, Failure> {
     Ok(limits)
 }
 
-/// Bytes of a size: a whole number, with k, m or g for powers of 1024.
+/// Parses a size in bytes: a whole number, with k, m or g for powers of 1024.
 fn bytes_of(text: &str) -> Option<u64> {
     let units = [('k', 10), ('m', 20), ('g', 30)];
     let text = text.to_ascii_lowercase();

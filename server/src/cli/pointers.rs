@@ -1,10 +1,10 @@
-//! Faults of a request in the words of the command line: the flag and the value in place of a JSON pointer.
+//! Faults of a request in terms of the command line: flag and value instead of a JSON pointer.
 
 use crate::cli::inputs::Source;
 use crate::cli::{Failure, inputs};
 use api::Problem;
 
-/// Members of a request and the flags that say them.
+/// Members of a request and their flags.
 const FLAGS: [(&str, &str); 19] = [
     ("/horizon_s", "--horizon"),
     ("/replan_interval_s", "--replan-interval"),
@@ -17,7 +17,7 @@ const FLAGS: [(&str, &str); 19] = [
     ("/agents", "--agents"),
     ("/react", "--react"),
     ("/pinned", "--pinned"),
-    // Of a placement.
+    // Members of a placement.
     ("/min_gap_m", "--min-gap"),
     ("/density/count", "--count"),
     ("/density", "--density"),
@@ -28,7 +28,7 @@ const FLAGS: [(&str, &str); 19] = [
     ("/arrivals", "--arrivals"),
 ];
 
-/// What a request is refused for; faults of the scene itself stay the file's.
+/// The failure of a refused request; faults of the scene itself are attributed to the file.
 pub fn refused(source: &Source, problem: &Problem) -> Failure {
     let Some(errors) = problem.members.errors.as_deref().filter(|errors| !errors.is_empty()) else {
         return inputs::refused(&source.path, problem);
@@ -52,12 +52,12 @@ fn in_flags(pointer: &str) -> Option<String> {
     flag.map(|(_, flag)| (*flag).to_owned())
 }
 
-/// A token of a pointer as it was (RFC 6901).
+/// An unescaped token of a pointer (RFC 6901).
 fn unescaped(token: &str) -> String {
     token.replace("~1", "/").replace("~0", "~")
 }
 
-/// Such as `6/goal/speed_mps`.
+/// Converts a pointer such as `6/goal/speed_mps`.
 fn of_conditions(rest: &str) -> String {
     let mut parts = rest.split('/');
     let id = unescaped(parts.next().unwrap_or_default());

@@ -1,5 +1,5 @@
-//! How far a long command is: a bar with the time left on a terminal, a line every few seconds elsewhere, nothing
-//! under `--quiet`.
+//! Progress of a long command: a bar with the remaining time on a terminal, a line every few seconds
+//! elsewhere, nothing under `--quiet`.
 
 use super::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -7,9 +7,9 @@ use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Between two lines where there is no terminal.
+/// Interval of lines if there is no terminal.
 const EVERY: Duration = Duration::from_secs(5);
-/// The bar moves so often where nothing is done for a while.
+/// Interval at which the bar moves while nothing completes.
 const TICK: Duration = Duration::from_millis(250);
 const STYLE: &str = "{msg} {wide_bar} {pos} of {len}, {elapsed} so far, {eta} left";
 
@@ -24,7 +24,7 @@ pub struct Progress {
 #[derive(Clone, Copy)]
 struct State {
     done: u64,
-    /// Done before the command began.
+    /// Number of items done before the command began.
     before: u64,
     total: u64,
     began: Instant,
@@ -32,11 +32,11 @@ struct State {
 }
 
 impl Progress {
-    /// Of so many things, in the words of `what`, such as "scenes".
+    /// Progress over `total` items, named by `what`, such as "scenes".
     pub fn new(what: &'static str, total: u64, quiet: bool) -> Self {
         let bar = (!quiet && total > 1 && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-            // A style that cannot be read leaves the usual one.
+            // If the style cannot be parsed, the default one is used.
             let style = ProgressStyle::with_template(STYLE).unwrap_or_else(|_| ProgressStyle::default_bar());
             bar.set_style(style);
             bar.set_message(what);
@@ -52,13 +52,13 @@ impl Progress {
         }
     }
 
-    /// One more is done.
+    /// Counts one more item.
     pub fn step(&self) {
         let done = self.lock().done + 1;
         self.reach(done);
     }
 
-    /// So many are done.
+    /// Sets the number of completed items.
     pub fn reach(&self, done: u64) {
         let mut state = self.lock();
         state.done = done;
@@ -70,7 +70,7 @@ impl Progress {
         }
     }
 
-    /// So many were done by an earlier run.
+    /// Sets the number of items that an earlier run completed.
     #[cfg(feature = "lab")]
     pub fn begin(&self, before: u64) {
         let mut state = self.lock();
@@ -81,14 +81,14 @@ impl Progress {
         }
     }
 
-    /// A line of text that stays, above the bar; nothing under `--quiet`.
+    /// Prints a permanent line above the bar; nothing under `--quiet`.
     pub fn line(&self, text: &str) {
         if !self.quiet {
             self.error(text);
         }
     }
 
-    /// A line that is printed under `--quiet` too.
+    /// Prints a line even under `--quiet`.
     pub fn error(&self, text: &str) {
         match &self.bar {
             Some(bar) => bar.suspend(|| output::complain(text)),
@@ -96,7 +96,7 @@ impl Progress {
         }
     }
 
-    /// Results on stdout, without the bar between them.
+    /// Hides the bar while `write` prints results to stdout.
     pub fn pausing<R>(&self, write: impl FnOnce() -> R) -> R {
         match &self.bar {
             Some(bar) => bar.suspend(write),

@@ -1,4 +1,4 @@
-//! `dragtraffic restore`: a copy that `backup` made in the place of the store.
+//! `dragtraffic restore`: replaces the store by a copy that `backup` made.
 
 use super::backup::{same_file, takes_a_file};
 use super::serve::default_db;
@@ -21,7 +21,7 @@ pub struct RestoreArgs {
     force: bool,
 }
 
-/// Looks through the copy and puts it in its place, whole or not at all.
+/// Checks the copy and puts it in place, completely or not at all.
 ///
 /// # Errors
 /// Exit 2 when the two are one file, 3 when there is no copy, 8 when there is a store already, else 1.

@@ -106,7 +106,7 @@ pub struct ServeArgs {
 }
 
 impl ServeArgs {
-    /// The options that variables and the configuration file set.
+    /// The options that environment variables and the configuration file set.
     ///
     /// # Errors
     /// Exit 2.
@@ -228,7 +228,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Warms the experts, follows the token file and tidies the store once an hour.
+/// Warms the experts up, watches the token file, and cleans the store once an hour.
 fn start_background(app: &App) -> std::io::Result<()> {
     let warmed = app.clone();
     let warm_up = move || {
@@ -272,7 +272,7 @@ pub(super) fn db_path() -> PathBuf {
     data.map_or_else(|| "dragtraffic.sqlite".into(), |data| data.join("dragtraffic/scenes.sqlite"))
 }
 
-/// The same, with its folder made.
+/// The same; its folder is created.
 pub(super) fn default_db() -> Result<PathBuf, Failure> {
     let path = db_path();
     let folder = path.parent().unwrap_or(&path);
@@ -281,7 +281,7 @@ pub(super) fn default_db() -> Result<PathBuf, Failure> {
     Ok(path)
 }
 
-/// Whether the configuration file may name this option.
+/// Whether the configuration file may contain this option.
 pub(super) fn is_option(name: &str) -> bool {
     let command = Common::augment_args(ServeArgs::augment_args(clap::Command::new("serve")));
     let named = command.get_arguments().any(|arg| arg.get_long() == Some(name));
@@ -295,7 +295,7 @@ fn open_browser(url: &str) {
     }
 }
 
-/// Answers `/healthz`, `/readyz` and `/metrics` on an address of their own, without token.
+/// Answers `/healthz`, `/readyz` and `/metrics` on a separate address, without token.
 async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
     let refused = |error| Failure::new(Exit::Failure, format!("--ops-address {address}: {error}"));
     let listener = TcpListener::bind(address).await.map_err(refused)?;
@@ -305,7 +305,7 @@ async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Answers calls of AlpaSim's `TrafficService` at a port of this machine.
+/// Answers calls of AlpaSim's `TrafficService` on a port of this machine.
 fn answer_simulators(port: u16, app: &App) -> Result<(), Failure> {
     let refused = |error| Failure::new(Exit::AddressInUse, format!("--grpc {port}: {error}"));
     let listener = GrpcListener::open(SocketAddr::from(([127, 0, 0, 1], port))).map_err(refused)?;

@@ -1,4 +1,4 @@
-//! `dragtraffic completions` and `dragtraffic man`: made from the flags themselves.
+//! `dragtraffic completions` and `dragtraffic man`, both generated from the flags.
 
 use super::output::{self, Folder};
 use super::{Cli, Failure};
@@ -50,7 +50,7 @@ pub fn man(args: ManArgs) -> Result<(), Failure> {
     pages(whole, NAME, &folder)
 }
 
-/// Writes the page of a command and those of its own commands.
+/// Writes the page of a command and of its subcommands.
 fn pages(command: Command, name: &str, folder: &Folder) -> Result<(), Failure> {
     let own = command.get_subcommands().filter(|own| own.get_name() != "help").cloned();
     for own in own.collect::<Vec<_>>() {
@@ -60,7 +60,7 @@ fn pages(command: Command, name: &str, folder: &Folder) -> Result<(), Failure> {
     folder.write(&format!("{name}.1"), &page(command, name)?).map(drop)
 }
 
-/// A page as roff. It has no date: equal programs give equal pages.
+/// A page as roff. It has no date, so equal programs give equal pages.
 fn page(command: Command, name: &str) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     Man::new(command)

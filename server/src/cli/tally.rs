@@ -1,10 +1,11 @@
-//! The outcome of work on many files: each failure is printed when it happens, and the exit code follows from all.
+//! Outcome of work on many files: each failure is printed when it happens, and the exit code follows from all
+//! of them.
 
 use super::inputs::{Item, Reading, Source};
 use super::progress::Progress;
 use super::{Exit, Failure, parallel};
 
-/// What became of the items so far.
+/// Outcomes of the items so far.
 #[derive(Default)]
 pub struct Tally {
     done: usize,
@@ -13,7 +14,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// The outcome of one item. A failure is printed at once, unless it is the only item: then it ends the command.
+    /// Adds the outcome of one item. A failure is printed at once, unless it is the only item: then it ends
+    /// the command.
     pub fn add(&mut self, result: Result<(), Failure>, only: bool, progress: &Progress) {
         match result {
             Ok(()) => self.done += 1,
@@ -27,7 +29,7 @@ impl Tally {
         }
     }
 
-    /// The end of the command; `what` such as "files".
+    /// The result of the command; `what` names the items, such as "files".
     ///
     /// # Errors
     /// Exit 4 when some failed; when all did, the code of the first.
@@ -44,8 +46,8 @@ impl Tally {
     }
 }
 
-/// What the scenes of files give, in the order of the files, and the outcome of each file. `of_scene` takes a file, the
-/// number of the scene in it, and the scene.
+/// Maps `of_scene` over the scenes of files, in the order of the files, with the outcome of each file.
+/// `of_scene` gets the file, the index of the scene in it, and the scene.
 pub fn survey<T: Send>(
     sources: &[Source],
     workers: usize,

@@ -1,4 +1,4 @@
-//! Values of flags, checked when they are parsed, so that messages name the flag.
+//! Parsers of flag values. They check while clap parses, so that messages name the flag.
 
 use formats::around::Around;
 use std::ops::Range;
@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Most seeds of one call.
 const MOST_SEEDS: u64 = 100_000;
 
-/// A number from `min` to `max`, both allowed; `unit` such as "seconds" or empty.
+/// A number from `min` to `max`, both included; `unit` such as "seconds", or empty.
 pub fn within(
     min: f64,
     max: f64,
@@ -30,7 +30,7 @@ pub fn number(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("\"{text}\" is not a number"))
 }
 
-/// A whole number from `min` to `max`, both allowed.
+/// A whole number from `min` to `max`, both included.
 pub fn whole(min: u64, max: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
     move |text| {
         let number = text.trim().parse().ok().filter(|n| (min..=max).contains(n));
@@ -51,7 +51,7 @@ pub fn one_of(
     }
 }
 
-/// Seeds: a count from 0 on, or `FIRST..LAST`.
+/// Seeds: a count from 0, or `FIRST..LAST`.
 ///
 /// # Errors
 /// One sentence.
@@ -70,12 +70,12 @@ pub fn seeds(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
-/// The circle of a map that is read.
+/// The circle of a map to read.
 pub fn around(text: &str) -> Result<Around, String> {
     text.parse().map_err(|message: scene::message::Message| message.to_string())
 }
 
-/// Positions of scenes in a file: one number, or `FIRST..LAST`.
+/// Indices of scenes in a file: one number, or `FIRST..LAST`.
 ///
 /// # Errors
 /// One sentence.
@@ -86,13 +86,13 @@ pub fn index(text: &str) -> Result<Range<usize>, String> {
 /// A value for one road user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct For<T> {
-    /// Who.
+    /// Id of the road user.
     pub id: String,
-    /// What.
+    /// The value.
     pub value: T,
 }
 
-/// `ID=...`, where the rest is read by `parse`.
+/// Parses `ID=...` with `parse` for the rest.
 pub fn for_one<T>(
     parse: fn(&str) -> Result<T, String>,
 ) -> impl Fn(&str) -> Result<For<T>, String> + Clone + Send + Sync + 'static
@@ -105,7 +105,7 @@ where
     }
 }
 
-/// A share of each name: `NAME=0.8`.
+/// Parses the share in `NAME=0.8`.
 ///
 /// # Errors
 /// One sentence.

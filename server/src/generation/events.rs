@@ -1,4 +1,4 @@
-//! The events of a generation as a stream carries them: numbered, with the job that they belong to.
+//! The events of a generation in the form of a stream: numbered, with the id of their job.
 
 use api::Problem;
 use api::events::{DraftBody, FinalBody};
@@ -10,9 +10,9 @@ use std::borrow::Cow;
 
 /// Body of one type of event.
 pub trait EventBody {
-    /// Values of `event`; the first one, unless the body overrides it.
+    /// Values of `event`; the first one unless the body overrides it.
     const NAMES: &'static [&'static str];
-    /// Description of the event for the document.
+    /// Description of the event in the OpenAPI document.
     const ABOUT: &'static str;
 
     /// Value of `event`.
@@ -60,7 +60,7 @@ pub struct AcceptedBody {
 }
 
 impl AcceptedBody {
-    /// With the place in the queue that the call was given.
+    /// The body with the call's position in the queue.
     pub fn new(accepted: Accepted, queue_position: usize) -> Self {
         Self { accepted, queue_position }
     }
@@ -75,7 +75,7 @@ pub struct ErrorBody {
 }
 
 impl ErrorBody {
-    /// Of a problem of the operation at `path`.
+    /// The body for a problem of the operation at `path`.
     pub fn new(problem: &Problem, path: &str) -> Self {
         Self { problem: ProblemDoc::of(problem, Some(path), None) }
     }

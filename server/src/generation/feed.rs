@@ -10,10 +10,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use work::{Ending, Handle, Stop, Ticket};
 
-/// Numbers events, dresses them and puts them into the outbox.
+/// Numbers events, wraps them in their envelope, and puts them into the outbox.
 #[derive(Debug)]
 pub struct Feed {
-    /// Of the job.
+    /// Ticket of the job.
     pub ticket: Arc<Ticket>,
     outbox: Outbox,
     seq: AtomicU64,
@@ -22,12 +22,12 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Of the operation at `path`, without an event yet; keeps `most` before steps are dropped.
+    /// An empty feed of the operation at `path`; it keeps `most` events before it drops steps.
     pub fn new(ticket: Arc<Ticket>, most: usize, path: &'static str) -> Self {
         Self { ticket, outbox: Outbox::new(most), seq: AtomicU64::new(0), path }
     }
 
-    /// Sends one event; with `end`, the last one. False when the job has ended already.
+    /// Sends one event; with `end` it is the last one. False if the job has already ended.
     pub fn send<T: EventBody + Serialize>(&self, body: T, end: Option<JobEnd>) -> bool {
         if self.outbox.is_closed() {
             return false;
@@ -43,7 +43,7 @@ impl Feed {
         }
     }
 
-    /// Ends the job with a problem. False when it has ended already.
+    /// Ends the job with a problem. False if it has already ended.
     pub fn fail(&self, problem: Problem) -> bool {
         let problem = logged(problem);
         self.send(ErrorBody::new(&problem, self.path), Some(JobEnd::Stopped(Stop::Problem(problem))))
@@ -69,14 +69,14 @@ impl Ending for Feed {
     }
 }
 
-/// The one reader of a job: dropping it before the end stops the work.
+/// The only reader of a job; dropping it before the end stops the work.
 pub struct EventReader {
     feed: Arc<Feed>,
     _hold: Handle,
 }
 
 impl EventReader {
-    /// Of a job in the pool.
+    /// The reader of a job in the pool.
     pub fn new(feed: Arc<Feed>, handle: Handle) -> Self {
         Self { feed, _hold: handle }
     }

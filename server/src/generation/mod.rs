@@ -1,4 +1,4 @@
-//! Generations over HTTP: a plan for the pool, its events, and the reply made of them.
+//! Generations over HTTP: queued in the pool, with events and a reply made from them.
 
 pub mod events;
 mod feed;
@@ -18,17 +18,17 @@ use std::sync::Arc;
 use std::time::Duration;
 use work::{Caller, JobKind, JobRequest, Pool, PoolLane, Work};
 
-/// Approximate time of a try of a search.
+/// Approximate duration of a try of a search.
 const TRY_COST: Duration = Duration::from_millis(60);
-/// Share of the time of a call after which a search makes no new try.
+/// Share of a call's time limit after which a search makes no new try.
 const SHARE_OF_TIME: f64 = 0.8;
 
-/// The operations by the lane of a call.
+/// The operations by lane of the pool.
 #[derive(Clone, Copy)]
 pub struct LaneOperations<'a> {
-    /// For small calls that people wait for.
+    /// For small interactive calls.
     pub quick: &'a Operations,
-    /// For the others.
+    /// For all other calls.
     pub patient: &'a Operations,
 }
 
@@ -50,7 +50,7 @@ pub fn submit(
     })
 }
 
-/// Queues a search, with the expected time to work out its map.
+/// Queues a search, with the expected time to prepare its map.
 ///
 /// # Errors
 /// `shutting-down`, `exists` or `busy`.
@@ -69,7 +69,8 @@ pub fn submit_search(
     })
 }
 
-/// Queues work that sends events. Between two of them it calls its second argument, which lets smaller calls go first.
+/// Queues work that sends events. Between two events it calls its second argument, which lets smaller calls
+/// go first.
 fn queue(
     pool: &Arc<Pool>,
     limits: &Limits,

@@ -1,5 +1,5 @@
-//! Events on their way from a worker to a reader. The worker never waits: `step` events are dropped
-//! for a slow reader, all others are kept.
+//! Queue of events from a worker to a reader. The worker never waits: for a slow reader `step` events are
+//! dropped, all others are kept.
 
 use base::metrics;
 use bytes::Bytes;
@@ -12,9 +12,9 @@ use work::Stop;
 /// End of a job.
 #[derive(Clone, Debug)]
 pub enum JobEnd {
-    /// With an answer.
+    /// The job ended with an answer.
     Final,
-    /// Without one.
+    /// The job ended without an answer.
     Stopped(Stop),
 }
 
@@ -23,11 +23,11 @@ pub enum JobEnd {
 pub struct EventMessage {
     /// Value of `event`.
     pub event: &'static str,
-    /// Position in the stream.
+    /// Sequence number in the stream.
     pub seq: u64,
-    /// The whole object.
+    /// The whole object as JSON.
     pub json: Bytes,
-    /// Set on the last one.
+    /// Set on the last event.
     pub end: Option<JobEnd>,
 }
 
@@ -35,7 +35,7 @@ pub struct EventMessage {
 struct OutboxState {
     waiting: VecDeque<EventMessage>,
     closed: bool,
-    /// Since when the first waiting message has been waiting.
+    /// When the first waiting message began to wait.
     since: Instant,
 }
 
@@ -48,7 +48,7 @@ pub struct Outbox {
 }
 
 impl Outbox {
-    /// An empty one that keeps `most` events before steps are dropped.
+    /// An empty queue that keeps `most` events before it drops steps.
     pub fn new(most: usize) -> Self {
         let inside = OutboxState { waiting: VecDeque::new(), closed: false, since: Instant::now() };
         Self { inside: Mutex::new(inside), changed: Notify::new(), most }
@@ -58,7 +58,7 @@ impl Outbox {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts an event in, unless the last one is in already. True when it was taken.
+    /// Adds an event unless the last one has been added already. True if it was added.
     pub fn push(&self, message: EventMessage) -> bool {
         let mut inside = self.lock();
         if inside.closed {
@@ -78,18 +78,18 @@ impl Outbox {
         true
     }
 
-    /// True when the last event is in.
+    /// Whether the last event has been added.
     pub fn is_closed(&self) -> bool {
         self.lock().closed
     }
 
-    /// Time for which the reader has left an event waiting.
+    /// How long the reader has left an event waiting.
     pub fn stalled(&self) -> Duration {
         let inside = self.lock();
         if inside.waiting.is_empty() { Duration::ZERO } else { inside.since.elapsed() }
     }
 
-    /// The next event; waits for one. `None` after the last.
+    /// Waits for the next event; `None` after the last.
     pub async fn next(&self) -> Option<EventMessage> {
         loop {
             let changed = self.changed.notified();

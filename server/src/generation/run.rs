@@ -1,4 +1,4 @@
-//! One generation: takes its events as they come, counts them and hands them to the feed.
+//! One generation: receives its events, counts them and passes them to the feed.
 
 use super::events::AcceptedBody;
 use super::feed::Feed;
@@ -15,7 +15,8 @@ use std::sync::Arc;
 use std::time::Duration;
 use work::JobKind;
 
-/// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
+/// Runs until the answer is sent, an error occurs, or the job is stopped. Between two events it calls
+/// `others`, so that other work can run.
 pub fn generate(feed: &Feed, operations: &Operations, plan: GenerationPlan, others: &dyn Fn()) {
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
@@ -50,8 +51,8 @@ fn events(
             }
             GenerationEvent::Draft(draft) => {
                 feed.send(draft, None);
-                // The thread that writes it to the socket needs a core now, and workers may occupy all of
-                // them: without this it waits for the end of a time slice.
+                // The thread that writes to the socket needs a core now, and workers may occupy all of them.
+                // Without this it would wait for the end of a time slice.
                 std::thread::yield_now();
             }
             GenerationEvent::Final(answered) => {
@@ -73,12 +74,12 @@ fn count(scene: &Scene, draft: &Draft) {
     }
 }
 
-/// Name of the expert that an agent runs on.
+/// Name of an agent's expert.
 fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
     EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
 }
 
-/// The answer with what the server knows of it: the time in the queue, and the date.
+/// The answer with the server's additions: the time in the queue, and the date.
 fn final_body(answered: &GenerationAnswer, queued: Duration) -> FinalBody {
     let t = &answered.answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);

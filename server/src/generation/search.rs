@@ -1,4 +1,4 @@
-//! One search: each try is an event as it comes, the last event has all of them.
+//! One search: each try is an event, and the last event has all of them.
 
 use super::events::{Envelope, ErrorBody, EventBody, choice};
 use super::feed::Feed;
@@ -68,7 +68,8 @@ impl EventBody for SearchFinalBody {
     const ABOUT: &'static str = "Last event of a search that was not cancelled: all tries.";
 }
 
-/// Makes tries until the search ends, is stopped, or has taken so much `time`. After each try `others` may go.
+/// Makes tries until the search ends, is stopped, or has taken `time`. After each try it calls `others`, so
+/// that other work can run.
 pub fn search(feed: &Feed, operations: &Operations, search: &SceneSearch, time: Duration, others: &dyn Fn()) {
     let queue_position = feed.ticket.queue_position;
     feed.send(SearchAcceptedBody { tries: search.tries(), varied: search.varied(), queue_position }, None);

@@ -1,4 +1,4 @@
-//! One sequence of events in three representations: SSE, NDJSON, or only the last event as JSON.
+//! One sequence of events in three forms: SSE, NDJSON, or only the last event as JSON.
 
 use super::feed::EventReader;
 use super::outbox::{EventMessage, JobEnd};
@@ -15,13 +15,13 @@ use work::{Stop, superseded};
 /// Timing of a stream.
 #[derive(Clone, Copy)]
 pub struct StreamPace {
-    /// A sign of life after so long a silence.
+    /// Silence after which a heartbeat is sent.
     pub heartbeat: Duration,
-    /// So long the first event waits for the second: what comes together is sent, heard of and read in one.
+    /// How long the first event waits for the second, so that both are sent and read together.
     pub together: Duration,
 }
 
-/// Answers with the events of a job.
+/// Replies with the events of a job.
 pub async fn reply(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> Response {
     match form {
         ReplyFormat::Json => last(reader).await,
@@ -29,7 +29,7 @@ pub async fn reply(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> 
     }
 }
 
-/// JSON: the last event, or a problem in its place.
+/// JSON: the last event, or a problem instead of it.
 async fn last(reader: EventReader) -> Response {
     while let Some(message) = reader.next().await {
         match message.end {
@@ -47,8 +47,8 @@ async fn last(reader: EventReader) -> Response {
     Refusal::from(Problem::internal("a job ended without its last event")).into_response()
 }
 
-/// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
-/// longer than the heartbeat begins the stream in any case.
+/// A stream. A refusal before `accepted` is an ordinary problem reply. A wait longer than the heartbeat
+/// starts the stream in any case.
 async fn stream(reader: EventReader, form: ReplyFormat, pace: StreamPace) -> Response {
     let within = async |time| tokio::time::timeout(time, reader.next()).await.ok().flatten();
     let first = within(pace.heartbeat).await;

@@ -1,8 +1,8 @@
-//! Messages of AlpaSim's `TrafficService`, by the names and numbers of its fields.
+//! Messages of AlpaSim's `TrafficService`, with the names and numbers of its fields.
 
 use prost::Message;
 
-/// Nothing.
+/// An empty message.
 #[derive(Clone, PartialEq, Message)]
 pub struct Nothing {}
 
@@ -30,7 +30,7 @@ pub struct PoseQuaternion {
     pub z: f32,
 }
 
-/// Middle and direction of a box.
+/// Centre and orientation of a box.
 #[derive(Clone, Copy, PartialEq, Message)]
 pub struct BoxPose {
     #[prost(message, optional, tag = "1")]
@@ -48,7 +48,7 @@ pub struct TimedPose {
     pub timestamp_us: u64,
 }
 
-/// Poses by rising time.
+/// Poses with rising times.
 #[derive(Clone, PartialEq, Message)]
 pub struct PoseTrajectory {
     #[prost(message, repeated, tag = "1")]
@@ -90,7 +90,7 @@ pub struct ObjectMotion {
     pub trajectory: Option<PoseTrajectory>,
 }
 
-/// Begins a session: who is there, and from when on the service drives.
+/// Begins a session: its road users, and the time from which the service drives them.
 #[derive(Clone, PartialEq, Message)]
 pub struct SessionBegin {
     #[prost(string, tag = "1")]
@@ -112,7 +112,7 @@ pub struct SessionEnd {
     pub session_uuid: String,
 }
 
-/// Asks where everybody is at a time, with the motion of those that the caller drives.
+/// Asks for the positions of all road users at a time, with the motion of those that the caller drives.
 #[derive(Clone, PartialEq, Message)]
 pub struct TrafficQuery {
     #[prost(string, tag = "1")]
@@ -123,7 +123,7 @@ pub struct TrafficQuery {
     pub object_trajectory_updates: Vec<ObjectMotion>,
 }
 
-/// Where those are that the service drives.
+/// Positions of the road users that the service drives.
 #[derive(Clone, PartialEq, Message)]
 pub struct TrafficAnswer {
     #[prost(message, repeated, tag = "1")]

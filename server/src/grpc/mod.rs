@@ -1,5 +1,5 @@
-//! AlpaSim's `TrafficService` over gRPC: its scenes are those of the server, its road users come with each session, and
-//! the server drives all that the caller does not.
+//! AlpaSim's `TrafficService` over gRPC. Its scenes are those of the server, its road users come with each
+//! session, and the server drives all that the caller does not.
 
 // Fields of messages have the names of the service.
 #[allow(missing_docs, reason = "the names say it")]
@@ -14,27 +14,27 @@ use std::net::SocketAddr;
 use tonic::transport::Server;
 use tonic::transport::server::TcpIncoming;
 
-/// An address that is open for calls.
+/// A bound address for calls.
 pub struct GrpcListener(TcpIncoming);
 
 impl GrpcListener {
-    /// Opens an address.
+    /// Binds an address.
     ///
     /// # Errors
-    /// When it is taken, or may not be had.
+    /// When it is in use, or not permitted.
     pub fn open(address: SocketAddr) -> std::io::Result<Self> {
         TcpIncoming::bind(address).map(Self)
     }
 
-    /// The address, with the port that the system gave for 0.
+    /// The address, with the port that the system chose for 0.
     ///
     /// # Errors
-    /// What the system says.
+    /// Those of the system.
     pub fn address(&self) -> std::io::Result<SocketAddr> {
         self.0.local_addr()
     }
 
-    /// Answers calls for as long as the server runs.
+    /// Serves calls for as long as the server runs.
     pub async fn serve(self, app: &App) {
         let carrier = TrafficCarrier::new(app);
         let service = tower::service_fn(move |request| {

@@ -1,11 +1,11 @@
-//! Poses by time to states of a scene and back.
+//! Converts timed poses to states of a scene and back.
 
 use super::messages::{BoxPose, ObjectMotion, PoseQuaternion, PoseTrajectory, PoseVector, TimedPose};
 use scene::{State, wrap_angle};
 
-/// Poses farther from a time than this say nothing about it, microseconds.
+/// Greatest distance in time at which a pose is used, microseconds.
 const NEAR_US: u64 = 60_000;
-/// Farthest coordinate that is taken, metres.
+/// Largest accepted coordinate, metres.
 const MOST_M: f64 = scene::MAX_COORDINATE_M;
 
 /// A pose in the plane at a time.
@@ -36,7 +36,7 @@ impl PlanePose {
         is_pose.then_some(Self { at_us: timed.timestamp_us, x_m, y_m, z_m, heading_rad })
     }
 
-    /// Between this one and a later one.
+    /// Interpolates between this pose and a later one.
     fn towards(&self, other: &Self, at_us: u64) -> Self {
         let span = other.at_us.saturating_sub(self.at_us);
         let share = if span == 0 { 0.0 } else { at_us.saturating_sub(self.at_us) as f64 / span as f64 };
@@ -52,14 +52,14 @@ impl PlanePose {
     }
 }
 
-/// Poses of a trajectory; `None` where one is no pose, or times do not rise.
+/// Poses of a trajectory; `None` if one is invalid, or times do not rise.
 pub fn poses(trajectory: Option<&PoseTrajectory>) -> Option<Vec<PlanePose>> {
     let all = trajectory.map_or(&[][..], |trajectory| &trajectory.poses);
     let poses: Vec<PlanePose> = all.iter().map(PlanePose::of).collect::<Option<_>>()?;
     poses.is_sorted_by(|a, b| a.at_us < b.at_us).then_some(poses)
 }
 
-/// The pose at a time; `None` outside the time of the poses.
+/// The pose at a time; `None` outside the range of the poses.
 pub fn at(poses: &[PlanePose], at_us: u64) -> Option<PlanePose> {
     let after = poses.partition_point(|pose| pose.at_us < at_us);
     match (after.checked_sub(1).and_then(|before| poses.get(before)), poses.get(after)) {
@@ -71,7 +71,7 @@ pub fn at(poses: &[PlanePose], at_us: u64) -> Option<PlanePose> {
     }
 }
 
-/// A state from two poses so many seconds apart.
+/// A state from two poses `apart_s` seconds apart.
 pub fn state(pose: &PlanePose, before: &PlanePose, apart_s: f64) -> State {
     let speed = |now: f64, then: f64| if apart_s > 0.0 { (now - then) / apart_s } else { 0.0 };
     State {
@@ -83,7 +83,7 @@ pub fn state(pose: &PlanePose, before: &PlanePose, apart_s: f64) -> State {
     }
 }
 
-/// The motion of a road user that has one pose.
+/// The motion of a road user as a single pose.
 pub fn reply(object_id: &str, pose: &PlanePose) -> ObjectMotion {
     let (sin, cos) = (0.5 * pose.heading_rad).sin_cos();
     let place = PoseVector { x: pose.x_m as f32, y: pose.y_m as f32, z: pose.z_m as f32 };
@@ -94,7 +94,7 @@ pub fn reply(object_id: &str, pose: &PlanePose) -> ObjectMotion {
     ObjectMotion { object_id: object_id.to_owned(), trajectory }
 }
 
-/// Between the states of two steps.
+/// Interpolates between the states of two steps.
 pub fn between(before: &State, after: &State, share: f64, at_us: u64, z_m: f64) -> PlanePose {
     let of = |state: &State, at_us| PlanePose {
         at_us,

@@ -1,4 +1,4 @@
-//! The calls of the service, and the sessions that are open: bounded in number and forgotten when idle, as runs are.
+//! The calls of the service, and its open sessions: limited in number and dropped when idle, like runs.
 
 use super::messages::{
     InterfaceVersion, Nothing, SceneNames, ServiceMetadata, ServiceVersion, SessionBegin, SessionEnd,
@@ -22,18 +22,18 @@ use work::{JobKind, JobRequest};
 
 /// Name of the service.
 const SERVICE: &str = "/traffic.TrafficService/";
-/// Version of the interface that the messages are of.
+/// Version of the interface that defines the messages.
 const INTERFACE: InterfaceVersion = InterfaceVersion { major: 0, minor: 0, patch: 0 };
-/// Approximate time of the first plan of one road user, and of the steps of a question.
+/// Approximate time of one road user's first plan, and of the steps of a query.
 const FIRST_PLAN: Duration = Duration::from_millis(3);
 const QUESTION: Duration = Duration::from_millis(10);
-/// A session takes as many times the bytes of its scene: its run has plans and a history.
+/// Memory of a session, as a multiple of its scene's bytes: its run has plans and a history.
 const OF_SCENE: usize = 3;
 
 struct OpenSession {
     session: Arc<tokio::sync::Mutex<TrafficSession>>,
     used: Instant,
-    /// Given back with the session.
+    /// Released with the session.
     _memory: MemoryShare,
 }
 
@@ -45,7 +45,7 @@ pub struct TrafficCarrier {
 }
 
 impl TrafficCarrier {
-    /// Over the scenes and the engine of a server.
+    /// The service over the scenes and the engine of a server.
     pub fn new(app: &App) -> Self {
         Self { app: app.clone(), sessions: Arc::default() }
     }
@@ -137,11 +137,11 @@ impl TrafficCarrier {
         Ok(SceneNames { scene_ids })
     }
 
-    /// The sessions, without those that were not used for a while.
+    /// The sessions, without idle ones.
     fn open(&self) -> MutexGuard<'_, BTreeMap<String, OpenSession>> {
         let mut sessions = self.sessions.lock().unwrap_or_else(PoisonError::into_inner);
         let idle = Duration::from_secs(self.app.runs.idle_s());
-        // A session at work is held by its call.
+        // A session in use is held by its call.
         sessions.retain(|_, open| open.used.elapsed() < idle || Arc::strong_count(&open.session) > 1);
         sessions
     }
@@ -158,7 +158,7 @@ fn unknown() -> Problem {
     )
 }
 
-/// A problem as gRPC has it, with its code before the sentence.
+/// Converts a problem to a gRPC status, with its code before the sentence.
 fn status(problem: &Problem) -> Status {
     let words = format!("{}: {}", problem.code.name(), problem.detail);
     match problem.code {

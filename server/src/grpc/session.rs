@@ -1,4 +1,4 @@
-//! One session: the scene that a caller described, and from its first question on a run in it.
+//! One session: the scene that a caller described and, from its first query on, a run in it.
 
 use super::messages::{LoggedObject, ObjectMotion, SessionBegin};
 use super::motion::{self, PlanePose};
@@ -13,18 +13,18 @@ use std::sync::Arc;
 
 /// Length of a step, microseconds.
 const STEP_US: u64 = 100_000;
-/// A question this much after a step is one about the step, microseconds.
+/// Largest delay after a step at which a query still refers to that step, microseconds.
 const SLACK_US: u64 = 1_000;
-/// Latest handover: no sum of times is beyond what they can be, microseconds.
+/// Latest handover, so that no sum of times overflows, microseconds.
 const LATEST_US: u64 = 1 << 62;
 /// Smallest and greatest extent of a box, metres.
 const EXTENT_M: (f64, f64) = (0.2, 30.0);
 
 /// A road user of the caller.
 struct SessionObject {
-    /// As the caller calls it.
+    /// Name used by the caller.
     name: String,
-    /// As the scene calls it.
+    /// Id in the scene.
     id: String,
     /// Height of its last pose, metres.
     z_m: f64,
@@ -32,7 +32,7 @@ struct SessionObject {
     logged: Vec<PlanePose>,
 }
 
-/// What a caller began.
+/// An open session.
 pub struct TrafficSession {
     scene: Arc<Scene>,
     objects: Vec<SessionObject>,
@@ -43,17 +43,17 @@ pub struct TrafficSession {
     run: Option<SessionRun>,
 }
 
-/// Where everybody is after a step.
+/// States of all road users after a step.
 #[derive(Clone)]
 struct SessionMoment {
     number: u64,
     states: BTreeMap<String, State>,
 }
 
-/// A run with its last two moments.
+/// A run with its last two steps.
 struct SessionRun {
     run: Run,
-    /// Names of those that the caller drives, with their motion so far.
+    /// Names of the road users that the caller drives, with their motion so far.
     egos: BTreeMap<String, Vec<PlanePose>>,
     before: SessionMoment,
     present: SessionMoment,
@@ -91,7 +91,7 @@ impl TrafficSession {
             return Err(Problem::range("/handover_time_us", 0.0, most_s, start_step as f64 * STEP_S));
         }
         let steps = ((last - origin_us).div_ceil(STEP_US) as usize + 1).clamp(start_step + 1, MAX_STEPS);
-        // So that the handover is on a step.
+        // Aligns the handover with a step.
         let origin_us = handover_us.saturating_sub(start_step as u64 * STEP_US);
         let mut objects = Vec::new();
         let mut agents = Vec::new();
@@ -116,16 +116,16 @@ impl TrafficSession {
         Ok(Self { scene, objects, origin_us, handover_us, seed, run: None })
     }
 
-    /// The scene that was described.
+    /// The described scene.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
-    /// Where those are at a time that the caller does not drive. The first question names who drives whom: all later
-    /// ones name the same road users.
+    /// Positions at a time of the road users that the caller does not drive. The first query determines which
+    /// road users the caller drives: later ones name the same.
     ///
     /// # Errors
-    /// An unknown road user, a time before an earlier one, no pose of one that the caller drives.
+    /// An unknown road user, a time before an earlier one, or a missing pose of one that the caller drives.
     pub fn simulate(
         &mut self,
         time_us: u64,
@@ -153,7 +153,7 @@ impl TrafficSession {
         }
         let to_do = (run.present.number..).take_while(|number| at_us(*number) + SLACK_US < time_us);
         let egos = to_do.map(|number| run.egos_at(at_us(number + 1), &self.objects));
-        // All of them before the first step: a question that lacks a pose changes nothing.
+        // All poses are checked before the first step, so a query that lacks one changes nothing.
         for egos in egos.collect::<Result<Vec<_>, Problem>>()? {
             let step = run.run.step(generator, &egos, cancel)?;
             let present = SessionMoment { number: step.number, states: step.states.into_iter().collect() };
@@ -178,7 +178,7 @@ impl TrafficSession {
         Ok(replies.collect())
     }
 
-    /// The poses of a question by the caller's names.
+    /// The poses of a query, by the caller's names.
     fn updates(&self, updates: &[ObjectMotion]) -> Result<BTreeMap<String, Vec<PlanePose>>, Problem> {
         let mut known = BTreeMap::new();
         for update in updates {
@@ -212,7 +212,7 @@ impl TrafficSession {
 }
 
 impl SessionRun {
-    /// States of those that the caller drives, at a time.
+    /// States at a time of the road users that the caller drives.
     fn egos_at(&self, at_us: u64, objects: &[SessionObject]) -> Result<Vec<EgoState>, Problem> {
         let mut states = Vec::new();
         for object in objects {
@@ -228,7 +228,7 @@ impl SessionRun {
     }
 }
 
-/// Adds poses; those of the same time or a later one give way.
+/// Adds poses; they replace known ones of the same or a later time.
 fn merge(known: &mut Vec<PlanePose>, poses: Vec<PlanePose>) {
     if let Some(first) = poses.first() {
         known.retain(|pose| pose.at_us < first.at_us);
@@ -245,7 +245,7 @@ fn is_id(name: &str) -> bool {
     (1..=64).contains(&name.len()) && name.chars().all(|c| c.is_ascii_alphanumeric() || "_.:-".contains(c))
 }
 
-/// The lights of the scene within its new time.
+/// The lights of the scene, within its new duration.
 fn signals(signals: &[Signal], steps: usize) -> Vec<Signal> {
     let within = |signal: &Signal| {
         let runs: Vec<_> = signal.runs.iter().copied().filter(|(first, _)| *first < steps).collect();
@@ -254,7 +254,7 @@ fn signals(signals: &[Signal], steps: usize) -> Vec<Signal> {
     signals.iter().filter_map(within).collect()
 }
 
-/// A road user of the scene: its recording at each step.
+/// A road user of the scene, with its recording at each step.
 fn agent(id: &str, object: &LoggedObject, logged: &[PlanePose], origin_us: u64, steps: usize) -> Agent {
     let stands = object.is_static || logged.len() == 1;
     let pose = |step: usize| {
@@ -282,7 +282,7 @@ fn agent(id: &str, object: &LoggedObject, logged: &[PlanePose], origin_us: u64, 
     agent
 }
 
-/// Type of a road user by the class that its label has.
+/// Type of a road user from the class in its label.
 fn kind(label: &str) -> (AgentType, Subtype) {
     let label = label.to_ascii_lowercase();
     let is = |words: &[&str]| words.iter().any(|word| label.contains(word));

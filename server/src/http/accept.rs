@@ -1,4 +1,4 @@
-//! Which representation of an answer a request likes best.
+//! Negotiates the format of a reply.
 
 use api::{Code, Problem};
 use axum::http::{HeaderMap, header};
@@ -10,9 +10,9 @@ use std::str::FromStr;
 /// Format of a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyFormat {
-    /// The last event.
+    /// Only the last event.
     Json,
-    /// One event a line.
+    /// One event per line.
     Ndjson,
     /// Server-sent events.
     Sse,
@@ -38,10 +38,10 @@ impl ReplyFormat {
         }
     }
 
-    /// The form that Accept likes best; JSON without one.
+    /// The format that Accept prefers; JSON without the header.
     ///
     /// # Errors
-    /// `not-acceptable` when it names none of the three.
+    /// `not-acceptable` if it names none of the three.
     pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
         let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
         let lines: Vec<&str> = lines.collect();
@@ -58,7 +58,7 @@ impl ReplyFormat {
     }
 }
 
-/// Accept without the charset of its types: all replies are UTF-8.
+/// Accept without the charsets of its types, because all replies are UTF-8.
 fn without_charset(accept: &str) -> String {
     let plain = |range: &str| {
         let is_charset = |part: &&str| {

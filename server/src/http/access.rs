@@ -1,4 +1,5 @@
-//! The access log: one line for each request, when its reply is over. Of the questions of a drag a sample is logged.
+//! The access log: one line per request, when its reply is complete. The frequent requests of a drag are
+//! sampled.
 
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, Method, StatusCode};
@@ -10,9 +11,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
-/// Routes that are asked 60 times a second while a hand moves, or a planner steps.
+/// Routes that receive 60 requests per second while a user drags, or a planner steps.
 const SAMPLED: [&str; 2] = ["/v1/generate", "/v1/runs/{id}/step"];
-/// Least time between two logged successes of these routes.
+/// Shortest time between two logged successes of these routes.
 const SAMPLE: Duration = Duration::from_millis(200);
 
 /// Bytes of a body so far.
@@ -29,7 +30,7 @@ impl ByteCount {
     }
 }
 
-/// Where a request stands in the trace of its caller (W3C Trace Context, `traceparent`).
+/// Position of a request in its caller's trace (W3C Trace Context, `traceparent`).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceParent {
     /// 32 hex digits.
@@ -39,7 +40,7 @@ pub struct TraceParent {
 }
 
 impl TraceParent {
-    /// Of the headers of a request; `None` without one, or with one that is malformed.
+    /// From the headers of a request; `None` if the header is missing or malformed.
     pub fn of(headers: &HeaderMap) -> Option<Self> {
         let mut given = headers.get_all("traceparent").iter();
         let (Some(value), None) = (given.next(), given.next()) else { return None };
@@ -53,17 +54,17 @@ impl TraceParent {
         let trace_id = parts.next().filter(|part| named(part, 32))?.to_owned();
         let span_id = parts.next().filter(|part| named(part, 16))?.to_owned();
         parts.next().filter(|part| hex(part, 2))?;
-        // Only later versions may have more.
+        // Only later versions may have more parts.
         (version != "00" || parts.next().is_none()).then_some(Self { trace_id, span_id })
     }
 }
 
-/// Successes of sampled routes that are not logged.
+/// Sampler of the successes of sampled routes.
 #[derive(Debug, Default)]
 pub struct AccessSample(Mutex<(Option<Instant>, u64)>);
 
 impl AccessSample {
-    /// How many were left out before this one; `None` where this one is left out too.
+    /// Number of omitted requests before this one; `None` if this one is omitted too.
     fn take(&self) -> Option<u64> {
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if state.0.is_some_and(|last| last.elapsed() < SAMPLE) {
@@ -75,24 +76,24 @@ impl AccessSample {
     }
 }
 
-/// What is told of a request.
+/// A line of the access log.
 #[derive(Debug)]
 pub struct AccessLine {
-    /// `None` where the head could not be read.
+    /// `None` if the head could not be read.
     pub method: Option<Method>,
-    /// Template of the address.
+    /// Template of the route.
     pub route: String,
-    /// Of the reply.
+    /// Status of the reply.
     pub status: StatusCode,
-    /// When the request's head was there.
+    /// When the request's head was complete.
     pub began: Instant,
-    /// Whose the connection is.
+    /// Party of the connection.
     pub peer: Option<Party>,
-    /// Name of the token, or of the user that a trusted proxy has signed in.
+    /// Name of the token, or of the user that a trusted proxy authenticated.
     pub user: Option<String>,
-    /// Of the caller.
+    /// Trace of the caller.
     pub trace: Option<TraceParent>,
-    /// As in X-Request-Id.
+    /// Value of X-Request-Id.
     pub request_id: String,
     /// Bytes of the request's body.
     pub received: ByteCount,
@@ -136,7 +137,7 @@ impl AccessLine {
 pub struct CountingBody {
     body: Body,
     bytes: ByteCount,
-    /// What is logged at the end, with the time to the reply's head in milliseconds.
+    /// The line to log at the end, with the time to the reply's head in milliseconds.
     end: Option<(AccessLine, f64, Option<Arc<AccessSample>>)>,
 }
 

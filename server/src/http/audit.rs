@@ -1,4 +1,4 @@
-//! The audit log: who changed which scene, and who was refused. One JSON object a line.
+//! The audit log: who changed which scene, and who was refused. One JSON object per line.
 
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use serde::Serialize;
@@ -7,40 +7,40 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-/// Lines that wait for the disk; beyond them a line is lost, which is logged.
+/// Limit of lines that wait for the disk; further lines are lost, which is logged.
 const WAITING: usize = 4_096;
-/// Older files that are kept beside the current one.
+/// Number of older files that are kept besides the current one.
 const OLD_FILES: u32 = 5;
-/// Stands for standard output.
+/// Name that means standard output.
 const STDOUT: &str = "-";
 
 /// One line.
 #[derive(Debug, Serialize)]
 pub struct AuditLine<'a> {
-    /// RFC 3339.
+    /// Time, RFC 3339.
     pub time: String,
-    /// Name of the token, or of the user that a trusted proxy has signed in.
+    /// Name of the token, or of the user that a trusted proxy authenticated.
     pub who: Option<&'a str>,
     /// Address of the client.
     pub from: String,
     /// Method and route.
     pub what: String,
-    /// The scene of the address, or the one that was made.
+    /// Id of the scene in the address, or of the new one.
     pub scene: Option<&'a str>,
     /// HTTP status.
     pub status: u16,
-    /// As in the access log.
+    /// Request id, as in the access log.
     pub request_id: &'a str,
 }
 
 type LineSink = Box<dyn FnMut(&[u8]) -> io::Result<()> + Send>;
 
-/// Takes lines.
+/// Queue of lines to the log's thread.
 #[derive(Debug)]
 pub struct AuditLog(SyncSender<Vec<u8>>);
 
 impl AuditLog {
-    /// To a file of at most so many bytes, older ones beside it; or to standard output (`-`).
+    /// A log to a file of at most `most` bytes, with older ones beside it, or to standard output (`-`).
     ///
     /// # Errors
     /// When the file cannot be opened.
@@ -77,7 +77,7 @@ fn write_all(lines: &Receiver<Vec<u8>>, mut sink: impl FnMut(&[u8]) -> io::Resul
     }
 }
 
-/// Whether a reply belongs in the log in any case: changes of scenes, and refusals for want of a token or a right.
+/// Whether a reply is always logged: changes of scenes, and refusals for lack of a token or a right.
 pub fn is_audited(method: &Method, edits: bool, status: StatusCode) -> bool {
     let refused = matches!(status, StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN);
     refused || edits && *method != Method::GET
@@ -88,12 +88,12 @@ pub fn scene_in(path: &str) -> Option<&str> {
     path.rsplit_once("/v1/scenes/").map(|(_, rest)| rest.split('/').next().unwrap_or(rest))
 }
 
-/// Id of the scene that a reply names as made.
+/// Id of the new scene in a reply.
 pub fn scene_made(headers: &HeaderMap) -> Option<&str> {
     scene_in(headers.get(header::LOCATION)?.to_str().ok()?)
 }
 
-/// A file that makes way for the next one when it is full.
+/// A file that is rotated when it is full.
 struct RotatedFile {
     path: PathBuf,
     most: u64,
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(read("audit.log.1").as_deref(), Some("line 6\n"));
         assert_eq!(read("audit.log.5").as_deref(), Some("line 2\n"));
         assert_eq!(read("audit.log.6"), None);
-        // An existing file goes on.
+        // An existing file is continued.
         drop(file);
         RotatedFile::open(&path, 100).unwrap().append(b"line 8\n").unwrap();
         assert_eq!(read("audit.log").as_deref(), Some("line 7\nline 8\n"));

@@ -1,4 +1,4 @@
-//! Requests of a server that is published below a path.
+//! Routes of a server that is published below a base path.
 
 use super::guard::PROBES;
 use super::{extract, observe};
@@ -11,7 +11,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use base::base_path;
 use std::time::Instant;
 
-/// The routes below the server's path; probes ask for theirs without it too.
+/// The routes below the server's base path; probes work without it too.
 pub fn below(router: Router) -> Router {
     if base_path::base().is_empty() {
         return router;

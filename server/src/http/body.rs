@@ -25,7 +25,7 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::Instant;
 use work::{Pool, PoolLane};
 
-/// Growth below this size is never too much.
+/// Decoded sizes below this are never refused for their expansion.
 const FREE_EXPANSION: u64 = 1 << 20;
 
 /// Media types of JSON documents.
@@ -34,29 +34,29 @@ pub const JSON: &[&str] = &["application/json", "application/vnd.dragtraffic.sce
 /// Resources for reading a body.
 #[derive(Clone)]
 pub struct Reading {
-    /// Bounds.
+    /// Limits.
     pub limits: Arc<Limits>,
     /// Pool that decodes and parses long bodies.
     pub pool: Arc<Pool>,
-    /// Room for bodies.
+    /// Memory budget of bodies.
     pub room: Arc<Room>,
 }
 
-/// Room for the bodies of all requests, in memory, among the uploads and among the imports.
+/// Budget for the bodies of all requests: memory, uploads and imports.
 #[derive(Debug)]
 pub struct Room {
-    /// All that requests take.
+    /// Memory of all requests.
     pub memory: Arc<Memory>,
-    /// Part of it for bodies.
+    /// Share of it for bodies.
     bytes: Arc<Memory>,
     uploads: Arc<SharedPlaces>,
     imports: Arc<Semaphore>,
-    /// Those of the imports that take long: small ones never wait for all of these.
+    /// Places of long imports; short ones never wait for all of these.
     long_imports: Arc<Semaphore>,
 }
 
 impl Room {
-    /// Room for as many bodies as the limits allow, within the budget of all requests.
+    /// A budget for as many bodies as the limits allow, within the memory of all requests.
     pub fn new(limits: &Limits, memory: &Arc<Memory>) -> Self {
         let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
         let places = |number: u64| Arc::new(Semaphore::new(of(number)));
@@ -69,10 +69,10 @@ impl Room {
         }
     }
 
-    /// A place among the uploads.
+    /// Takes a place among the uploads.
     ///
     /// # Errors
-    /// `busy` when all are taken, or all of the party's.
+    /// `busy` if all are taken, or all of the party's.
     fn upload(&self, party: Party) -> Result<TakenPlace, Problem> {
         self.uploads.take(party).map_err(|full| {
             let detail = if full.is_own {
@@ -84,7 +84,7 @@ impl Room {
         })
     }
 
-    /// A place among the imports, when it is free: what becomes of a file takes memory too.
+    /// Waits for a place among the imports, because the scenes of a file take memory too.
     ///
     /// # Errors
     /// A defect.
@@ -97,7 +97,7 @@ impl Room {
         Ok([long.transpose().map_err(Problem::internal)?, Some(place.map_err(Problem::internal)?)])
     }
 
-    /// Room for bytes that are kept.
+    /// Takes memory for bytes that are kept.
     ///
     /// # Errors
     /// As [`Self::grow`].
@@ -107,10 +107,10 @@ impl Room {
         Ok(kept)
     }
 
-    /// Adds so many bytes to what is held.
+    /// Adds `bytes` to the held memory.
     ///
     /// # Errors
-    /// `body-too-large` where they never fit, `busy` where they do not fit now.
+    /// `body-too-large` if they can never fit, `busy` if they do not fit now.
     fn grow(&self, held: &mut Option<MemoryShare>, bytes: usize) -> Result<(), Problem> {
         let held = held.get_or_insert_with(|| self.bytes.nothing());
         let most = self.bytes.most();
@@ -121,26 +121,26 @@ impl Room {
         held.grow(bytes).then_some(()).ok_or_else(full)
     }
 
-    /// Room for work that takes up to so many bytes beside its body, for as long as the result is kept.
+    /// Takes memory for work that needs up to `bytes` beyond its body, for as long as the result is kept.
     ///
     /// # Errors
-    /// `busy` where they do not fit now.
+    /// `busy` if they do not fit now.
     pub fn work(&self, bytes: u64) -> Result<MemoryShare, Problem> {
         let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
         usize::try_from(bytes).ok().and_then(|bytes| self.memory.take(bytes)).ok_or_else(full)
     }
 }
 
-/// Room that is taken until this is dropped.
+/// Memory that is held until this is dropped.
 #[derive(Debug, Default)]
 pub struct Kept {
     room: Option<MemoryShare>,
-    /// Among the uploads.
+    /// Place among the uploads.
     place: Option<TakenPlace>,
 }
 
-/// Bytes in the order of their arrival. They are never moved: a list that grows is copied, and longer than it
-/// need be.
+/// Bytes in the order of their arrival. They are never moved: a growing vector would be copied, and longer
+/// than needed.
 #[derive(Debug, Default)]
 pub(super) struct Blocks(Vec<Vec<u8>>);
 
@@ -151,7 +151,7 @@ impl Blocks {
         while !data.is_empty() {
             let full = self.0.last().is_none_or(|block| block.len() >= Self::BLOCK);
             if full {
-                // All but the first are filled, as a rule.
+                // Usually all blocks but the first are filled.
                 self.0.push(Vec::with_capacity(if self.0.is_empty() { 0 } else { Self::BLOCK }));
             }
             let Some(block) = self.0.last_mut() else { return };
@@ -215,7 +215,7 @@ impl Read for BlockReader<'_> {
     }
 }
 
-/// A body in memory, with the room that it takes.
+/// A body in memory, with its share of the budget.
 #[derive(Debug, Default)]
 pub struct Held {
     bytes: Bytes,
@@ -223,13 +223,13 @@ pub struct Held {
 }
 
 impl Held {
-    /// The bytes, to be read while this is kept.
+    /// The bytes, valid while this is held.
     pub fn bytes(&self) -> Bytes {
         self.bytes.clone()
     }
 }
 
-/// A JSON body read into a document type.
+/// A JSON body parsed into a document type.
 pub struct Json<T>(pub T);
 
 impl<S: Send + Sync, T: DeserializeOwned + Send + 'static> FromRequest<S> for Json<T>
@@ -246,11 +246,11 @@ where
     }
 }
 
-/// A value as JSON text, made where the value was: a long one takes time.
+/// A value as JSON text, serialized in the thread that made the value, because a long one takes time.
 pub struct JsonText(Bytes);
 
 impl JsonText {
-    /// Of a value.
+    /// Serializes a value.
     ///
     /// # Errors
     /// When it cannot be written as JSON.
@@ -265,7 +265,7 @@ impl JsonText {
 }
 
 impl From<Bytes> for JsonText {
-    /// Of a text that was written before.
+    /// From text that was serialized before.
     fn from(text: Bytes) -> Self {
         Self(text)
     }
@@ -306,7 +306,7 @@ impl Reading {
         self.read(request, bounds).await
     }
 
-    /// Takes in an uploaded file, which is unpacked later.
+    /// Receives an uploaded file, which is decoded later.
     ///
     /// # Errors
     /// Every limit of such a body as it arrives.
@@ -323,7 +323,7 @@ impl Reading {
         Ok(Upload::new(encoded, encoding, bounds, kept))
     }
 
-    /// Parses JSON, away from the network threads when it is long.
+    /// Parses JSON, outside the network threads if it is long.
     ///
     /// # Errors
     /// `malformed-json`, or 422 with the place of the fault.
@@ -349,7 +349,7 @@ impl Reading {
         }
     }
 
-    /// A body as it is sent.
+    /// Receives a body as it was sent.
     async fn arrived(&self, request: Request, bounds: Bounds) -> Result<(Blocks, Encoding, Kept), Problem> {
         let encoding = encoding_of(request.headers())?;
         let length = request.headers().get(header::CONTENT_LENGTH);
@@ -365,7 +365,7 @@ impl Reading {
         Ok((encoded, encoding, kept))
     }
 
-    /// A body as it arrives, no slower than it must.
+    /// Receives a body, and refuses it if it arrives too slowly.
     async fn collect(&self, mut body: Body, limit: u64) -> Result<(Blocks, Kept), Problem> {
         let (mut blocks, mut kept, mut size) = (Blocks::default(), Kept::default(), 0);
         let began = Instant::now();
@@ -423,12 +423,12 @@ fn too_large(limit: u64) -> Problem {
     Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).limit(limit)
 }
 
-/// A body that is unpacked while it is read, under its bounds.
+/// A body that is decoded while it is read, within its limits.
 pub(super) struct Unfolding<'a> {
     inner: Box<dyn Read + Send + 'a>,
     bounds: Bounds,
     encoded: u64,
-    /// `None` for what has the size that it came with.
+    /// Decoded bytes so far; `None` for a body without a coding.
     decoded: Option<u64>,
 }
 
@@ -438,7 +438,7 @@ fn undecodable(error: &io::Error) -> Problem {
 }
 
 impl<'a> Unfolding<'a> {
-    /// `size`: encoded bytes.
+    /// `size` is the number of encoded bytes.
     pub fn new(
         encoded: impl Read + Send + 'a,
         size: u64,
@@ -450,7 +450,7 @@ impl<'a> Unfolding<'a> {
             Encoding::Gzip => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
             Encoding::Zstd => {
                 let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(|e| undecodable(&e))?;
-                // A frame may request gigabytes of window; level 19 uses 8 MiB.
+                // A frame may ask for a window of gigabytes; level 19 uses 8 MiB.
                 decoder.window_log_max(23).map_err(|e| undecodable(&e))?;
                 Box::new(decoder)
             }
@@ -459,7 +459,7 @@ impl<'a> Unfolding<'a> {
         Ok(Self { inner, bounds, encoded: size, decoded })
     }
 
-    /// Fills the buffer, in part or as a whole; 0 at the end.
+    /// Fills the buffer partly or completely; 0 at the end.
     pub fn next(&mut self, buffer: &mut [u8]) -> Result<usize, Problem> {
         let count = self.inner.read(buffer).map_err(|error| undecodable(&error))?;
         let (Some(size), bounds) = (&mut self.decoded, self.bounds) else { return Ok(count) };

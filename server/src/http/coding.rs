@@ -5,12 +5,13 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write;
 
-/// Below this there is nothing to gain.
+/// Replies shorter than this are not compressed, bytes.
 const LEAST_BYTES: usize = 1_024;
-/// Marks the ETag of a compressed reply: two encodings of one scene are two representations (RFC 9110, 8.8.3.3).
+/// Suffix of the ETag of a compressed reply: two encodings of one scene are two representations (RFC 9110,
+/// 8.8.3.3).
 const MARK: &str = "-gzip\"";
 
-/// Does Accept-Encoding take this coding? Its name, or `*`, with a weight above zero.
+/// Whether Accept-Encoding accepts this coding: its name, or `*`, with a weight above zero.
 pub fn takes(headers: &HeaderMap, coding: &str) -> bool {
     let lines = headers.get_all(header::ACCEPT_ENCODING).iter().filter_map(|v| v.to_str().ok());
     let mut any = None;
@@ -29,7 +30,7 @@ pub fn takes(headers: &HeaderMap, coding: &str) -> bool {
     any.unwrap_or(false)
 }
 
-/// The bytes compressed, if the client accepts it and they are large enough.
+/// The compressed bytes, if the client accepts them and there are enough.
 pub fn gzip(headers: &HeaderMap, bytes: &[u8]) -> Option<Vec<u8>> {
     if bytes.len() < LEAST_BYTES || !takes(headers, "gzip") {
         return None;
@@ -44,7 +45,7 @@ pub fn marked(etag: &str) -> String {
     etag.strip_suffix('"').map_or_else(|| etag.to_owned(), |tag| format!("{tag}{MARK}"))
 }
 
-/// The ETag of what was sent, whether it came compressed or not.
+/// The ETag without that suffix, whether the reply was compressed or not.
 pub fn unmarked(tag: &str) -> String {
     tag.strip_suffix(MARK).map_or_else(|| tag.to_owned(), |tag| format!("{tag}\""))
 }

@@ -1,4 +1,4 @@
-//! The editor, which travels inside the program.
+//! The editor, which is embedded in the program.
 
 use super::observe::RequestGate;
 use super::{coding, sign_in};
@@ -17,8 +17,8 @@ use rust_embed::{EmbeddedFile, RustEmbed};
 #[allow_missing = true]
 struct Editor;
 
-/// Everything without a route of its own: the editor's files, its page at its own addresses, a problem elsewhere. On a
-/// server with a token the page asks for it first.
+/// Everything without its own route: the editor's files, its page at its own addresses, otherwise a problem.
+/// On a server with a token the page asks for it first.
 pub async fn fallback(
     State(gate): State<RequestGate>,
     method: Method,
@@ -44,7 +44,7 @@ pub async fn fallback(
     let name = path.strip_prefix('/').unwrap_or(path);
     match Editor::get(name).filter(|_| !is_packed(name) && name != "index.html") {
         Some(file) => asset(name, &file, &headers),
-        // A missing script must not come back as a page.
+        // A missing script must not be answered with a page.
         None if name.starts_with("assets/") => {
             Refusal::from(Problem::new(Code::NotFound, "The editor has no such file.")).into_response()
         }
@@ -62,25 +62,25 @@ pub async fn fallback(
     }
 }
 
-/// An address of the editor's page: its root, and those of scenes.
+/// Whether an address belongs to the editor's page: its root, and those of scenes.
 fn is_page(path: &str) -> bool {
     path == "/" || path == "/index.html" || path == "/scenes" || path.starts_with("/scenes/")
 }
 
-/// Codings in which the build lays texts beside themselves, smallest first, with the ending of these files.
+/// Codings for which the build stores compressed files, smallest first, with their extensions.
 const PACKED: [(&str, &str); 2] = [("br", ".br"), ("gzip", ".gz")];
 
 fn is_packed(name: &str) -> bool {
     PACKED.iter().any(|(_, ending)| name.ends_with(ending))
 }
 
-/// The file as the build has compressed it, in the smallest way that is taken.
+/// The file as the build compressed it, in the smallest accepted coding.
 fn packed(name: &str, headers: &HeaderMap) -> Option<(&'static str, EmbeddedFile)> {
     let taken = PACKED.into_iter().filter(|(coding, _)| coding::takes(headers, coding));
     taken.filter_map(|(coding, ending)| Some((coding, Editor::get(&format!("{name}{ending}"))?))).next()
 }
 
-/// The page with its addresses below the server's path.
+/// The page with its links below the server's base path.
 fn rebased(page: &EmbeddedFile) -> Response {
     let text = String::from_utf8_lossy(&page.data).replace("=\"/", &format!("=\"{}/", base_path::base()));
     ([(header::CACHE_CONTROL, "no-cache")], Html(text)).into_response()
@@ -91,7 +91,7 @@ fn asset(name: &str, plain: &EmbeddedFile, headers: &HeaderMap) -> Response {
     let file = packed.as_ref().map_or(plain, |(_, file)| file);
     let hash: String = file.metadata.sha256_hash().iter().take(8).map(|b| format!("{b:02x}")).collect();
     let etag = format!("\"{hash}\"");
-    // Names below assets/ hold a hash of the content; browsers revalidate all other files.
+    // Names below assets/ contain a hash of the content; browsers revalidate all other files.
     let keep = if name.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
     let head = [
         (header::ETAG, etag.clone()),

@@ -1,4 +1,4 @@
-//! Events as a stream of a reply: server-sent events or NDJSON.
+//! Events as a streamed reply: server-sent events or NDJSON.
 
 use super::accept::ReplyFormat;
 use axum::body::{Body, Bytes};
@@ -9,7 +9,7 @@ use std::convert::Infallible;
 use std::fmt::Display;
 
 impl ReplyFormat {
-    /// What says that a silent stream is alive.
+    /// The heartbeat of a silent stream.
     pub fn sign_of_life(self) -> Bytes {
         match self {
             Self::Sse => Bytes::from_static(b": heartbeat\n\n"),
@@ -17,7 +17,7 @@ impl ReplyFormat {
         }
     }
 
-    /// Writes one event. Its JSON names it too, for NDJSON.
+    /// Writes one event. Its JSON contains the name too, for NDJSON.
     pub fn write(self, name: &str, id: impl Display, json: &[u8], bytes: &mut Vec<u8>) {
         if self == Self::Sse {
             bytes.extend_from_slice(format!("event: {name}\nid: {id}\ndata: ").as_bytes());
@@ -26,7 +26,7 @@ impl ReplyFormat {
         bytes.extend_from_slice(if self == Self::Sse { b"\n\n" } else { b"\n" });
     }
 
-    /// The reply that a stream of written events is.
+    /// The reply for a stream of written events.
     pub fn streamed(self, events: impl Stream<Item = Bytes> + Send + 'static) -> Response {
         let mut response = Body::from_stream(events.map(Ok::<_, Infallible>)).into_response();
         let headers = response.headers_mut();

@@ -12,7 +12,7 @@ use base::problem::Refusal;
 use serde::de::DeserializeOwned;
 use work::Caller;
 
-/// An id in the path. One that no scene can have is simply not found.
+/// An id in the path. An invalid one is simply not found.
 pub struct Id(pub String);
 
 impl<S: Send + Sync> FromRequestParts<S> for Id {
@@ -26,22 +26,22 @@ impl<S: Send + Sync> FromRequestParts<S> for Id {
     }
 }
 
-/// The connection that a request came by.
+/// The connection of a request.
 #[derive(Clone, Copy, Debug)]
 pub struct Connection {
     /// Unique while the server runs.
     pub number: u64,
-    /// Whose it is.
+    /// Its party.
     pub party: Party,
-    /// It is a WebSocket.
+    /// Whether it is a WebSocket.
     pub is_line: bool,
-    /// It is known to belong to another user of this machine.
+    /// Whether it is known to belong to another user of this machine.
     pub strangers: bool,
-    /// It comes from a proxy whose word about its clients is taken.
+    /// Whether it comes from a trusted proxy.
     pub trusted: bool,
 }
 
-/// Whose a request is; `None` for one that came by no connection.
+/// The party of a request; `None` if it came by no connection.
 pub fn party_of(extensions: &Extensions) -> Option<Party> {
     extensions.get::<Connection>().map(|connection| connection.party)
 }
@@ -62,7 +62,7 @@ impl From<Connection> for Caller {
     }
 }
 
-/// Query parameters; unknown or unreadable ones are refused.
+/// Query parameters; unknown or invalid ones are refused.
 pub struct QueryParams<T>(pub T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for QueryParams<T> {
@@ -76,7 +76,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for QueryParams<T>
     }
 }
 
-/// ETags of If-Match, of compressed replies too; `None` without the header.
+/// ETags of If-Match, including those of compressed replies; `None` without the header.
 pub fn if_match(headers: &HeaderMap) -> Option<Vec<String>> {
     tags(headers, &IF_MATCH)
 }

@@ -1,6 +1,6 @@
-//! Frames of a WebSocket as they arrive (RFC 6455, 5.2): a message must arrive whole within a time.
+//! Frames of a WebSocket as they arrive (RFC 6455, 5.2): a message must be complete within a time limit.
 //!
-//! The WebSocket itself reports whole messages alone, so that a client could hold one open for ever.
+//! The WebSocket library only reports complete messages, so a client could hold one open for ever.
 
 use base::memory::{Memory, MemoryShare};
 use std::io;
@@ -11,33 +11,33 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::Sleep;
 
-/// A stream that fails with `TimedOut` where a message takes longer than `patience` from its first byte to its last, and
-/// with `OutOfMemory` where there is no memory for it.
+/// A stream that fails with `TimedOut` if a message takes longer than `patience` from its first byte to its
+/// last, and with `OutOfMemory` if there is no memory for it.
 pub struct WholeMessages<S> {
     stream: S,
     patience: Duration,
     frames: FrameReader,
-    /// End of the patience with the message that is arriving.
+    /// Time limit of the arriving message.
     limit: Option<Pin<Box<Sleep>>>,
-    /// Of the message that is arriving.
+    /// Memory of the arriving message.
     memory: MemoryShare,
 }
 
 impl<S> WholeMessages<S> {
-    /// Reads from a stream that begins with a frame.
+    /// A reader of a stream that begins with a frame.
     pub fn new(stream: S, patience: Duration, memory: &Arc<Memory>) -> Self {
         Self { stream, patience, frames: FrameReader::default(), limit: None, memory: memory.nothing() }
     }
 }
 
-/// What the bytes so far leave open.
+/// State of the parser between reads.
 #[derive(Debug, Default)]
 struct FrameReader {
-    /// Bytes of a head that is not whole.
+    /// Bytes of an incomplete head.
     head: Vec<u8>,
-    /// Bytes of the payload that are still to come.
+    /// Remaining bytes of the payload.
     payload: u64,
-    /// The last data frame was not the last one of its message.
+    /// Whether the last data frame was not the final one of its message.
     continues: bool,
 }
 
@@ -46,7 +46,7 @@ impl FrameReader {
         self.head.is_empty() && self.payload == 0 && !self.continues
     }
 
-    /// Reads on; true where a message ended in these bytes.
+    /// Continues parsing; true if a message ended in these bytes.
     fn read(&mut self, mut bytes: &[u8]) -> bool {
         let mut ended = false;
         while let Some((first, rest)) = bytes.split_first() {
@@ -64,7 +64,7 @@ impl FrameReader {
         ended
     }
 
-    /// Begins the payload once the head is whole.
+    /// Begins the payload once the head is complete.
     fn end_head(&mut self) {
         let [first, second, rest @ ..] = self.head.as_slice() else { return };
         let mask = if second & 0x80 == 0 { 0 } else { 4 };

@@ -12,29 +12,29 @@ use base::limits::Limits;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 
-/// Addresses that monitoring asks for.
+/// Addresses that monitoring uses.
 pub const PROBES: [&str; 3] = ["/healthz", "/readyz", "/metrics"];
 
-/// Access that the command line allows.
+/// Access rules from the command line.
 #[derive(Clone, Debug, Default)]
 pub struct Guard {
-    /// Hosts with their port, lower case.
+    /// Hosts with their port, in lower case.
     hosts: Vec<String>,
     /// This server's own origins.
     own_origins: Vec<String>,
     /// Origins given with `--allow-origin`.
     foreign_origins: Vec<String>,
-    /// Any Host is served: the address is for probes alone.
+    /// Whether any Host is accepted: the address is only for probes.
     any_host: bool,
-    /// Bearer tokens, when one is needed.
+    /// Bearer tokens, if one is required.
     pub tokens: Option<Arc<TokenList>>,
 }
 
 impl Guard {
-    /// Rules of a server bound to an address, or to a unix socket.
+    /// Rules of a server bound to an address or a unix socket.
     ///
     /// # Errors
-    /// A sentence when an origin is `*` or `null`.
+    /// A sentence if an origin is `*` or `null`.
     pub fn new(
         address: Option<SocketAddr>,
         allow_hosts: &[String],
@@ -62,22 +62,22 @@ impl Guard {
         Ok(Self { hosts, own_origins, foreign_origins, any_host: false, tokens })
     }
 
-    /// Rules of an address for probes: they know it by whatever name.
+    /// Rules of an address for probes, which may use any Host.
     pub fn for_probes() -> Self {
         Self { any_host: true, ..Self::default() }
     }
 
-    /// Name of the token that a request carries, and whether it is an administrator's.
+    /// Name of a request's token, and whether it is an administrator's.
     pub fn bearer(&self, headers: &HeaderMap) -> Option<(String, bool)> {
         self.tokens.as_ref()?.bearer(headers, |token| (token.name.clone(), token.is_admin())).ok()
     }
 
-    /// The tokens, where a request for a page comes without any of them.
+    /// The tokens, if a request for a page has none of them.
     pub fn closed_to(&self, headers: &HeaderMap) -> Option<&TokenList> {
         self.tokens.as_deref().filter(|tokens| tokens.bearer(headers, |_| ()).is_err())
     }
 
-    /// The request's Origin, when it is one given with `--allow-origin`.
+    /// The request's Origin, if it was given with `--allow-origin`.
     pub fn foreign_origin(&self, request: &Request) -> Option<HeaderValue> {
         let origin = request.headers().get(header::ORIGIN)?;
         let name = origin.to_str().ok()?.to_ascii_lowercase();
@@ -99,7 +99,7 @@ pub fn allow_cross_origin(headers: &mut HeaderMap, origin: HeaderValue) {
     headers.insert(header::ACCESS_CONTROL_EXPOSE_HEADERS, HeaderValue::from_static(exposed));
 }
 
-/// Answer to a browser that asks before a cross-origin call.
+/// Reply to a browser's preflight request.
 pub fn preflight() -> Response {
     let head = [
         (header::ACCESS_CONTROL_ALLOW_METHODS, "GET, HEAD, POST, PUT, PATCH, DELETE"),
@@ -113,10 +113,10 @@ pub fn preflight() -> Response {
     (StatusCode::NO_CONTENT, head).into_response()
 }
 
-/// Refuses what must not reach a handler.
+/// Refuses requests that must not reach a handler.
 ///
 /// # Errors
-/// The problem to answer with.
+/// The problem to reply with.
 pub fn check(guard: &Guard, limits: &Limits, request: &Request) -> Result<(), Problem> {
     check_size(limits, request)?;
     check_host(guard, request)?;
@@ -167,7 +167,7 @@ fn check_host(guard: &Guard, request: &Request) -> Result<(), Problem> {
 
 fn check_origin(guard: &Guard, request: &Request) -> Result<(), Problem> {
     let headers = request.headers();
-    // Browsers open lines to other sites without asking first, and let any page read what comes.
+    // Browsers open WebSockets to other sites without a preflight, and let any page read the messages.
     let reads = matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS)
         && !headers.contains_key(header::UPGRADE);
     let origins: Vec<&str> =

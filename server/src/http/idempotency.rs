@@ -1,5 +1,5 @@
-//! `Idempotency-Key`: a request that is sent again after a lost reply makes nothing twice (draft-ietf-httpapi-
-//! idempotency-key-header). The table is in memory: a restart forgets it.
+//! `Idempotency-Key`: a request that is repeated after a lost reply creates nothing twice
+//! (draft-ietf-httpapi-idempotency-key-header). The table is in memory, so a restart clears it.
 
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
@@ -16,26 +16,26 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The header.
+/// Name of the header.
 pub const KEY: HeaderName = HeaderName::from_static("idempotency-key");
 /// Most characters of a key.
 const KEY_CHARS: usize = 128;
-/// Most replies that are kept, and most bytes of one.
+/// Limits of kept replies, and of the bytes of one.
 const REPLIES: usize = 1_024;
 const REPLY_BYTES: usize = 256 << 10;
-/// A reply is kept for so long.
+/// How long a reply is kept.
 const KEPT: Duration = Duration::from_secs(24 * 3_600);
 /// Time for the body of a repeated request.
 const BODY_TIME: Duration = Duration::from_secs(120);
 
-/// Who sends a request: keys of others are others. Extension of requests.
+/// The sender of a request; keys of different senders are independent. Extension of requests.
 #[derive(Clone, Debug, Default)]
 pub struct Sender {
-    /// Name of the token, or of the user that a trusted proxy has signed in.
+    /// Name of the token, or of the user that a trusted proxy authenticated.
     pub name: Option<String>,
-    /// Whose share it takes from.
+    /// Party whose share it uses.
     pub party: Party,
-    /// The token is one of an administrator.
+    /// Whether the token is an administrator's.
     pub is_admin: bool,
 }
 
@@ -51,9 +51,9 @@ struct KeptReply {
 
 #[derive(Default)]
 struct ReplyTable {
-    /// `None` while the first request is under way.
+    /// `None` while the first request is in progress.
     replies: HashMap<String, Option<KeptReply>>,
-    /// Keys with a reply, the oldest first.
+    /// Keys with a reply, oldest first.
     order: VecDeque<String>,
 }
 
@@ -61,7 +61,7 @@ struct ReplyTable {
 #[derive(Clone, Default)]
 pub struct Replies(Arc<Mutex<ReplyTable>>);
 
-/// What is known of a key.
+/// State of a key.
 enum KeyState {
     Nothing,
     UnderWay,
@@ -73,7 +73,7 @@ impl Replies {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is known of a key; an unknown one is under way from here on.
+    /// The state of a key; an unknown one is in progress from now on.
     fn begin(&self, key: &str) -> KeyState {
         let mut table = self.table();
         let expired = |table: &ReplyTable| {
@@ -113,7 +113,7 @@ fn drop_oldest(table: &mut ReplyTable) {
     }
 }
 
-/// Ends the first request of a key, whatever becomes of it.
+/// Ends the first request of a key, whatever its outcome.
 struct FirstRequest {
     replies: Replies,
     key: String,
@@ -126,14 +126,14 @@ impl Drop for FirstRequest {
     }
 }
 
-/// Whether a request makes something that a second one would make again.
+/// Whether a request creates something that a repetition would create again.
 fn makes(method: &Method, uri: &Uri) -> bool {
     let path = uri.path();
     let copies = path.starts_with("/v1/scenes/") && path.ends_with("/duplicate");
     method == Method::POST && (path == "/v1/scenes" || path == "/v1/import" || copies)
 }
 
-/// Answers a request whose key is known with the reply of the first one.
+/// Answers a request with a known key by the reply of the first one.
 pub async fn once(State(replies): State<Replies>, request: Request, next: Next) -> Response {
     if !makes(request.method(), request.uri()) {
         return next.run(request).await;
@@ -152,7 +152,7 @@ pub async fn once(State(replies): State<Replies>, request: Request, next: Next) 
     match replies.begin(&key) {
         KeyState::Nothing => {
             let first = FirstRequest { replies, key, reply: None };
-            // To its end, even if the client leaves: it asks again for what was made.
+            // Runs to its end even if the client leaves, because the client will ask for the result.
             let work =
                 tokio::spawn(run_first(first, request.map(|body| counted(body, &digest)), next, digest));
             work.await.unwrap_or_else(|error| Refusal::from(Problem::internal(error)).into_response())
@@ -205,7 +205,7 @@ async fn repeated(body: Body, reply: KeptReply, digest: &Arc<Mutex<Sha256>>) -> 
     Ok(response)
 }
 
-/// What a request is besides its body.
+/// Hash of a request's head.
 fn head_of(request: &Request) -> Sha256 {
     let mut digest = Sha256::new();
     digest.update(request.uri().path_and_query().map_or("", |path| path.as_str()));
@@ -217,7 +217,7 @@ fn head_of(request: &Request) -> Sha256 {
     digest
 }
 
-/// The body, whose bytes are added to the digest on their way.
+/// The body; its bytes are added to the digest as they pass.
 fn counted(body: Body, digest: &Arc<Mutex<Sha256>>) -> Body {
     let digest = Arc::clone(digest);
     Body::from_stream(body.into_data_stream().inspect_ok(move |bytes| {

@@ -1,7 +1,7 @@
 //! Generation, and the steps of a run, over a WebSocket (RFC 6455): each message is a request like any other.
 //!
-//! A separate request costs a browser three times the work of a message, and a drag sends sixty requests a
-//! second. The server passes each one to the router as the `POST` that it replaces, so that limits, refusals,
+//! A separate request costs a browser three times the work of a message, and a drag sends sixty requests per
+//! second. The server passes each message to the router as the `POST` that it replaces, so limits, refusals,
 //! counters and log are the same.
 
 use super::frames::WholeMessages;
@@ -31,30 +31,30 @@ use tokio_tungstenite::tungstenite::protocol::frame::coding::{CloseCode, Data, O
 use tokio_tungstenite::tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
 use tokio_tungstenite::tungstenite::{Error, Message};
 
-/// Pieces of replies that wait for the reader, over all requests.
+/// Pieces of replies that may wait for the reader, over all requests.
 const PIECES: usize = 8;
-/// Requests beyond `line_questions` that wait for their turn; further ones are refused.
+/// Requests beyond `line_questions` that may wait; further ones are refused.
 const WAITING: usize = 64;
-/// Messages of the line itself that wait for the reader; while there are so many, nothing is read.
+/// The connection's own messages that may wait for the reader; at this number, nothing more is read.
 const REPLIES: usize = 64;
-/// Keeps a silent line open, and finds out when its other end has vanished.
+/// Interval of pings, which keep a silent connection open and detect a vanished peer.
 const PING: Duration = Duration::from_secs(30);
 /// Time after which a refused client may repeat its request, seconds.
 const RETRY_AFTER_S: u64 = 1;
-/// Bytes that are read from the connection at once.
+/// Bytes read from the connection at once.
 const READ_BUFFER: usize = 16 << 10;
-/// Largest frame that is sent. Larger messages go out in fragments, so that little waits in memory for the reader.
+/// Largest frame that is sent. Larger messages are fragmented, so that little memory waits for the reader.
 const FRAME_BYTES: usize = 16 << 10;
-/// Most that waits for the reader in the WebSocket itself: a frame, and pongs. Beyond this, the newest pong alone
-/// is kept.
+/// Limit of bytes that wait in the WebSocket itself: a frame, and pongs. Beyond this, only the newest pong is
+/// kept.
 const WRITE_BUFFER: usize = 64 << 10;
-/// Pings and pongs of the client that are taken in a burst, and each second.
+/// Pings and pongs accepted from the client in a burst, and per second.
 const CONTROL_BURST: f64 = 64.0;
 const CONTROL_RATE: f64 = 10.0;
-/// Most of a reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
+/// Longest reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
 
-/// A message of the client: a request, or the number of one to cancel.
+/// A message of the client: a request, or the number of a request to cancel.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ClientMessage<'a> {
@@ -80,7 +80,7 @@ struct ServerMessage {
 }
 
 impl ServerMessage {
-    /// With a piece of the body behind it.
+    /// The message with a piece of the body after it.
     fn with(&self, piece: &[u8]) -> Result<Bytes, axum::Error> {
         let mut text = serde_json::to_vec(self).map_err(axum::Error::new)?;
         text.push(b'\n');
@@ -129,7 +129,7 @@ impl ReplyHead {
 }
 
 /// Upgrades a connection to a WebSocket. Requests go to `path`, with the headers of the page or program that
-/// opened it. `None` for a request that is no handshake (RFC 6455, 4.2.1).
+/// opened it. `None` for a request that is not a handshake (RFC 6455, 4.2.1).
 pub fn open(mut request: Request<Body>, carrier: Carrier, path: String) -> Option<Response> {
     let accept = HeaderValue::try_from(accept_key(&request)?).ok()?;
     let given = [header::HOST, header::ORIGIN, header::AUTHORIZATION, header::COOKIE];
@@ -161,7 +161,7 @@ pub fn open(mut request: Request<Body>, carrier: Carrier, path: String) -> Optio
     Some((StatusCode::SWITCHING_PROTOCOLS, upgraded).into_response())
 }
 
-/// The server's half of a handshake; `None` where the client's is none.
+/// The server's half of a handshake; `None` if the client's half is invalid.
 fn accept_key(request: &Request<Body>) -> Option<String> {
     let fields = |name| request.headers().get_all(name).iter().filter_map(|value| value.to_str().ok());
     let lists = |name, word: &str| {
@@ -185,7 +185,7 @@ struct Line {
     headers: HeaderMap,
 }
 
-/// A part of an answer on its way.
+/// A piece of a reply.
 struct ReplyPiece {
     ask: u64,
     /// Id of the request's task, because clients reuse numbers.
@@ -200,9 +200,9 @@ struct Questions {
     tasks: JoinSet<()>,
     /// Requests that have not sent their last piece.
     running: HashMap<u64, AbortHandle>,
-    /// Requests held back, with their bodies.
+    /// Waiting requests, with their bodies.
     waiting: VecDeque<(u64, String, MemoryShare)>,
-    /// The server ends: no request starts any more.
+    /// The server is shutting down: no new request starts.
     closing: bool,
 }
 
@@ -211,7 +211,7 @@ impl Questions {
         self.running.contains_key(&number) || self.waiting.iter().any(|(waiting, ..)| *waiting == number)
     }
 
-    /// Ends a request; true if its last piece was still to come.
+    /// Ends a request; true if its last piece had not been sent.
     fn end(&mut self, number: u64) -> bool {
         let before = self.waiting.len();
         self.waiting.retain(|(waiting, ..)| *waiting != number);
@@ -222,7 +222,7 @@ impl Questions {
         task.is_some() || self.waiting.len() < before
     }
 
-    /// Whether a piece belongs to a request that still runs. The last one frees its number.
+    /// Whether a piece belongs to a running request. The last piece frees its number.
     fn takes(&mut self, piece: &ReplyPiece) -> bool {
         let runs = self.running.get(&piece.ask).is_some_and(|task| task.id() == piece.task);
         if runs && piece.is_last {
@@ -237,22 +237,22 @@ impl Questions {
         number.inspect(|number| drop(self.running.remove(number)))
     }
 
-    /// Whether a request of so many bytes may wait: together they take at most twice one message's memory.
+    /// Whether a request of this size may wait: together they take at most twice one message's memory.
     fn may_wait(&self, limits: &Limits) -> bool {
         let bytes: usize = self.waiting.iter().map(|(_, body, _)| body.len()).sum();
         self.waiting.len() < WAITING && bytes < limits.line_bytes as usize
     }
 }
 
-/// Something that waits for the reader.
+/// A message that waits for the reader.
 enum Outgoing {
-    /// The rest of a message, and whether its first frame is still to come.
+    /// The rest of a message, and whether its first frame has still to be sent.
     Text(Bytes, bool),
     Ping,
 }
 
 impl Outgoing {
-    /// The next frame, and what is left behind it.
+    /// The next frame, and the rest of the message.
     fn frame(self) -> (Message, Option<Self>) {
         match self {
             Self::Ping => (Message::Ping(Bytes::new()), None),
@@ -266,7 +266,7 @@ impl Outgoing {
     }
 }
 
-/// Pings and pongs that the client may still send.
+/// Rate limiter of the client's pings and pongs.
 struct ControlAllowance {
     left: f64,
     at: Instant,
@@ -277,7 +277,7 @@ impl ControlAllowance {
         Self { left: CONTROL_BURST, at: Instant::now() }
     }
 
-    /// Takes one; false if the client sends them too fast.
+    /// Counts one; false if the client sends them too fast.
     fn take(&mut self) -> bool {
         let since = std::mem::replace(&mut self.at, Instant::now());
         self.left = (self.left + CONTROL_RATE * since.elapsed().as_secs_f64()).min(CONTROL_BURST) - 1.0;
@@ -288,7 +288,7 @@ impl ControlAllowance {
 type Socket = WebSocketStream<WholeMessages<TokioIo<hyper::upgrade::Upgraded>>>;
 
 impl Line {
-    /// Until the client leaves, sends what cannot be understood or takes nothing more, or the server ends.
+    /// Serves until the client leaves, sends an invalid message or stops reading, or the server ends.
     async fn serve(mut self, socket: Socket) {
         let (mut sink, mut stream) = socket.split();
         let (pieces, mut ready) = mpsc::channel(PIECES);
@@ -297,7 +297,7 @@ impl Line {
         let mut ping = tokio::time::interval_at(Instant::now() + PING, PING);
         let mut controls = ControlAllowance::new();
         let text = |text| Outgoing::Text(text, true);
-        // Until when the reader may leave the frame that is being sent.
+        // Deadline of the reader for the frame that is being sent.
         let mut sending = None;
         let parting = loop {
             if sending.is_none()
@@ -305,7 +305,7 @@ impl Line {
             {
                 let (frame, rest) = reply.frame();
                 rest.into_iter().for_each(|rest| replies.push_front(rest));
-                // All that was sent before has been taken, so this does not wait.
+                // Everything sent before has been flushed, so this does not wait.
                 if sink.feed(frame).await.is_err() {
                     return;
                 }
@@ -360,7 +360,7 @@ impl Line {
                     let why = format!("More than {CONTROL_RATE} pings a second.");
                     break parting(CloseCode::Policy, &why);
                 }
-                // The pong waits in the socket: nothing else is sent before the reader has taken it.
+                // The pong waits in the socket, and nothing else is sent before the reader has taken it.
                 Some(Ok(Message::Ping(_))) => {
                     sending.get_or_insert_with(|| Instant::now() + self.carrier.patience);
                 }
@@ -376,7 +376,7 @@ impl Line {
                 }
             }
         };
-        // What is open ends now, not when the reader has taken the last frame.
+        // Open requests end now, not when the reader has taken the last frame.
         drop(questions);
         let parted = async {
             sink.flush().await?;
@@ -385,10 +385,10 @@ impl Line {
         let _ = tokio::time::timeout(self.carrier.patience, parted).await;
     }
 
-    /// Starts, holds back, refuses or cancels a request; returns the immediate reply, if any.
+    /// Starts, queues, refuses or cancels a request; returns the immediate reply, if any.
     ///
     /// # Errors
-    /// Why the client cannot be understood.
+    /// Why the client's message is invalid.
     fn hear(
         &self,
         text: &str,
@@ -425,7 +425,7 @@ impl Line {
                 }
             }
             ClientMessage { ask: None, body: None, end: Some(number) } => {
-                // Its last piece may have gone out in the meantime.
+                // Its last piece may have been sent in the meantime.
                 questions.end(number).then(|| ServerMessage::given_up(number))
             }
             _ => return Err("{\"ask\": NUMBER, \"body\": {..}} or {\"end\": NUMBER} expected.".to_owned()),
@@ -433,7 +433,7 @@ impl Line {
         reply.transpose().map_err(|error| error.to_string())
     }
 
-    /// Starts waiting requests, as many as may run at the same time.
+    /// Starts waiting requests, up to the number that may run at the same time.
     fn start_waiting(&self, questions: &mut Questions, pieces: &mpsc::Sender<ReplyPiece>) {
         while (questions.tasks.len() as u64) < self.carrier.limits.line_questions.max(1)
             && let Some((number, body, _)) = questions.waiting.pop_front()
@@ -453,20 +453,20 @@ impl Line {
     }
 }
 
-/// Runs a request, and passes the reply on until it ends or is cancelled.
+/// Runs a request, and forwards the reply until it ends or is cancelled.
 async fn answer(carrier: Carrier, request: Request<Body>, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let (reply, _busy) = carrier.ask(request).await;
     pass_on(reply, ask, pieces).await;
 }
 
-/// Sends a reply in pieces. Where its body breaks off, the last piece is a problem.
+/// Sends a reply in pieces. If its body breaks off, the last piece is a problem.
 async fn pass_on(reply: Response, ask: u64, pieces: mpsc::Sender<ReplyPiece>) {
     let mut head = ServerMessage { ask, head: Some(ReplyHead::of(&reply)), last: false };
     let mut body = reply.into_body();
     let mut piece = next(&mut body).await;
     while !head.last {
-        // Usually the next piece shows at once whether this one is the last; a separate message costs the
-        // reader a task.
+        // Usually the next piece shows at once whether this one is the last; a separate message would cost
+        // the reader a task.
         let following =
             if matches!(piece, Some(Ok(_))) { next(&mut body).now_or_never() } else { Some(None) };
         head.last = matches!(following, Some(None));
@@ -502,7 +502,7 @@ async fn next(body: &mut Body) -> Option<Result<Bytes, axum::Error>> {
     }
 }
 
-/// Why a line ends after an error (RFC 6455, 7.4.1).
+/// The close code of a connection after an error (RFC 6455, 7.4.1).
 fn close_code(error: &Error) -> CloseCode {
     match error {
         Error::Capacity(_) => CloseCode::Size,

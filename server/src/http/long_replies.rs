@@ -1,4 +1,4 @@
-//! Long replies take memory until their reader has them: slow readers of many would fill it.
+//! Budget of long replies: they take memory until they are sent, and slow readers of many would exhaust it.
 
 use api::{Code, Problem};
 use axum::body::{Body, Bytes};
@@ -13,12 +13,12 @@ use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 
-/// Length from which a reply is long.
+/// Length from which a reply is long, bytes.
 const LONG: u64 = 512 << 10;
-/// Bytes that are passed on at a time: what the connection has in hand is not counted any more.
+/// Bytes passed on at a time; bytes that the connection holds are no longer counted.
 const PIECE: usize = 64 << 10;
 
-/// Takes memory for each long reply, or refuses it. What was stored is answered in any case.
+/// Takes memory for each long reply, or refuses it. Replies to completed writes are always sent.
 pub async fn hold(State(memory): State<Arc<Memory>>, request: Request, next: Next) -> Response {
     let response = next.run(request).await;
     let length = response.body().size_hint().exact().unwrap_or(0);
@@ -36,7 +36,7 @@ pub async fn hold(State(memory): State<Arc<Memory>>, request: Request, next: Nex
 
 struct HeldBody {
     body: Body,
-    /// Of the piece of the body that is being passed on.
+    /// Rest of the piece of the body that is being passed on.
     rest: Bytes,
     _share: MemoryShare,
 }

@@ -1,4 +1,4 @@
-//! HTTP for every operation: connections, access rules, bodies, headers, the form of replies.
+//! HTTP for every operation: connections, access rules, bodies, headers and formats of replies.
 
 pub mod accept;
 pub mod access;

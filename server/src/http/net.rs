@@ -1,8 +1,8 @@
-//! The accept loop: bounded connections, time limits on request heads, orderly end.
+//! The accept loop: a limited number of connections, time limits of request heads, orderly shutdown.
 //!
-//! `axum::serve` sets no timer, so a client that dribbles its head would hold a connection for ever.
-//! Here hyper's HTTP/1 builder runs with a timer, and when all places are taken the connection that
-//! has waited longest without a request makes room. A client that has left is noticed whatever it sent before.
+//! `axum::serve` sets no timer, so a client that sends its head slowly would hold a connection for ever. Here
+//! hyper's HTTP/1 builder runs with a timer. When all places are taken, the connection that has waited
+//! longest without a request makes room. A client that has left is noticed whatever it sent before.
 
 use super::extract::Connection;
 use super::pause::RefusalPause;
@@ -27,51 +27,51 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::{Notify, mpsc, watch};
 
-/// Heads up to this size reach our own check, which answers with a problem document.
+/// Heads up to this size reach our own check, which replies with a problem document.
 const HEAD_BUFFER: usize = 128 << 10;
-/// Questions about the server's health.
+/// Addresses of health probes.
 const HEALTH: [&str; 2] = ["/healthz", "/readyz"];
 /// Header fields up to this number reach our own check.
 const HEAD_FIELDS: usize = 512;
 
-/// Time between two looks at all connections.
+/// Interval of checks of all connections.
 const LOOK: Duration = Duration::from_millis(250);
-/// Least connections beyond all places whose clients are told so; half as many as there are places where that is more.
+/// Least number of connections beyond all places that are told so; half the places if that is more.
 const OVERFLOW: usize = 8;
-/// Time in which such a client sends its request, and after the answer ends the connection.
+/// Time for such a client to send its request, and then to close the connection.
 const OVERFLOW_TIME: Duration = Duration::from_secs(2);
-/// Time for a client whose connection makes room before it has asked anything, to take the answer.
+/// Time to send the refusal on a connection that makes room before its first request.
 const TELLING: Duration = Duration::from_millis(50);
-/// Time for a new client to send its first request; afterwards its connection makes room for others.
+/// Time for a new client to send its first request; afterwards its connection can make room for others.
 const FIRST_REQUEST: Duration = Duration::from_millis(200);
-/// Time between two looks of such a connection for a place.
+/// Interval at which such a connection tries to get a place.
 const PLACE_LOOK: Duration = Duration::from_millis(50);
-/// Time between two looks for room among the connections beyond all places.
+/// Interval at which room among the connections beyond all places is checked.
 const ROOM_LOOK: Duration = Duration::from_millis(10);
-/// Time for a refused client to take its answer after its place was given away.
+/// Time for a refused client to take its reply after its place was given away.
 const HURRY: Duration = Duration::from_millis(500);
-/// Before this the arrival rate of a body is unknown.
+/// Time before the arrival rate of a body is known.
 const ARRIVING_GRACE: Duration = Duration::from_secs(1);
 
-/// One open connection, as the table sees it.
+/// An open connection in the table.
 struct ConnectionEntry {
     number: u64,
     socket: Arc<Socket>,
     idle_since: Mutex<Instant>,
-    /// A request has come.
+    /// Whether a request has arrived.
     has_asked: AtomicBool,
-    /// Time at which the reply in progress was last polled for more; `None` without one.
+    /// When the reply in progress was last polled; `None` without a reply.
     asked: Mutex<Option<Instant>>,
-    /// The body that is arriving.
+    /// Progress of the arriving body.
     arriving: Mutex<Option<BodyProgress>>,
-    /// Whose it is.
+    /// Party of the connection.
     party: Party,
-    /// Pause before the answer to a refused client.
+    /// Pause before the reply to a refused client.
     pause: RefusalPause,
     close: Notify,
 }
 
-/// Bytes of a body so far, and when it began.
+/// Bytes of a body so far, and its start.
 #[derive(Clone, Copy)]
 struct BodyProgress {
     began: Instant,
@@ -90,7 +90,7 @@ impl BodyProgress {
 struct ConnectionTable {
     places: Mutex<Vec<Arc<ConnectionEntry>>>,
     next: AtomicU64,
-    /// Most of them.
+    /// Number of places.
     most: usize,
 }
 
@@ -103,14 +103,14 @@ impl ConnectionEntry {
         self.socket.requests.load(Ordering::Relaxed) > 0
     }
 
-    /// Its client waits for no answer: all that it sent is answered, or it took too long to ask.
+    /// Whether its client waits for no reply: all its requests are answered, or it took too long to send one.
     fn is_idle(&self) -> bool {
         let is_new =
             || !self.has_asked.load(Ordering::Relaxed) && lock(&self.idle_since).elapsed() < FIRST_REQUEST;
         !self.is_busy() && !is_new() && !self.socket.has_unread()
     }
 
-    /// As its requests carry it.
+    /// The form in which its requests carry the connection.
     fn connection(&self, proxies: &TrustedProxies) -> Connection {
         let ends = self.socket.stream().ends();
         let trusted = proxies.trusts(ends.map(|(peer, _)| peer.ip()));
@@ -118,7 +118,7 @@ impl ConnectionEntry {
         Connection { number: self.number, party: self.party, is_line: false, strangers, trusted }
     }
 
-    /// A client that has asked nothing yet when its connection ends may be about to: what it then reads is this.
+    /// Sends a refusal to a client without a request so far; if it is about to send one, it reads this reply.
     async fn tell_busy(&self) {
         if self.has_asked.load(Ordering::Relaxed) {
             return;
@@ -127,7 +127,7 @@ impl ConnectionEntry {
         wire::refuse(&self.socket, observe::unread(all_in_use(), since, Some(self.party)), TELLING).await;
     }
 
-    /// Ends the connection. One that waits for a refusal gets it before, if it takes it soon.
+    /// Closes the connection. A pending refusal is sent first, if the client takes it soon.
     fn make_room(self: &Arc<Self>) {
         if self.pause.since().is_none() {
             return self.close.notify_one();
@@ -146,7 +146,7 @@ impl ConnectionTable {
         Self { places: Mutex::default(), next: AtomicU64::new(0), most: most.max(1) }
     }
 
-    /// A new connection, which has no place yet.
+    /// A new connection without a place.
     fn entry(&self, stream: ByteStream, party: Party) -> Arc<ConnectionEntry> {
         Arc::new(ConnectionEntry {
             number: self.next.fetch_add(1, Ordering::Relaxed),
@@ -161,10 +161,11 @@ impl ConnectionTable {
         })
     }
 
-    /// Gives a connection a place, or says that work is under way on all of them. A full table takes one from the
-    /// connection that waits longest for a refusal, else closes the one that is idle longest, else the one with the
-    /// slowest request; first among those of parties with more than a quarter of all places. Of these, a party with less
-    /// may even take the newest one with work under way; they take none of parties with less.
+    /// Gives a connection a place; false if all places have work in progress. In a full table it replaces the
+    /// connection that waits longest for a refusal, else the one idle longest, else the one with the slowest
+    /// request. Connections of parties with more than a quarter of all places are replaced first. Such a
+    /// party replaces no others; any other party may even replace their newest connection with work in
+    /// progress.
     fn admit(&self, new: &Arc<ConnectionEntry>) -> bool {
         let mut places = lock(&self.places);
         if places.len() >= self.most {
@@ -176,8 +177,8 @@ impl ConnectionTable {
         true
     }
 
-    /// Gives a connection a place as soon as there is one. Others have sent nothing yet; those that are refused make
-    /// room when they have, at the latest after [`FIRST_REQUEST`].
+    /// Gives a connection a place as soon as one is free. Connections without a request so far make room once
+    /// they are refused, at the latest after [`FIRST_REQUEST`].
     async fn admit_soon(&self, new: &Arc<ConnectionEntry>) -> bool {
         let until = Instant::now() + FIRST_REQUEST;
         while Instant::now() < until {
@@ -224,8 +225,8 @@ impl ConnectionTable {
         lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
     }
 
-    /// Closes connections that their clients have ended while a request was worked on. What they sent behind it
-    /// keeps hyper from reading on, so that it would not notice.
+    /// Closes connections whose clients left while a request was processed. Bytes that they sent after it
+    /// keep hyper from reading on, so it would not notice.
     fn close_left(&self) {
         let left = |p: &&Arc<ConnectionEntry>| p.is_busy() && p.socket.is_left();
         lock(&self.places).iter().filter(left).for_each(|p| p.close.notify_one());
@@ -236,7 +237,7 @@ impl ConnectionTable {
     }
 }
 
-/// Connections beyond all places, whose clients are told so, in the order of their arrival.
+/// Connections beyond all places, which are told so, in the order of their arrival.
 struct OverflowTable {
     entries: Mutex<VecDeque<Arc<ConnectionEntry>>>,
     most: usize,
@@ -247,8 +248,8 @@ impl OverflowTable {
         Self { entries: Mutex::default(), most: OVERFLOW.max(places / 2) }
     }
 
-    /// Waits until another one fits. Of a full table the oldest one that waits for no answer ends; meanwhile
-    /// newcomers wait for the system to hand them over, in place of being closed unheard.
+    /// Waits until another connection fits. In a full table the oldest one that waits for no reply is closed.
+    /// Meanwhile newcomers wait in the system's accept queue instead of being closed without a reply.
     async fn room(&self) {
         while !self.has_room() {
             tokio::time::sleep(ROOM_LOOK).await;
@@ -275,7 +276,7 @@ impl OverflowTable {
     }
 }
 
-/// Counts a request of a connection while it runs.
+/// Marks a connection as busy while a request runs.
 pub struct Busy(Arc<ConnectionEntry>);
 
 impl Busy {
@@ -302,18 +303,19 @@ pub struct Carrier {
     user: Option<ForwardedUser>,
     place: Arc<ConnectionEntry>,
     closing: watch::Receiver<bool>,
-    /// Bounds.
+    /// Limits.
     pub limits: Arc<Limits>,
-    /// What messages of lines take from while they arrive and wait.
+    /// Memory for arriving and waiting WebSocket messages.
     pub memory: Arc<Memory>,
-    /// Longest time for which a reader may leave something waiting.
+    /// Longest time for which a reader may leave data waiting.
     pub patience: Duration,
-    /// The connection is in use until all of these are gone.
+    /// The connection is in use until all clones are dropped.
     _in_use: mpsc::Sender<Infallible>,
 }
 
 impl Carrier {
-    /// Answers a request as one that came by this connection, which is busy until what comes with the reply is gone.
+    /// Answers a request as if it came by this connection, which is busy until the reply's companion is
+    /// dropped.
     pub async fn ask(&self, mut request: axum::extract::Request) -> (axum::response::Response, Busy) {
         let busy = Busy::new(&self.place);
         request.extensions_mut().insert(Connection { is_line: true, ..self.connection });
@@ -324,15 +326,15 @@ impl Carrier {
         (reply, busy)
     }
 
-    /// Resolves when the server is asked to end.
+    /// Resolves when the server is asked to shut down.
     pub async fn closes(&mut self) {
         let _ = self.closing.wait_for(|closing| *closing).await;
     }
 }
 
-/// Serves until `stop` completes, then lets running requests end for `limits.shutdown_s`.
+/// Serves until `stop` completes, then gives running requests `limits.shutdown_s` to end.
 ///
-/// `on_stop` is called when the grace is over and cancels what still runs.
+/// `on_stop` is called after that time and cancels the remaining ones.
 pub async fn serve(
     listener: Listener,
     router: Router,
@@ -344,7 +346,7 @@ pub async fn serve(
     let table = Arc::new(ConnectionTable::new(limits.connections as usize));
     let overflow = Arc::new(OverflowTable::new(limits.connections as usize));
     let (closing, closed) = watch::channel(false);
-    // A stream polls again at each heartbeat, so a longer silence is the reader's.
+    // A stream is polled at each heartbeat, so a longer silence is caused by the reader.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
     let mut look = tokio::time::interval(LOOK);
     let (bounds, proxies) = ((Arc::new(limits.clone()), Arc::clone(memory)), Arc::new(proxies));
@@ -365,7 +367,7 @@ pub async fn serve(
         let stream = match accepted {
             Ok(accepted) => accepted,
             Err(error) => {
-                // Out of file descriptors, or a peer that left: the next one may be fine.
+                // Out of file descriptors, or a peer that left: the next accept may succeed.
                 tracing::warn!(%error, "accept failed");
                 tokio::time::sleep(Duration::from_millis(50)).await;
                 continue;
@@ -392,7 +394,7 @@ pub async fn serve(
                 if !is_admitted {
                     drop(closed);
                     let answered = answer_health(router, place.connection(&proxies), &place);
-                    // A request that has come meanwhile is answered, however late this task has its turn.
+                    // A request that has arrived meanwhile is answered, however late this task is scheduled.
                     tokio::select! {
                         biased;
                         () = answered => {}
@@ -421,7 +423,7 @@ fn all_in_use() -> Problem {
     Problem::new(Code::Busy, "All connections of the server are in use.").retry_after(1)
 }
 
-/// Resolves when a connection beyond all places has had its time, and no answer is under way.
+/// Resolves when a connection beyond all places has had its time, and no reply is in progress.
 async fn time_is_up(place: &ConnectionEntry) {
     tokio::time::sleep(OVERFLOW_TIME).await;
     while place.is_busy() {
@@ -429,7 +431,7 @@ async fn time_is_up(place: &ConnectionEntry) {
     }
 }
 
-/// Answers one request of a connection beyond all places: about the server's health, else that it is busy.
+/// Answers one request of a connection beyond all places: a health probe, or else a refusal.
 async fn answer_health(router: Router, connection: Connection, place: &Arc<ConnectionEntry>) {
     let service = tower::service_fn(|mut request: hyper::Request<hyper::body::Incoming>| {
         let (router, busy) = (router.clone(), Busy::new(place));
@@ -504,7 +506,7 @@ async fn connection(
     let mut served = http.serve_connection(wire, TowerToHyperService::new(service)).with_upgrades();
     let mut draining = false;
     loop {
-        // What has come, or is to be written, goes before the end, however late this task has its turn.
+        // Pending input and output come before the end, however late this task is scheduled.
         tokio::select! {
             biased;
             result = &mut served => {
@@ -523,7 +525,7 @@ async fn connection(
             }
         }
     }
-    // A line may have been made of it.
+    // It may have become a WebSocket.
     drop(served);
     tokio::select! {
         _ = in_use.recv() => {}
@@ -537,7 +539,7 @@ async fn connection(
     }
 }
 
-/// Body of a request, with its progress recorded.
+/// Body of a request whose progress is recorded.
 struct Arriving {
     body: hyper::body::Incoming,
     place: Arc<ConnectionEntry>,
@@ -580,7 +582,7 @@ impl Drop for Arriving {
     }
 }
 
-/// A reply's body that keeps its connection marked as busy until it is sent.
+/// Body of a reply; its connection counts as busy until it is sent.
 struct CountedBody {
     body: axum::body::Body,
     busy: Busy,

@@ -1,5 +1,5 @@
-//! The outermost layer: request id, access line, metrics, security headers, and the one place where
-//! problems are written.
+//! The outermost layer: request id, access line, metrics, security headers. All problem documents are written
+//! here.
 
 use super::access::{AccessLine, AccessSample, ByteCount, CountingBody, TraceParent};
 use super::audit::{self, AuditLine, AuditLog};
@@ -26,11 +26,11 @@ use work::Caller;
 
 /// Pause before the reply to a client that is refused for overload.
 const REFUSAL_PAUSE: Duration = Duration::from_millis(100);
-/// Stands for the route of what has none.
+/// Route label of requests without a route.
 const NO_ROUTE: &str = "(none)";
-/// Header that names a request in logs and problems.
+/// Header with the id of a request, which logs and problems repeat.
 pub const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
-/// Content that pages may load: only this server's own files.
+/// Content policy of pages: only this server's own files.
 const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
     font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
@@ -40,18 +40,18 @@ const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'sel
 pub struct RequestGate {
     /// Access rules of the server.
     pub guard: Arc<Guard>,
-    /// Bounds of a request's head.
+    /// Limits of a request's head.
     pub limits: Arc<Limits>,
-    /// Requests that each party may send.
+    /// Request rates by party.
     pub rates: Arc<PartyRates>,
-    /// Where changes and refusals are noted.
+    /// Log of changes and refusals.
     pub audit: Option<Arc<AuditLog>>,
-    /// Which questions of a drag are in the access log.
+    /// Sampler of the access log.
     pub sample: Arc<AccessSample>,
 }
 
 impl RequestGate {
-    /// Counts a request of a party; says where it is one too many. Monitoring is never.
+    /// Counts a request of a party; `Some` if it exceeds the rate. Probes never do.
     fn exceeded(&self, path: &str, party: Party) -> Option<RateExceeded> {
         if PROBES.contains(&path) {
             return None;
@@ -62,13 +62,13 @@ impl RequestGate {
 
 fn too_many(exceeded: RateExceeded, limits: &Limits) -> Problem {
     let message = english::too_many_requests(limits.party_rate as usize);
-    // To the next full millisecond, so that the time is enough.
+    // Rounded up to a full millisecond, so that the wait is long enough.
     let wait_ms = exceeded.wait.as_millis() as u64 + 1;
     Problem::of(Code::TooManyRequests, message).limit(limits.party_rate).retry_after_ms(wait_ms)
 }
 
-/// How long a refusal for overload is held back: a client that retries at once would take cores from requests in
-/// progress. It is part of the time that the client is asked to wait.
+/// How long a refusal for overload is held back: a client that retries at once would take cores from requests
+/// in progress. It is part of the time that the client is asked to wait.
 fn hold_of(response: &mut Response) -> Option<Duration> {
     let code = response.extensions().get::<Refusal>().map(|Refusal(problem)| problem.code);
     let is_overload = response.status() == StatusCode::SERVICE_UNAVAILABLE;
@@ -147,7 +147,7 @@ pub async fn observe(State(gate): State<RequestGate>, request: Request, next: Ne
     response.map(|body| line.at_end_of(body, Some(gate.sample)))
 }
 
-/// Puts a request into the share of its sender's name, where it has one, and else leaves it in that of its address.
+/// Assigns a request to the share of its sender's name if it has one, else to that of its address.
 fn share(request: &mut Request, sender: &mut Sender) -> Caller {
     if let Some(name) = &sender.name {
         sender.party = Party::named(name);
@@ -157,7 +157,7 @@ fn share(request: &mut Request, sender: &mut Sender) -> Caller {
     Caller::from(*connection)
 }
 
-/// Who sends a request: the user whom a trusted proxy has signed in, else the name of the token.
+/// The sender of a request: the user that a trusted proxy authenticated, else the name of the token.
 fn sender(request: &Request, guard: &Guard) -> Sender {
     let extensions = request.extensions();
     let user = extensions.get::<ForwardedUser>().map(|user| user.0.to_string());
@@ -170,8 +170,8 @@ fn sender(request: &Request, guard: &Guard) -> Sender {
     Sender { name, party, is_admin: is_admin.unwrap_or(false) }
 }
 
-/// The refusal of a head that could not be read, so that no route, method or id of it is known. It began to arrive at
-/// this time.
+/// The refusal of a head that could not be read, so its route, method and id are unknown. The head began to
+/// arrive at `began`.
 pub fn unread(problem: Problem, began: Instant, peer: Option<Party>) -> Response {
     let id = new_id();
     let mut response = written(Refusal::from(problem).into_response(), &Method::GET, None, &id);
@@ -204,12 +204,12 @@ fn new_id() -> String {
     uuid::Uuid::now_v7().simple().to_string()
 }
 
-/// Turns a refusal into its problem document; other replies pass.
+/// Converts a refusal to its problem document; other replies pass.
 fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str) -> Response {
     let status = response.status();
     let problem = match response.extensions_mut().remove::<Refusal>() {
         Some(Refusal(problem)) => problem,
-        // The page that asks for the token is a refusal for people.
+        // The page that asks for the token is itself a refusal.
         None if is_page(response.headers()) => return response,
         None if status.is_client_error() || status.is_server_error() => bare(status),
         None => return response,
@@ -227,7 +227,7 @@ fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str
     response
 }
 
-/// The problem that stands for a refusal of the HTTP layers below.
+/// The problem for a refusal of the lower HTTP layers.
 fn bare(status: StatusCode) -> Problem {
     let code = code_of(status.as_u16());
     Problem::new(code, format!("{}.", code.title()))

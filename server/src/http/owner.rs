@@ -1,14 +1,14 @@
-//! Owner of a connection: on this machine's own addresses every local user can connect.
+//! Owner of a connection. Every local user can connect to this machine's own addresses.
 //!
-//! Linux reports the owner of one socket by its two addresses (sock_diag(7)). The socket with our peer's
-//! address as its local one is the peer's end of the connection.
+//! Linux reports the owner of a socket by its two addresses (sock_diag(7)). The socket whose local address is
+//! our peer's is the peer's end of the connection.
 
 use std::net::SocketAddr;
 
-/// True when the other end of a connection is known to belong to another user of this machine than this
-/// process and root. If it is unknown (another system, another namespace), it is false.
+/// Whether the peer is known to be another user of this machine than this process and root. False if the
+/// owner is unknown (another system, another namespace).
 pub fn is_strangers(peer: SocketAddr, own: SocketAddr) -> bool {
-    // A mapped address is one of the older protocol at its own end.
+    // At its own end, a mapped address is an IPv4 address.
     let plain = |address: SocketAddr| SocketAddr::new(address.ip().to_canonical(), address.port());
     let known = || Some((own_user()?, owner_of(plain(peer), plain(own))?));
     peer.ip().to_canonical().is_loopback() && known().is_some_and(|(us, them)| them != us && them != 0)
@@ -19,7 +19,7 @@ fn own_user() -> Option<u32> {
     Some(rustix::process::geteuid().as_raw())
 }
 
-/// Owner of the socket at `local` that is connected with `remote`.
+/// Owner of the socket at `local` that is connected to `remote`.
 #[cfg(target_os = "linux")]
 fn owner_of(local: SocketAddr, remote: SocketAddr) -> Option<u32> {
     use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, netlink};
@@ -44,7 +44,7 @@ fn owner_of(_: SocketAddr, _: SocketAddr) -> Option<u32> {
 /// SOCK_DIAG_BY_FAMILY: type of requests about sockets, and of their replies.
 const BY_FAMILY: u16 = 20;
 
-/// A netlink header (16 bytes) and an `inet_diag_req_v2` (56) about one TCP socket in whatever state.
+/// A netlink header (16 bytes) and an `inet_diag_req_v2` (56) about one TCP socket in any state.
 fn question(local: SocketAddr, remote: SocketAddr) -> Vec<u8> {
     const REQUEST: u16 = 1;
     const ANY_STATE: u32 = u32::MAX;
@@ -54,7 +54,7 @@ fn question(local: SocketAddr, remote: SocketAddr) -> Vec<u8> {
         std::net::IpAddr::V6(ip) => ip.octets().to_vec(),
     };
     let body = [
-        // Family, TCP, no further attributes, padding.
+        // Family, TCP, no other attributes, padding.
         &[family, 6, 0, 0][..],
         &ANY_STATE.to_ne_bytes(),
         &local.port().to_be_bytes(),
@@ -73,11 +73,11 @@ fn question(local: SocketAddr, remote: SocketAddr) -> Vec<u8> {
     [head, body].concat()
 }
 
-/// The user id in an answer: a netlink header and an `inet_diag_msg`. `None` for an error.
+/// The user id in a reply: a netlink header and an `inet_diag_msg`. `None` for an error.
 fn owner_in(answer: &[u8]) -> Option<u32> {
     let word = |at: usize| <[u8; 4]>::try_from(answer.get(at..at + 4)?).ok();
     let kind = u16::from_ne_bytes(answer.get(4..6)?.try_into().ok()?);
-    // Behind the header: family, state, timer, retries (4), the socket (48), expiry and two queues (12).
+    // After the header: family, state, timer, retries (4), the socket (48), expiry and two queues (12).
     (kind == BY_FAMILY).then(|| word(16 + 64).map(u32::from_ne_bytes))?
 }
 
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn ones_own_connections_are_known_and_no_strangers() {
         for address in ["127.0.0.1:0", "[::1]:0"] {
-            // The newer protocol is not everywhere.
+            // IPv6 is not available everywhere.
             let Ok(listener) = TcpListener::bind(address) else { continue };
             let client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
             let (peer, own) = (client.local_addr().unwrap(), listener.local_addr().unwrap());

@@ -1,4 +1,4 @@
-//! Long replies: compressed where they are made, and unpacked while they are sent.
+//! Long replies: compressed when they are made, and decompressed while they are sent.
 
 use super::body::{Kept, Room};
 use api::Problem;
@@ -10,12 +10,12 @@ use futures_util::stream;
 use serde::Serialize;
 use std::io::{self, BufWriter, Cursor, Read, Write};
 
-/// Compression: what is gone in a moment need not be small.
+/// Compression level: fast, because the result lives only briefly.
 const LEVEL: i32 = 1;
-/// Bytes that are sent at a time.
+/// Bytes sent at a time.
 const PIECE: usize = 64 << 10;
 
-/// JSON text in the making.
+/// Compressor of JSON text.
 pub struct TextPacker {
     encoder: zstd::stream::write::Encoder<'static, Vec<u8>>,
     length: u64,
@@ -34,7 +34,7 @@ impl Write for TextPacker {
 }
 
 impl TextPacker {
-    /// Nothing yet.
+    /// An empty text.
     ///
     /// # Errors
     /// A defect of the compressor, as below.
@@ -61,10 +61,10 @@ impl TextPacker {
         buffered.flush().map_err(Problem::internal)
     }
 
-    /// The whole, which takes room until it is sent.
+    /// The complete text, which takes memory until it is sent.
     ///
     /// # Errors
-    /// `busy` when there is none.
+    /// `busy` if there is none.
     pub fn finish(self, room: &Room) -> Result<PackedText, Problem> {
         let packed = self.encoder.finish().map_err(Problem::internal)?;
         let kept = room.keep(packed.len())?;
@@ -72,7 +72,7 @@ impl TextPacker {
     }
 }
 
-/// JSON text to be sent.
+/// Compressed JSON text to send.
 pub struct PackedText {
     packed: Vec<u8>,
     length: u64,

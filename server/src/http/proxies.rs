@@ -1,4 +1,4 @@
-//! Proxies whose word about their clients is taken: `X-Forwarded-For` and `X-Forwarded-User`.
+//! Trusted proxies, whose `X-Forwarded-For` and `X-Forwarded-User` are used.
 
 use super::extract::Connection;
 use axum::http::{HeaderMap, HeaderName};
@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 const FORWARDED_FOR: HeaderName = HeaderName::from_static("x-forwarded-for");
 const FORWARDED_USER: HeaderName = HeaderName::from_static("x-forwarded-user");
-/// Most characters of a user's name that are kept.
+/// Longest kept user name, characters.
 const USER_CHARS: usize = 64;
 
-/// The user that a trusted proxy has signed in; extension of its requests.
+/// The user that a trusted proxy authenticated; extension of its requests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ForwardedUser(pub Arc<str>);
 
@@ -23,10 +23,10 @@ pub struct TrustedProxies {
 }
 
 impl TrustedProxies {
-    /// Of addresses, networks such as 10.0.0.0/8, and `unix` for clients of a unix socket.
+    /// From addresses, networks such as 10.0.0.0/8, and `unix` for clients of a unix socket.
     ///
     /// # Errors
-    /// A sentence about the first text that is none.
+    /// A sentence about the first invalid text.
     pub fn of(texts: &[String]) -> Result<Self, String> {
         let mut proxies = Self::default();
         for text in texts {
@@ -46,7 +46,7 @@ impl TrustedProxies {
         Ok(proxies)
     }
 
-    /// Whether connections of this party come from such a proxy.
+    /// Whether connections from this address come from a trusted proxy.
     pub fn trusts(&self, peer: Option<IpAddr>) -> bool {
         peer.map_or(self.local, |peer| self.has(peer.to_canonical()))
     }
@@ -63,8 +63,8 @@ impl TrustedProxies {
         })
     }
 
-    /// The connection as a request of a trusted proxy shows it: its party is the client. The last address that is no
-    /// proxy's counts, since a client can write the ones before.
+    /// The connection as a trusted proxy's request describes it: its party is the client. The last address
+    /// that is not a trusted proxy counts, because a client can write the earlier ones.
     pub fn seen(&self, connection: Connection, headers: &HeaderMap) -> (Connection, Option<ForwardedUser>) {
         let lines = headers.get_all(FORWARDED_FOR).iter().filter_map(|value| value.to_str().ok());
         let given: Vec<IpAddr> = lines.flat_map(|line| line.split(',')).map_while(address).collect();
@@ -76,7 +76,7 @@ impl TrustedProxies {
     }
 }
 
-/// One entry of the header, with or without a port.
+/// Parses an entry of the header, with or without a port.
 fn address(text: &str) -> Option<IpAddr> {
     let text = text.trim();
     let bare = || text.trim_start_matches('[').trim_end_matches(']').parse().ok();

@@ -1,4 +1,5 @@
-//! A way in for browsers: a page that takes a token, and a cookie that stands for it. Scripts send the token itself.
+//! Sign-in for browsers: a page that takes a token, and a cookie that represents it. Scripts send the token
+//! itself.
 
 use super::tokens::TokenList;
 use axum::body::Body;
@@ -8,23 +9,23 @@ use base::base_path::published;
 use scene::ContentHash;
 use std::time::Duration;
 
-/// The page; [`STATUS`] in it is replaced.
+/// The page, in which [`STATUS`] is replaced.
 const PAGE: &str = include_str!("sign_in.html");
 const STATUS: &str = "<!-- status -->";
-/// What the page may do: show itself and send its form to this server.
+/// Content policy: the page may show itself and send its form to this server.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; base-uri 'none'; \
     frame-ancestors 'none'";
-/// A browser stays signed in for so long, seconds.
+/// Lifetime of a browser session, seconds.
 const STAYS_S: u32 = 7 * 24 * 3600;
 /// Most bytes of a form, and the time in which it must arrive.
 const FORM_BYTES: usize = 8 << 10;
 const FORM_TIME: Duration = Duration::from_secs(5);
 
-/// The cookie for a token. It names the token without containing it: a new token ends all sessions, a
-/// restart none.
+/// The cookie for a token. It identifies the token without containing it: a new token ends all sessions, a
+/// restart ends none.
 #[derive(Clone, Debug)]
 pub struct SessionCookie {
-    /// Servers on other ports share the browser's cookies, so each token has a name of its own.
+    /// Servers on other ports share the browser's cookies, so each token has its own cookie name.
     name: String,
     value: String,
 }
@@ -37,7 +38,7 @@ impl SessionCookie {
         Self { name: format!("dragtraffic-{name}"), value }
     }
 
-    /// The request carries this cookie.
+    /// Whether the request carries this cookie.
     pub fn is_in(&self, headers: &HeaderMap) -> bool {
         let fields = headers.get_all(header::COOKIE).iter().filter_map(|field| field.to_str().ok());
         let pairs = fields.flat_map(|field| field.split(';')).filter_map(|pair| pair.trim().split_once('='));
@@ -45,7 +46,7 @@ impl SessionCookie {
         own.fold(false, |is_in, (_, value)| is_in | same_bytes(value.as_bytes(), self.value.as_bytes()))
     }
 
-    /// The field that sets it; over TLS it is never sent without.
+    /// The header that sets it; over TLS it is marked secure.
     fn field(&self, secure: bool) -> Option<HeaderValue> {
         let secure = if secure { "; Secure" } else { "" };
         let (Self { name, value }, path) = (self, published("/"));
@@ -68,7 +69,7 @@ pub fn page(status: &str) -> Response {
     (StatusCode::UNAUTHORIZED, head, PAGE.replace(STATUS, status)).into_response()
 }
 
-/// Answers the page's form: back to the same address with the cookie, where the token is one of the server's.
+/// Answers the page's form: back to the same address with the cookie, if the token is valid.
 pub async fn enter(tokens: &TokenList, address: &str, headers: &HeaderMap, body: Body) -> Response {
     let form = tokio::time::timeout(FORM_TIME, axum::body::to_bytes(body, FORM_BYTES)).await;
     let Ok(Ok(form)) = form else { return page("The form did not arrive. Try again.") };

@@ -1,4 +1,4 @@
-//! Connections by TCP or by a unix socket.
+//! Connections over TCP or a unix socket.
 
 use base::party::Party;
 use std::io::{self, IoSlice};
@@ -9,11 +9,11 @@ use tokio::net::{TcpListener, TcpStream};
 #[cfg(unix)]
 use tokio::net::{UnixListener, UnixStream};
 
-/// Where connections come from.
+/// Source of connections.
 pub enum Listener {
-    /// An address.
+    /// A TCP address.
     Tcp(TcpListener),
-    /// A file.
+    /// A unix socket.
     #[cfg(unix)]
     Unix(UnixListener),
 }
@@ -27,7 +27,7 @@ impl Listener {
         match self {
             Self::Tcp(listener) => {
                 let (stream, _) = listener.accept().await?;
-                // Events are small and must leave at once.
+                // Events are small and must be sent at once.
                 let _ = stream.set_nodelay(true);
                 Ok(ByteStream::Tcp(stream))
             }
@@ -39,14 +39,14 @@ impl Listener {
 
 /// A connection.
 pub enum ByteStream {
-    /// By TCP.
+    /// Over TCP.
     Tcp(TcpStream),
-    /// By a unix socket.
+    /// Over a unix socket.
     #[cfg(unix)]
     Unix(UnixStream),
 }
 
-/// The same call on either sort of stream.
+/// The same call on either kind of stream.
 macro_rules! either {
     ($stream:expr, $inner:ident => $call:expr) => {
         match $stream {
@@ -59,7 +59,7 @@ macro_rules! either {
 
 #[allow(missing_docs, reason = "as tokio has them")]
 impl ByteStream {
-    /// Addresses of the other end and of this one; a unix socket has none.
+    /// Addresses of the peer and of this end; a unix socket has none.
     pub fn ends(&self) -> Option<(SocketAddr, SocketAddr)> {
         match self {
             Self::Tcp(stream) => stream.peer_addr().ok().zip(stream.local_addr().ok()),
@@ -68,7 +68,7 @@ impl ByteStream {
         }
     }
 
-    /// Whose it is.
+    /// The party of the connection.
     pub fn party(&self) -> Party {
         match self {
             Self::Tcp(stream) => stream.peer_addr().map_or(Party::Own, |peer| Party::of(peer.ip())),
@@ -77,12 +77,12 @@ impl ByteStream {
         }
     }
 
-    /// Ends one or both directions.
+    /// Shuts down one or both directions.
     pub fn shutdown(&self, how: Shutdown) {
         let _ = either!(self, stream => socket2::SockRef::from(stream).shutdown(how));
     }
 
-    /// Whether bytes have arrived that nobody has read.
+    /// Whether unread bytes have arrived.
     pub fn has_unread(&self) -> bool {
         let mut byte = [std::mem::MaybeUninit::uninit()];
         either!(self, stream => socket2::SockRef::from(stream).peek(&mut byte).is_ok_and(|count| count > 0))

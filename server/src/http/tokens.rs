@@ -18,15 +18,15 @@ const ONLY: &str = "admin";
 /// What a token allows; each right includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Right {
-    /// See scenes and compute; saved scenes stay as they are.
+    /// Read scenes and compute; saved scenes do not change.
     Read,
     /// Save, change and delete scenes.
     Edit,
-    /// Counters of the server.
+    /// Read the server's counters.
     Admin,
 }
 
-/// The rights by their words.
+/// The rights by name.
 const RIGHTS: [(&str, Right); 3] = [("read", Right::Read), ("edit", Right::Edit), ("admin", Right::Admin)];
 
 impl Right {
@@ -34,7 +34,7 @@ impl Right {
         RIGHTS.iter().find(|(_, right)| *right == self).map_or("", |(word, _)| word)
     }
 
-    /// The right that a request needs.
+    /// The right that a request requires.
     pub fn needed(method: &Method, path: &str, query: Option<&str>) -> Self {
         let reads = matches!(*method, Method::GET | Method::HEAD | Method::OPTIONS);
         let tries = || {
@@ -53,11 +53,11 @@ impl Right {
 /// One token.
 #[derive(Debug)]
 pub struct NamedToken {
-    /// Stands in logs.
+    /// Name, for logs.
     pub name: String,
     right: Right,
     secret: String,
-    /// Stands for the token in browsers.
+    /// Cookie that represents the token in browsers.
     pub cookie: SessionCookie,
 }
 
@@ -79,7 +79,7 @@ impl NamedToken {
         same_bytes(given.as_bytes(), self.secret.as_bytes())
     }
 
-    /// Refuses a request beyond this token's right.
+    /// Refuses a request that exceeds this token's right.
     ///
     /// # Errors
     /// `forbidden`.
@@ -102,7 +102,7 @@ pub struct TokenList {
 }
 
 impl TokenList {
-    /// Of a file with one token, or with lines `NAME RIGHT TOKEN`.
+    /// Reads a file with one token, or with lines `NAME RIGHT TOKEN`.
     ///
     /// # Errors
     /// A sentence with the line.
@@ -114,7 +114,7 @@ impl TokenList {
         Ok(Self { file: file.to_owned(), tokens: RwLock::new(tokens.into()) })
     }
 
-    /// How many tokens there are of each right.
+    /// Number of tokens by right.
     pub fn summary(&self) -> String {
         let tokens = self.tokens.read().unwrap_or_else(PoisonError::into_inner);
         let count = |right| tokens.iter().filter(|token| token.right == right).count();
@@ -123,7 +123,8 @@ impl TokenList {
         counts.map(|(word, count)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
     }
 
-    /// Reads the file again whenever it changes, for ever. A file with a fault leaves the tokens as they are.
+    /// Reads the file again whenever it changes; never returns. If the file has a fault, the tokens do not
+    /// change.
     pub async fn follow(&self) {
         let mut seen = self.state();
         let mut look = tokio::time::interval(LOOK);
@@ -151,10 +152,10 @@ impl TokenList {
         Some((metadata.modified().ok()?, metadata.len()))
     }
 
-    /// Calls `found` with the strongest token of the request.
+    /// Calls `found` with the request's token of the highest right.
     ///
     /// # Errors
-    /// `unauthorized`: without a token, or with one that is not in the file.
+    /// `unauthorized` without a token, or with one that is not in the file.
     pub fn bearer<T>(&self, headers: &HeaderMap, found: impl FnOnce(&NamedToken) -> T) -> Result<T, Problem> {
         let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
         let given = given.and_then(|value| value.split_once(' '));
@@ -171,7 +172,7 @@ impl TokenList {
         })
     }
 
-    /// Calls `found` with the token of this text, where there is one.
+    /// Calls `found` with the token of this text, if there is one.
     pub fn named<T>(&self, text: &str, found: impl FnOnce(&NamedToken) -> T) -> Option<T> {
         self.strongest(|token| token.is(text), found)
     }
@@ -197,8 +198,9 @@ fn read(path: &Path) -> Result<Vec<NamedToken>, String> {
     parse(&text)
 }
 
-/// Refuses a file that others than its owner may read. A file of root may be read by its group too: root chose the
-/// group, as Kubernetes does for a volume (fsGroup). PostgreSQL has the same rule for the keys of its servers.
+/// Refuses a file that others than its owner can read. A file of root may be readable by its group: root
+/// chose the group, as Kubernetes does for a volume (fsGroup). PostgreSQL has the same rule for its server
+/// keys.
 #[cfg(unix)]
 fn check_mode(mode: u32, owner: u32) -> Result<(), String> {
     let (most, advice) = if owner == 0 { (0o640, "chmod 640") } else { (0o600, "chmod 600") };

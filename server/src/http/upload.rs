@@ -1,5 +1,5 @@
-//! Uploaded files: kept as they came, and unpacked while they are read, once more for each reading. Not even the
-//! parts of a form are put together.
+//! Uploaded files: kept as received, and decoded anew for each reading. Not even the parts of a form are
+//! assembled.
 
 use super::body::{Blocks, Bounds, Encoding, Kept, Room, Unfolding};
 use api::{Code, Problem};
@@ -16,20 +16,20 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// Bytes that are unpacked at a time.
+/// Bytes decoded at a time.
 const PIECE: usize = 64 << 10;
 
-/// An uploaded body, with the room that it takes.
+/// An uploaded body, with its share of memory.
 #[derive(Debug)]
 pub struct Upload {
     encoded: Blocks,
     encoding: Encoding,
     bounds: Bounds,
-    /// First fault found while unpacking.
+    /// First fault found while decoding.
     fault: Mutex<Option<Problem>>,
-    /// One reader has reached its end.
+    /// Whether a reader has reached the end.
     read: AtomicBool,
-    /// Length that readers go by for the memory that they may take.
+    /// Length by which readers limit their memory.
     granted: AtomicU64,
     _kept: Kept,
 }
@@ -40,11 +40,11 @@ impl Upload {
         Self { encoded, encoding, bounds, fault, read, granted, _kept: kept }
     }
 
-    /// Takes memory for its reading, at most half of all that there is: with less than a file of this size may need,
+    /// Takes memory for reading, at most half of the budget. With less than a file of this size may need,
     /// readers refuse what does not fit.
     ///
     /// # Errors
-    /// `busy` where it is not free.
+    /// `busy` if it is not free.
     pub fn reserve(&self, room: &Room) -> Result<MemoryShare, Problem> {
         let length = self.encoded.len();
         let (own, shared) = (memory_for(length) - length, room.memory.most() / 2);
@@ -56,7 +56,7 @@ impl Upload {
         room.work(own.min(shared))
     }
 
-    /// Bytes that are to be expected once it is unpacked, a guess for the time that it takes.
+    /// Estimated decoded size, which determines the expected time.
     pub fn expected_bytes(&self) -> u64 {
         const GROWTH: u64 = 6;
         let packed = self.encoding != Encoding::Identity || self.encoded.starts_with(&[0x1f, 0x8b]);
@@ -68,7 +68,7 @@ impl Upload {
         Ok(Unpacking { upload: self, inner })
     }
 
-    /// Its bytes from an offset on. One that came as it is need not be read up to there.
+    /// Its bytes from an offset on. A body without a coding is not read up to there.
     fn open_at(&self, at: u64) -> io::Result<Box<dyn Read + Send + '_>> {
         if self.encoding == Encoding::Identity {
             return Ok(Box::new(self.encoded.reader_at(at)));
@@ -84,7 +84,7 @@ impl Upload {
         told
     }
 
-    /// Says what is wrong with the body itself, be it behind all that was read of it.
+    /// Reports what is wrong with the body itself, even after the part that was read.
     ///
     /// # Errors
     /// `malformed-file`, `decoded-too-large`, `expansion-too-high`.
@@ -96,7 +96,7 @@ impl Upload {
         if self.encoding == Encoding::Identity || self.read.load(Ordering::Relaxed) {
             return Ok(());
         }
-        // Whatever went wrong here is found.
+        // Any fault is recorded while reading.
         let _ = io::copy(&mut self.reader()?, &mut io::sink());
         found().map_or(Ok(()), Err)
     }
@@ -130,11 +130,11 @@ impl Read for Unpacking<'_> {
 /// A part of an uploaded form.
 #[derive(Debug)]
 pub struct FormPart {
-    /// Name of its file, as it was given.
+    /// Name of its file, as given.
     pub label: Option<String>,
     form: Arc<Upload>,
     boundary: String,
-    /// Where the line before it begins, in the unpacked form.
+    /// Offset of the separator line before it, in the decoded form.
     at: u64,
 }
 
@@ -142,14 +142,15 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// Most parts of a form, whatever they are called.
+/// Limit of the parts of a form, whatever their names.
 const MOST_PARTS: usize = 100;
 
-/// The parts of each of these names in a form, in its order; of each name at most so many. The form is read once, and
-/// each part then from its own beginning.
+/// The parts with each of these names in a form, in order, at most `most` per name. The form is read once,
+/// and each part then from its own offset.
 ///
 /// # Errors
-/// `malformed-file`, and `invalid-field` for more of a name or another name: none is passed over in silence.
+/// `malformed-file`; `invalid-field` for too many parts of a name or an unknown name, because nothing is
+/// ignored silently.
 pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
@@ -177,7 +178,7 @@ pub fn parts<const N: usize>(
             return Err(Problem::field(&format!("/{name}"), Code::InvalidField, detail).limit(most as u64));
         }
         let label = field.file_name().map(str::to_owned);
-        // The line before a part has passed when its name is known.
+        // The separator line before a part has passed when its name is known.
         let at = lines.lock().unwrap_or_else(PoisonError::into_inner).at.get(index).copied();
         let at = at.ok_or_else(|| broken("a part without a line before it"))?;
         of_name.push(FormPart { label, form: Arc::clone(form), boundary: boundary.clone(), at });
@@ -186,11 +187,11 @@ pub fn parts<const N: usize>(
     Ok(found)
 }
 
-/// Finds where the lines that separate the parts of a form begin, in pieces of it.
+/// Finds the offsets of the separator lines of a form, read in pieces.
 struct BoundaryLines {
-    /// The end of a line, and the boundary after it.
+    /// A line end followed by the boundary.
     line: Vec<u8>,
-    /// Bytes of it that the last ones so far are.
+    /// Number of its bytes that the latest bytes match.
     matched: usize,
     read: u64,
     /// Offset of the dashes before each boundary, so far.
@@ -199,14 +200,14 @@ struct BoundaryLines {
 
 impl BoundaryLines {
     fn new(boundary: &str) -> Self {
-        // The first line has none before it.
+        // The first separator has no line end before it.
         Self { line: format!("\r\n--{boundary}").into_bytes(), matched: 2, read: 0, at: Vec::new() }
     }
 
     fn read(&mut self, piece: &[u8]) {
         for byte in piece {
             self.read += 1;
-            // The line has its first byte nowhere else: a boundary has no carriage return.
+            // Its first byte occurs nowhere else in it: a boundary has no carriage return.
             self.matched = match self.line.get(self.matched) {
                 Some(expected) if expected == byte => self.matched + 1,
                 _ => usize::from(*byte == b'\r'),
@@ -219,7 +220,7 @@ impl BoundaryLines {
     }
 }
 
-/// A form from a line between its parts on, unpacked piece by piece.
+/// A form from a separator line on, decoded in pieces.
 fn form_of<'a>(
     form: &'a Upload,
     boundary: &str,
@@ -227,7 +228,7 @@ fn form_of<'a>(
     lines: Option<Arc<Mutex<BoundaryLines>>>,
 ) -> io::Result<Multipart<'a>> {
     let reader = form.open_at(at)?;
-    // The parser takes in whatever is ready, so after each piece there is none for once.
+    // The parser takes everything that is ready, so after each piece the stream is pending once.
     let pieces = stream::unfold((reader, lines, false), |(mut reader, lines, pause)| async move {
         if pause {
             pause_once().await;
@@ -258,7 +259,7 @@ async fn pause_once() {
     .await;
 }
 
-/// The result of what waits for nothing but its next poll.
+/// The result of a future that needs only repeated polls.
 fn now<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
     loop {

@@ -1,7 +1,7 @@
-//! The socket as hyper sees it, and the refusals of heads that no service ever sees.
+//! The socket as hyper sees it, and the refusals of heads that never reach a service.
 //!
-//! hyper answers what it cannot read by itself, with a status and nothing else. [`Wire`] holds such an
-//! answer back; [`refuse`] gives the problem document in its place, as for every other refusal.
+//! hyper itself answers a head that it cannot parse, with only a status. [`Wire`] holds such an answer back;
+//! [`refuse`] sends a problem document instead, as for every other refusal.
 
 use super::stream::ByteStream;
 use api::{Code, Problem};
@@ -22,20 +22,20 @@ use tokio::io::{AsyncRead, AsyncWrite, Interest, ReadBuf};
 const BARE_ANSWER: usize = 192;
 /// Most bytes that a refused client may still send while it receives the answer.
 const REST_OF_HEAD: usize = 1 << 20;
-/// Time for a refused client to take the answer and end the connection.
+/// Time for a refused client to take the reply and close the connection.
 pub const PARTING: Duration = Duration::from_secs(2);
 
 /// Socket of a connection, with its state.
 pub struct Socket {
     stream: ByteStream,
-    /// Requests that are worked on or answered.
+    /// Number of requests in progress.
     pub requests: AtomicUsize,
-    /// Status of hyper's own answer, which was held back; 0 without one.
+    /// Status of hyper's own answer that was held back; 0 without one.
     held_back: AtomicU16,
 }
 
 impl Socket {
-    /// Of an accepted connection.
+    /// The socket of an accepted connection.
     pub fn new(stream: ByteStream) -> Self {
         Self { stream, requests: AtomicUsize::new(0), held_back: AtomicU16::new(0) }
     }
@@ -51,12 +51,12 @@ impl Socket {
         ready.is_some_and(|ready| ready.map_or(true, |ready| ready.is_read_closed()))
     }
 
-    /// Whether something that the client sent has not been read.
+    /// Whether bytes of the client are unread.
     pub fn has_unread(&self) -> bool {
         self.stream.has_unread()
     }
 
-    /// After the last answer: reads what the client still sends, so that it gets the answer and no reset.
+    /// After the last reply: reads what the client still sends, so that it gets the reply and no reset.
     pub async fn part(&self) {
         shut(&self.stream);
         let _ = tokio::time::timeout(PARTING, self.drain()).await;
@@ -79,7 +79,7 @@ impl Socket {
         Ok(())
     }
 
-    /// Reads what still comes, so that closing does not take the answer from the client.
+    /// Reads remaining bytes, because closing with unread bytes would reset the connection.
     async fn drain(&self) -> io::Result<()> {
         let (mut chunk, mut left) = ([0; 4 << 10], REST_OF_HEAD);
         while left > 0 {
@@ -109,7 +109,7 @@ impl Wire {
     }
 }
 
-/// Status of an answer that hyper gave by itself. Those of the service all have more headers than these.
+/// Status of hyper's own answer. Replies of the service always have more headers.
 fn bare_answer(bytes: &[u8]) -> Option<u16> {
     let text = std::str::from_utf8(bytes).ok().filter(|text| text.len() < BARE_ANSWER)?;
     let (status, fields) = text.strip_prefix("HTTP/1.1 4")?.strip_suffix("\r\n\r\n")?.split_once("\r\n")?;
@@ -177,7 +177,7 @@ impl AsyncWrite for Wire {
     }
 }
 
-/// Ends the sending direction.
+/// Shuts down the sending direction.
 fn shut(stream: &ByteStream) {
     stream.shutdown(std::net::Shutdown::Write);
 }
@@ -206,7 +206,8 @@ pub fn refusal(socket: &Socket, error: &hyper::Error, limits: &Limits, unread: &
     }
 }
 
-/// Answers on the socket itself, after which the connection ends: when the client ends it, at the latest after this time.
+/// Replies on the socket itself. The connection ends when the client closes it, at the latest after
+/// `parting`.
 pub async fn refuse(socket: &Socket, response: Response, parting: Duration) {
     let (parts, body) = response.into_parts();
     let body = body.collect().await.map(|body| body.to_bytes()).unwrap_or_default();

@@ -1,11 +1,11 @@
-//! Letters of pictures: three columns by five rows of squares each, enough for ids and numbers.
+//! Letters of pictures: three columns by five rows of squares, enough for ids and numbers.
 
 /// Columns of a letter.
 pub const COLUMNS: usize = 3;
 /// Rows of a letter.
 pub const ROWS: usize = 5;
 
-/// Letters by their rows from the top, an octal digit a row. Small letters are drawn as capitals.
+/// Letters by row from the top, one octal digit per row. Lower case is drawn as upper case.
 const LETTERS: [(char, u32); 42] = [
     ('0', 0o75557),
     ('1', 0o26227),
@@ -51,7 +51,7 @@ const LETTERS: [(char, u32); 42] = [
     (' ', 0),
 ];
 
-/// Columns and rows of the squares of a letter; a letter that is not in the list is a frame.
+/// Columns and rows of the squares of a letter; an unknown letter is a frame.
 pub fn squares(letter: char) -> impl Iterator<Item = (usize, usize)> {
     let capital = letter.to_ascii_uppercase();
     let rows = LETTERS.iter().find(|(known, _)| *known == capital).map_or(0o75557, |(_, rows)| *rows);

@@ -1,6 +1,6 @@
 //! Pictures of scenes as PNG: roads, lights, road users with their ids, chosen futures, goals, and a scale.
 //!
-//! Equal scenes give equal bytes: the text has letters of its own, and no font of the machine.
+//! Equal scenes give equal bytes: text uses built-in letters, no font of the machine.
 
 mod glyphs;
 mod paper;
@@ -30,14 +30,14 @@ const REACTION: Ink = (247, 144, 9, 255);
 const GOAL: Ink = (0, 121, 76, 255);
 const TEXT: Ink = (16, 24, 40, 255);
 
-/// Pixels of a square of a letter.
+/// Pixels per square of a letter.
 const LETTER_PX: f32 = 2.0;
-/// Metres between two arrows of a lane.
+/// Distance of arrows on a lane, metres.
 const ARROWS_M: f64 = 25.0;
-/// Lengths of the scale, metres.
+/// Possible lengths of the scale, metres.
 const SCALES_M: [f64; 7] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 500.0];
 
-/// A scene at a step as PNG, 800 by 800 pixels; `None` where there is no memory for it.
+/// A scene at a step as PNG, 800 by 800 pixels; `None` if there is no memory for it.
 pub fn png(scene: &Scene, view: SceneView, step: usize) -> Option<Vec<u8>> {
     let mut paper = Paper::new(view, GROUND)?;
     roads(&mut paper, scene);
@@ -110,7 +110,7 @@ fn lights(paper: &mut Paper, scene: &Scene, step: usize) {
     }
 }
 
-/// Chosen futures with a dot a second, and goals.
+/// Chosen futures with a dot per second, and goals.
 fn futures(paper: &mut Paper, scene: &Scene) {
     for agent in &scene.agents {
         if let Some(goal) = agent.conditions.goal.position {
@@ -152,7 +152,7 @@ fn road_users(paper: &mut Paper, scene: &Scene, step: usize) {
         paper.line(&[middle, front], false, LineStyle::plain((255, 255, 255, 255), 2.0));
         names.push((state.position(), shown.size.length_m, agent.id.as_str()));
     }
-    // Above all boxes, so that none covers a name.
+    // Drawn after all boxes, so that none covers a name.
     for (place, length_m, name) in names {
         let (x, y) = paper.at(place);
         let beside = paper.px(0.5 * length_m).min(14.0) + 3.0;
@@ -203,7 +203,7 @@ mod tests {
         let bytes = png(&scene, view, 0).unwrap();
         assert_eq!(bytes, png(&scene, view, 0).unwrap());
         let of = |(red, green, blue, _): Ink| (red, green, blue);
-        // Ten pixels a metre, the car in the middle.
+        // Ten pixels per metre, the car in the middle.
         assert_eq!(pixel(&bytes, 385, 400), of(VEHICLE));
         assert_eq!(pixel(&bytes, 300, 410), of(ROAD));
         assert_eq!(pixel(&bytes, 300, 300), of(GROUND));

@@ -1,4 +1,4 @@
-//! What is drawn on: metres of a view to pixels of a PNG.
+//! The canvas of a picture: maps metres of a view to pixels of a PNG.
 
 use super::glyphs::{self, COLUMNS, ROWS};
 use super::view::SceneView;
@@ -10,13 +10,13 @@ use tiny_skia::{
 /// Side of a picture, pixels.
 pub const SIDE_PX: u32 = 800;
 
-/// Longer lines have no dashes, which would be drawn far outside the picture too, pixels.
+/// Longer lines are not dashed, because dashes would be drawn far outside the picture too, pixels.
 const MOST_DASHED_PX: f32 = 20_000.0;
 
-/// Red, green, blue, and how much covers what is below.
+/// Red, green, blue, and opacity.
 pub type Ink = (u8, u8, u8, u8);
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Clone, Copy, Debug)]
 pub struct LineStyle {
     /// Colour.
@@ -34,7 +34,7 @@ impl LineStyle {
     }
 }
 
-/// A picture that is drawn.
+/// A picture in progress.
 pub struct Paper {
     pixels: Pixmap,
     view: SceneView,
@@ -42,19 +42,19 @@ pub struct Paper {
 }
 
 impl Paper {
-    /// An empty sheet; `None` where there is no memory for one.
+    /// An empty picture; `None` if there is no memory for it.
     pub fn new(view: SceneView, ground: Ink) -> Option<Self> {
         let mut pixels = Pixmap::new(SIDE_PX, SIDE_PX)?;
         pixels.fill(colour(ground));
         Some(Self { pixels, view, scale: f64::from(SIDE_PX) / view.width_m })
     }
 
-    /// Pixels of so many metres.
+    /// Converts metres to pixels.
     pub fn px(&self, metres: f64) -> f32 {
         (metres * self.scale) as f32
     }
 
-    /// Pixel of a place.
+    /// Pixel of a point.
     pub fn at(&self, place: Vec2) -> (f32, f32) {
         let half = 0.5 * self.view.width_m;
         let (right, down) = (place.x - self.view.centre.x + half, half - (place.y - self.view.centre.y));
@@ -73,7 +73,7 @@ impl Paper {
         path.finish()
     }
 
-    /// A line through places; one that cannot be seen is left out.
+    /// A line through points; an invisible one is skipped.
     pub fn line(&mut self, points: &[Vec2], closed: bool, style: LineStyle) {
         if !self.view.shows(points, 10.0) {
             return;
@@ -107,7 +107,7 @@ impl Paper {
         }
     }
 
-    /// A dot, its radius in pixels.
+    /// A dot with its radius in pixels.
     pub fn dot(&mut self, place: Vec2, radius_px: f32, ink: Ink) {
         let (x, y) = self.at(place);
         if let Some(path) = PathBuilder::from_circle(x, y, radius_px) {
@@ -115,7 +115,7 @@ impl Paper {
         }
     }
 
-    /// A ring, its radius in pixels.
+    /// A ring with its radius in pixels.
     pub fn ring(&mut self, place: Vec2, radius_px: f32, ink: Ink) {
         let (x, y) = self.at(place);
         if let Some(path) = PathBuilder::from_circle(x, y, radius_px) {
@@ -124,7 +124,7 @@ impl Paper {
         }
     }
 
-    /// Text with its left upper corner at a pixel, each square of a letter so many pixels wide, on a plate.
+    /// Text on a plate, with its upper left corner at a pixel and this width of a letter's square.
     pub fn text(&mut self, (left, top): (f32, f32), text: &str, square_px: f32, ink: Ink) {
         let width = text_width(text, square_px);
         let height = ROWS as f32 * square_px;
@@ -149,7 +149,7 @@ impl Paper {
         }
     }
 
-    /// The PNG; `None` where it cannot be written.
+    /// The PNG; `None` if it cannot be encoded.
     pub fn png(&self) -> Option<Vec<u8>> {
         self.pixels.encode_png().ok()
     }

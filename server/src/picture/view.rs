@@ -5,27 +5,27 @@ use scene::{Scene, Vec2};
 
 /// Narrowest and widest square that a picture shows, metres.
 const WIDTHS_M: (f64, f64) = (10.0, 2_000.0);
-/// Room beside the outermost road user, metres.
+/// Margin beside the outermost road user, metres.
 const BESIDE_M: f64 = 20.0;
 /// Square around the road users of a scene: narrowest and widest, metres.
 const OF_SCENE_M: (f64, f64) = (60.0, 400.0);
 
-/// A square of a scene, with north on top.
+/// A square of a scene, north up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneView {
-    /// Its middle, metres.
+    /// Its centre, metres.
     pub centre: Vec2,
     /// Its side, metres.
     pub width_m: f64,
 }
 
 impl SceneView {
-    /// A square around a point; its side is held to what a picture can show.
+    /// A square around a point; its side is clamped to the range of pictures.
     pub fn around(centre: Vec2, width_m: f64) -> Self {
         Self { centre, width_m: width_m.clamp(WIDTHS_M.0, WIDTHS_M.1) }
     }
 
-    /// The road users at a step with their chosen futures, or the map where there are none.
+    /// The road users at a step with their chosen futures, or the map if there are none.
     pub fn whole(scene: &Scene, step: usize) -> Self {
         let present = scene.agents.iter().filter_map(|agent| {
             let track = scene.shown(agent).track;
@@ -41,14 +41,14 @@ impl SceneView {
         Self { centre, width_m: side.clamp(OF_SCENE_M.0, OF_SCENE_M.1) }
     }
 
-    /// True if a line can be seen in the square: their boxes overlap.
+    /// Whether a line can be visible in the square: their bounding boxes overlap.
     pub fn shows(&self, points: &[Vec2], beside_m: f64) -> bool {
         let half = 0.5 * self.width_m + beside_m;
         Extent::of(points.iter().copied()).touches(&Extent::of([self.centre]).grown(half))
     }
 }
 
-/// Middle and side of the least square around points.
+/// Centre and side of the smallest square around points.
 fn square(points: impl Iterator<Item = Vec2>) -> Option<(Vec2, f64)> {
     let extent = Extent::about(points)?;
     Some((extent.middle(), extent.size().max()))

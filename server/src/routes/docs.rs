@@ -1,5 +1,5 @@
-//! `/openapi.json`, `/docs`, `/docs/problems`: pages made from the document and the table of codes,
-//! without scripts and without anything from elsewhere.
+//! `/openapi.json`, `/docs`, `/docs/problems`: pages made from the document and the table of codes, without
+//! scripts or external resources.
 
 use super::openapi;
 use api::Code;

@@ -20,8 +20,8 @@ use std::sync::Arc;
 use std::time::Duration;
 use work::{JobKind, JobRequest};
 
-/// Most bytes of a file: for each byte that the scene has as JSON, and for a small one. With what is worked out
-/// on the way, a writer takes 8 times the scene's JSON and 64 MB.
+/// Limit of a file's bytes: per byte of the scene's JSON, and for a small scene. With its intermediate data,
+/// a writer takes 8 times the scene's JSON plus 64 MB.
 const FILE_FACTOR: u64 = 6;
 const FILE_BYTES: u64 = 40 << 20;
 
@@ -94,15 +94,15 @@ async fn export(
     let most = FILE_FACTOR * bytes as u64 + FILE_BYTES;
     let room = Arc::clone(&app.room);
     let write = move |cancel: &Cancel| {
-        // What the budget can never give is refused as too long.
+        // A size that the budget can never hold is refused as too long.
         let most = most.min(room.memory.most() / 2);
         let _memory = room.work(most)?;
         let part = FilePart { most_bytes: Some(most), cancel: cancel.clone(), ..FilePart::default() };
         export::write(&scene, &params.format, params.sample, params.mode, part)
     };
-    // Writers take about this long a byte.
+    // Writers take about this time per byte.
     let cost = Duration::from_nanos(20 * bytes as u64);
-    // Some formats need the lane graph, which is worked out for each file.
+    // Some formats need the lane graph, which is computed for each file.
     let cost = cost + app.pool.document(bytes, move || Ok(preparation(&map))).await?;
     let asked = JobRequest { kind: JobKind::Export, cost, caller: connection.into() };
     let written = app.pool.run(asked, write).await;
@@ -127,7 +127,7 @@ async fn export(
     Ok(response)
 }
 
-/// A name that every file system takes.
+/// A file name that is valid on every file system.
 fn file_name(name: &str) -> String {
     let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
     let cleaned: String = name.chars().map(clean).take(60).collect();

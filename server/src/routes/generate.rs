@@ -107,7 +107,7 @@ fn caller_of(body: &GenerateRequest) -> Result<Caller, Problem> {
     Ok(Caller { job: body.job.clone(), client, background: body.background, ..Caller::default() })
 }
 
-/// Refuses an id of the client's own that is none.
+/// Refuses an invalid id that the client chose.
 pub(super) fn own_id(pointer: &str, id: Option<&str>) -> Result<(), Problem> {
     if id.is_none_or(is_id) {
         return Ok(());

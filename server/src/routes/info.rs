@@ -6,7 +6,7 @@ use api::info::{BuildInfo, ProgramInfo};
 use axum::extract::State;
 use base::limits::Limits;
 
-/// Description of this program; the command line uses it too.
+/// Description of this program; the command line prints it too.
 pub fn of(operations: &Operations, limits: &Limits) -> ProgramInfo {
     let build = BuildInfo { target: env!("BUILD_TARGET"), profile: env!("BUILD_PROFILE") };
     operations.info(build, limits.bounds())

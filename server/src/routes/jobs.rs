@@ -1,4 +1,4 @@
-//! `/v1/jobs`: stopping a generation by its id.
+//! `/v1/jobs`: cancels a generation by its id.
 
 use crate::app::App;
 use crate::http::extract::Id;

@@ -1,4 +1,4 @@
-//! `/v1/map`: maps from nothing.
+//! `/v1/map`: new maps from templates.
 
 use crate::app::App;
 use crate::http::body::{Json, JsonText};
@@ -9,7 +9,7 @@ use base::problem::Refusal;
 use std::time::Duration;
 use work::{JobKind, JobRequest};
 
-/// Approximate time to draw and write a map.
+/// Approximate time to build and write a map.
 const MAP_COST: Duration = Duration::from_millis(5);
 
 refusals!(Refused: CHANGES BODY WORK);

@@ -1,4 +1,4 @@
-//! The URL tree: one file a resource.
+//! The routes, one file per resource.
 
 #[macro_use]
 mod refusals;
@@ -38,7 +38,7 @@ use std::sync::Arc;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-/// Every route of the document: what is served here is what is described there.
+/// Every documented route: what is served here is described in the OpenAPI document.
 fn documented() -> OpenApiRouter<App> {
     OpenApiRouter::with_openapi(openapi::head())
         .routes(routes!(scenes::list::list, scenes::write::create))
@@ -90,7 +90,7 @@ pub fn router(app: &App) -> Router {
     let router = router
         .merge(pages())
         .fallback(embed::fallback)
-        // Bodies are bounded by `http::body`, with limits of their own.
+        // `http::body` limits bodies, with its own limits.
         .layer(axum::extract::DefaultBodyLimit::disable())
         .layer(tower_http::catch_panic::CatchPanicLayer::custom(panicked))
         .layer(axum::middleware::from_fn_with_state(Arc::clone(&app.room.memory), long_replies::hold))

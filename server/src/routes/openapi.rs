@@ -5,7 +5,7 @@ use base::{base_path::published, limits::Limits};
 use serde_json::{Map, Value, json};
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 
-/// The document before its paths.
+/// The document without its paths.
 pub fn head() -> OpenApi {
     let licence =
         LicenseBuilder::new().name("MIT OR Apache-2.0").identifier(Some("MIT OR Apache-2.0")).build();
@@ -22,7 +22,7 @@ pub fn head() -> OpenApi {
     OpenApiBuilder::new().info(info).build()
 }
 
-/// The whole document; equal builds give equal text.
+/// The complete document; equal builds give equal text.
 pub fn document() -> Value {
     let (_, paths) = super::documented().split_for_parts();
     let mut document = serde_json::to_value(paths).unwrap_or(Value::Null);
@@ -35,8 +35,9 @@ pub fn document() -> Value {
     document
 }
 
-/// Facts that the paths' macros cannot express. A body is required except for a copy, documents have their own media
-/// type too, an uploaded file is bytes or in a form, and an export has its format's media type.
+/// Adds facts that the paths' macros cannot express. A body is required except for a copy. Documents have
+/// their own media type too, an uploaded file is bytes or part of a form, and an export has the media type of
+/// its format.
 fn tidy(document: &mut Value) {
     let operations = document["paths"].as_object_mut().into_iter().flat_map(|paths| paths.values_mut());
     for operation in operations.flat_map(|item| item.as_object_mut().into_iter().flat_map(Map::values_mut)) {
@@ -76,7 +77,7 @@ fn exported() -> Map<String, Value> {
     written.map(|info| (info.media_type.to_owned(), content(info.media_type))).collect()
 }
 
-/// Pretty text with a last newline, as it is committed.
+/// Pretty-printed JSON with a final newline, as it is committed.
 pub fn text() -> String {
     serde_json::to_string_pretty(&document()).unwrap_or_default() + "\n"
 }
@@ -109,7 +110,7 @@ mod tests {
                 let id = operation["operationId"].as_str().unwrap_or_else(|| panic!("{method} {path}"));
                 assert!(ids.insert(id.to_owned()), "{id} twice");
                 let replies = operation["responses"].as_object().unwrap();
-                // 421 is in every list of refusals: an operation without it has declared none.
+                // Every list of refusals contains 421, so an operation without it has declared none.
                 assert!(replies.contains_key("421"), "{id} declares no refusals");
                 for (status, reply) in replies {
                     let words = reply["description"].as_str().unwrap_or_default();

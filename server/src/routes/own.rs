@@ -9,7 +9,7 @@ use axum::http::Extensions;
 use axum::http::request::Parts;
 use base::problem::Refusal;
 
-/// Scenes and maps for one request.
+/// Scenes and maps that one request may use.
 pub struct OwnCatalog(pub Catalog);
 
 impl FromRequestParts<App> for OwnCatalog {
@@ -20,7 +20,7 @@ impl FromRequestParts<App> for OwnCatalog {
     }
 }
 
-/// The same for what takes a whole request.
+/// The same for handlers that take a whole request.
 ///
 /// # Errors
 /// A defect: a request without a sender.

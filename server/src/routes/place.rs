@@ -1,4 +1,4 @@
-//! `/v1/place`: road users where there are none yet.
+//! `/v1/place`: places road users on a map.
 
 use super::scene_ref::WithScene;
 use crate::app::App;
@@ -12,7 +12,7 @@ use experts::Cancel;
 use std::time::Duration;
 use work::{JobKind, JobRequest};
 
-/// Approximate time of a placement, from a few road users to a town of them.
+/// Approximate time of a placement, from a few road users to a whole town.
 const PLACE_COST: Duration = Duration::from_millis(50);
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);

@@ -1,5 +1,5 @@
-//! Refusals of an operation, declared beside its handler and added to the document from there. The end-to-end
-//! tests check every refusal against these lists.
+//! Refusals of an operation, declared next to its handler and added to the document from there. The
+//! end-to-end tests check every refusal against these lists.
 
 use api::Code;
 use base::problem::status_of;
@@ -8,7 +8,7 @@ use utoipa::openapi::content::ContentBuilder;
 use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType, Type};
 use utoipa::openapi::{HeaderBuilder, Ref, RefOr, Response, ResponseBuilder};
 
-/// Any operation: checks before its handler, and too many connections at work.
+/// All operations: checks before the handler, and too many busy connections.
 pub const ANYWHERE: &[Code] = &[
     Code::BadHeader,
     Code::BadHost,
@@ -23,7 +23,7 @@ pub const ANYWHERE: &[Code] = &[
     Code::Busy,
     Code::Internal,
 ];
-/// Operations that are no mere reading.
+/// Operations that change something.
 pub const CHANGES: &[Code] = &[Code::BadOrigin];
 /// Operations that take a body.
 pub const BODY: &[Code] = &[
@@ -50,14 +50,14 @@ pub const SCENE: &[Code] = &[
 ];
 /// Operations that take a scene or the id of one.
 pub const SCENE_REF: &[Code] = &[Code::NotFound, Code::StaleEtag];
-/// Operations that look into the store.
+/// Operations that use the store.
 pub const STORE: &[Code] = &[Code::StoreUnavailable];
 /// Operations that read query parameters.
 pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
 /// Operations that may wait for a worker.
 pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
 
-/// Codes of refusals that say when to try again.
+/// Codes of refusals that contain a time to retry.
 const WAITS: &[Code] = &[
     Code::Busy,
     Code::NotReady,
@@ -67,7 +67,7 @@ const WAITS: &[Code] = &[
     Code::TooManyRequests,
 ];
 
-/// Replies of these codes, one a status.
+/// Replies for these codes, one per status.
 pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {
     let mut by_status: BTreeMap<u16, Vec<&'static str>> = BTreeMap::new();
     for code in [ANYWHERE].iter().chain(sets).copied().flatten() {
@@ -95,8 +95,8 @@ fn response(names: &[&'static str]) -> Response {
     reply.header("Retry-After", wait.build()).build()
 }
 
-/// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and its own
-/// codes.
+/// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and the
+/// operation's own codes.
 macro_rules! refusals {
     ($name:ident: $($set:ident)* $(, $code:ident)*) => {
         /// Refusals of the operation.

@@ -1,4 +1,4 @@
-//! `/v1/runs`: traffic that is stepped, beside road users that the client drives.
+//! `/v1/runs`: stepped traffic around road users that the client drives.
 
 use super::scene_ref::WithScene;
 use crate::app::App;
@@ -205,7 +205,7 @@ pub async fn remove(State(app): State<App>, Id(id): Id) -> Result<StatusCode, Re
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// The run of an id, for one request alone; the others wait for it.
+/// The run of an id for exclusive use by one request; other requests wait.
 async fn taken(app: &App, id: &str) -> Result<OwnedMutexGuard<HeldRun>, Refusal> {
     Ok(app.runs.get(id)?.lock_owned().await)
 }

@@ -1,4 +1,4 @@
-//! Bodies that are about a scene, with the scene.
+//! Request bodies about a scene, together with the scene.
 
 use super::own::own_catalog;
 use crate::app::App;
@@ -10,7 +10,7 @@ use base::problem::Refusal;
 use serde::de::DeserializeOwned;
 use work::Caller;
 
-/// A JSON body with the scene it is about.
+/// A JSON body with its scene.
 pub struct WithScene<T>(pub T, pub Subject);
 
 impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for WithScene<T> {

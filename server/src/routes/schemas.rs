@@ -15,7 +15,7 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
-/// Where references lead.
+/// Prefix of references.
 const FOLDER: &str = "#/components/schemas/";
 
 /// Schemas of replies: members that are always present are required.
@@ -36,7 +36,7 @@ fn replies(generator: &mut SchemaGenerator) {
     api::runs::replies(generator);
 }
 
-/// Schemas of requests, and of documents in both directions: members with a default are optional.
+/// Schemas of requests, and of documents used in both directions: members with a default are optional.
 fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<SceneDoc>();
     generator.subschema_for::<MapDoc>();
@@ -61,7 +61,7 @@ pub fn all() -> Map<String, Value> {
     replies(&mut told);
     requests(&mut asked);
     let mut all = told.take_definitions(true);
-    // A type that is in both is a document: what is sent can be sent back.
+    // A type in both sets is a document: what is returned can be sent back.
     all.extend(asked.take_definitions(true));
     let names = names(&all);
     let mut all: Vec<(String, Value)> =
@@ -70,7 +70,7 @@ pub fn all() -> Map<String, Value> {
     for (name, schema) in &mut all {
         refer(schema, &names);
         words_together(schema);
-        // Generators of clients name classes by the title.
+        // Client generators name classes by the title.
         if let Some(members) = schema.as_object_mut() {
             members.insert("title".into(), name.as_str().into());
         }
@@ -78,14 +78,14 @@ pub fn all() -> Map<String, Value> {
     all.into_iter().collect()
 }
 
-/// Names without the suffix that sets a document apart from the value made of it, where such a name is free.
+/// Names without the suffix that distinguishes a document from its value type, if such a name is free.
 fn names(all: &Map<String, Value>) -> BTreeMap<String, String> {
     let short = |name: &String| Some((name.clone(), name.strip_suffix("Doc")?.to_owned()));
     all.keys().filter_map(short).filter(|(_, short)| !all.contains_key(short)).collect()
 }
 
-/// Writes a choice of words as one `enum`. A choice of constants, each with a description, is the same to a validator,
-/// but generators of clients make a type of each constant.
+/// Writes a choice of words as one `enum`. A choice of constants, each with a description, is equivalent for
+/// a validator, but client generators make a type of each constant.
 fn words_together(schema: &mut Value) {
     match schema {
         Value::Object(members) => {
@@ -103,7 +103,7 @@ fn words_together(schema: &mut Value) {
     }
 }
 
-/// The words of a choice that has nothing else, and a line for each that is described.
+/// The words of a choice that contains nothing else, and a line for each described word.
 fn words_of(choice: &Value) -> Option<(Vec<Value>, Vec<String>)> {
     let (mut words, mut meanings) = (Vec::new(), Vec::new());
     for one in choice.as_array()? {
@@ -125,7 +125,7 @@ fn words_of(choice: &Value) -> Option<(Vec<Value>, Vec<String>)> {
     Some((words, meanings))
 }
 
-/// Renames what a schema refers to.
+/// Renames the references in a schema.
 fn refer(schema: &mut Value, names: &BTreeMap<String, String>) {
     match schema {
         Value::Object(members) => {

@@ -1,4 +1,4 @@
-//! `/v1/search`: tries in one scene, towards a condition on what happens.
+//! `/v1/search`: tries in one scene, towards a condition on the result.
 
 use super::generate::own_id;
 use super::own::own_catalog;
@@ -48,7 +48,7 @@ pub async fn search(
     app.pool.expects(&caller)?;
     let scene = body.take_scene().open(&catalog).await?.scene;
     let preparation = app.map_preparation(&scene.map).await?;
-    // The places of a pattern are looked for on all of the map.
+    // The places of a pattern are searched on the whole map.
     let (bytes, hashes) = (map_bytes(&scene.map), app.patient.generator.hashes());
     let search = app.pool.document(bytes, move || SceneSearch::new(&body, scene, hashes)).await?;
     let pace = StreamPace {

@@ -1,4 +1,4 @@
-//! Steps of a run as somebody else makes them.
+//! Follows the steps of a run that another client makes.
 
 use super::LastStep;
 use crate::http::accept::ReplyFormat;
@@ -12,9 +12,9 @@ use serde_json::value::RawValue;
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Whoever follows a run. It holds no run: one that is forgotten ends here too.
+/// A follower of a run. It does not hold the run: when the run is dropped, the follower ends.
 pub struct Follower {
-    /// What is said first.
+    /// Its first message.
     begun: Option<Bytes>,
     steps: watch::Receiver<LastStep>,
     form: ReplyFormat,
@@ -24,7 +24,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// Of a run as it is now, and the steps from now on.
+    /// A follower of a run in its present state, and of its steps from now on.
     ///
     /// # Errors
     /// When the run cannot be written as JSON.
@@ -76,7 +76,7 @@ impl Follower {
 /// The reply to a step, as it was sent.
 type StepText<'a> = &'a RawValue;
 
-/// When the server ends; never without a carrier.
+/// Resolves when the server shuts down; never without a carrier.
 async fn closing(carrier: &mut Option<Carrier>) {
     match carrier {
         Some(carrier) => carrier.closes().await,

@@ -1,4 +1,4 @@
-//! Runs that clients step: in memory, bounded in number, bytes and share of one party, and forgotten when idle.
+//! Runs that clients step: in memory, limited in number, bytes and share per party, and dropped when idle.
 
 mod follow;
 
@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::watch;
 
-/// States that a road user of a run keeps at most, on average: a plan of nine seconds and what it is carried on by.
+/// Average limit of stored states per road user of a run: a plan of nine seconds and its extension.
 const STATES: usize = 130;
 
 /// The reply to the step with this number, as it was sent.
@@ -34,17 +34,17 @@ pub struct HeldRun {
     pub last: watch::Sender<LastStep>,
 }
 
-/// A run that one request at a time has for itself.
+/// A run that one request at a time uses exclusively.
 pub type SharedRun = Arc<tokio::sync::Mutex<HeldRun>>;
 
 struct RunEntry {
     run: SharedRun,
-    /// Given back with the run.
+    /// Released with the run.
     _room: RunRoom,
     used: Instant,
 }
 
-/// What a run takes.
+/// Resources of a run.
 struct RunRoom {
     _place: TakenPlace,
     _memory: MemoryShare,
@@ -66,7 +66,7 @@ impl RunStore {
         Self { entries: Mutex::default(), places, limits: Arc::clone(limits), memory }
     }
 
-    /// Refuses a run before any work where there would be no room for it afterwards.
+    /// Refuses a run before any work if there would be no room for it afterwards.
     ///
     /// # Errors
     /// `too-many-runs`.
@@ -76,7 +76,7 @@ impl RunStore {
         self.room_for(&entries, party, 0).map(drop)
     }
 
-    /// Keeps a run that a party has begun.
+    /// Stores a run that a party has begun.
     ///
     /// # Errors
     /// `too-many-runs`.
@@ -91,7 +91,7 @@ impl RunStore {
         Ok(())
     }
 
-    /// The run of an id, which counts as a use.
+    /// The run of an id; this counts as a use.
     ///
     /// # Errors
     /// `not-found`.
@@ -103,7 +103,7 @@ impl RunStore {
         Ok(Arc::clone(&entry.run))
     }
 
-    /// The run of an id, and the seconds since it was used. Looking is no use.
+    /// The run of an id, and the seconds since its last use; this does not count as a use.
     ///
     /// # Errors
     /// `not-found`.
@@ -114,12 +114,12 @@ impl RunStore {
         Ok((Arc::clone(&entry.run), entry.used.elapsed().as_secs()))
     }
 
-    /// Memory of runs for a run that is kept elsewhere, where there is so much.
+    /// Memory for a run that is stored elsewhere, if it is free.
     pub fn room(&self, bytes: usize) -> Option<MemoryShare> {
         self.memory.take(bytes)
     }
 
-    /// Forgets a run.
+    /// Drops a run.
     ///
     /// # Errors
     /// `not-found`.
@@ -127,23 +127,23 @@ impl RunStore {
         self.lock().remove(id).map(drop).ok_or_else(unknown_run)
     }
 
-    /// Forgets all runs that were not used for a while.
+    /// Drops all idle runs.
     pub fn tidy(&self) {
         self.drop_idle(&mut self.lock());
     }
 
-    /// After so many seconds without a use.
+    /// Seconds without a use after which a run is dropped.
     pub fn idle_s(&self) -> u64 {
         self.limits.run_idle_s
     }
 
     fn drop_idle(&self, entries: &mut BTreeMap<String, RunEntry>) {
         let idle = Duration::from_secs(self.limits.run_idle_s);
-        // A run at work is held by its request.
+        // A run in use is held by its request.
         entries.retain(|_, entry| entry.used.elapsed() < idle || Arc::strong_count(&entry.run) > 1);
     }
 
-    /// What a run of so many bytes takes, where there is room for it.
+    /// The resources of a run of this size, if they are free.
     fn room_for(
         &self,
         entries: &BTreeMap<String, RunEntry>,
@@ -162,7 +162,7 @@ impl RunStore {
         Err(Problem::of(Code::TooManyRuns, english::too_many_runs()).limit(limit).retry_after(wait_s))
     }
 
-    /// A table of whole values is usable after a panic elsewhere.
+    /// A table of complete values is usable after a panic elsewhere.
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, RunEntry>> {
         self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }

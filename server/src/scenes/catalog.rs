@@ -1,5 +1,5 @@
-//! Scenes wherever they are: saved by the user, shipped as demos, or in the data folder; and maps by
-//! content hash.
+//! Scenes from all sources: saved by the user, shipped as demos, or in the data folder; and maps by content
+//! hash.
 
 use super::library::Library;
 use super::record::{self, size};
@@ -17,11 +17,11 @@ use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::sync::{Arc, Weak};
 use work::Pool;
 
-/// Bytes that one step of one road user takes in JSON, about.
+/// Approximate bytes of JSON per step of a road user.
 const STEP_BYTES: usize = 40;
-/// Bytes that one point of a map takes in JSON, about.
+/// Approximate bytes of JSON per point of a map.
 const POINT_BYTES: usize = 20;
-/// Bytes that one line of a map takes in JSON, about.
+/// Approximate bytes of JSON per line of a map.
 const LINE_BYTES: usize = 32 * POINT_BYTES;
 
 /// Prefix of a held scene's name, which came with a request; ids of saved scenes have no colon.
@@ -37,12 +37,12 @@ pub struct Catalog {
     maps: Arc<Cache<ContentHash, Shared<LaneMap>>>,
     open: Arc<Cache<String, Opened>>,
     pool: Arc<Pool>,
-    /// Whose scenes it keeps in memory.
+    /// Party to which cached scenes are charged.
     party: Party,
 }
 
 impl Catalog {
-    /// Over a store and a library, with maps and saved scenes in memory up to these limits.
+    /// A catalog over a store and a library, with a cache of maps and saved scenes up to these limits.
     pub fn new(
         store: Store,
         library: Library,
@@ -52,7 +52,7 @@ impl Catalog {
     ) -> Self {
         let maps = Arc::new(Cache::new(memory.part(limits.cached_map_bytes)));
         let open = Arc::new(Cache::new(memory.part(limits.cached_scene_bytes)));
-        // A map is read again, a held scene is not.
+        // A map can be read again, a held scene cannot.
         let lent: Weak<Cache<ContentHash, Shared<LaneMap>>> = Arc::downgrade(&maps);
         memory.lend(lent);
         let lent: Weak<Cache<String, Opened>> = Arc::downgrade(&open);
@@ -60,12 +60,12 @@ impl Catalog {
         Self { store, library, maps, open, pool, party: Party::default() }
     }
 
-    /// The same for a caller: what is kept in memory for it counts as its own, and it sees what it may.
+    /// The same for a caller: it sees only its scenes, and its cached scenes are charged to it.
     pub fn of(&self, party: Party, viewer: Viewer) -> Self {
         Self { party, store: self.store.of(viewer), ..self.clone() }
     }
 
-    /// The map of a hash, wherever it is.
+    /// The map with a hash, from any source.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -110,7 +110,7 @@ impl Catalog {
         self.pool.document(bytes, move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await
     }
 
-    /// JSON of a saved scene with its map put in place of the reference.
+    /// JSON of a saved scene with the reference replaced by its map.
     ///
     /// # Errors
     /// When the map is missing or the stored text is broken.
@@ -121,7 +121,7 @@ impl Catalog {
         self.pool.document(bytes, move || record::with_map(&json, &map)).await
     }
 
-    /// Keeps a scene under an id.
+    /// Saves a scene under an id.
     ///
     /// # Errors
     /// When the store is full or the precondition does not hold.
@@ -131,7 +131,7 @@ impl Catalog {
         self.put(id, expect, packed).await
     }
 
-    /// Keeps a row that is made already.
+    /// Saves a prepared row.
     ///
     /// # Errors
     /// As [`Self::save`].
@@ -163,7 +163,7 @@ impl Catalog {
     }
 }
 
-/// Maps given inline are remembered; the pool reads documents. If held scenes exceed the cache, the least
+/// Maps given inline are cached; the pool parses documents. If held scenes exceed the cache, the least
 /// recently used ones are dropped.
 impl Home for Catalog {
     async fn read(&self, doc: SceneDoc) -> Result<Scene, Problem> {
@@ -199,14 +199,14 @@ impl Home for Catalog {
         }
         let key = id.to_owned();
         if let Some(known) = self.open.get(&key) {
-            // Another program may have written to the file: only the store knows what is current.
+            // Another program may have written to the file, so only the store knows the current version.
             if self.store.etag(id).await?.as_deref() == Some(known.etag.as_str()) {
                 return Ok(known);
             }
             self.open.forget(&key);
         }
         let (mut scene, etag) = self.saved(id).await?;
-        // No answer depends on these, however long they are.
+        // No answer depends on these members, and they may be long.
         scene.extra.clear();
         let opened = Opened::new(scene, etag);
         self.open.put(key, opened.clone(), weight::of_open(&opened.scene), self.party);
@@ -227,7 +227,7 @@ fn parse_map(json: &[u8]) -> Result<Shared<LaneMap>, Problem> {
     Ok(doc.into_map()?.into())
 }
 
-/// About how many bytes a scene has as JSON: what work on it costs grows with them.
+/// Approximate bytes of a scene as JSON, by which the cost of work on it is estimated.
 pub fn bytes_of(scene: &Scene) -> usize {
     let steps: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
     let samples = scene.generated.iter().flat_map(|g| &g.samples);
@@ -236,7 +236,7 @@ pub fn bytes_of(scene: &Scene) -> usize {
     (steps + made) * STEP_BYTES + map_bytes(&scene.map)
 }
 
-/// About how many bytes a map has as JSON.
+/// Approximate bytes of a map as JSON.
 pub fn map_bytes(map: &LaneMap) -> usize {
     size(map).1 * POINT_BYTES
 }

@@ -1,4 +1,4 @@
-//! Example scenes inside the program.
+//! Example scenes embedded in the program.
 
 use api::Problem;
 use base::id;
@@ -24,13 +24,13 @@ pub fn ids() -> Vec<String> {
 
 /// An example.
 pub struct DemoFile {
-    /// What it holds.
+    /// The parsed scene.
     pub scene: Result<Scene, Problem>,
     /// The file.
     pub bytes: Cow<'static, [u8]>,
 }
 
-/// An example by its id; `None` where there is none.
+/// An example by its id; `None` if it does not exist.
 pub fn file(id: &str) -> Option<DemoFile> {
     let file = DemoScenes::get(&format!("{id}.json"))?;
     Some(DemoFile { scene: native::read(&file.data).map_err(Problem::from), bytes: file.data })

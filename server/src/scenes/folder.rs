@@ -1,7 +1,7 @@
-//! The data folder: its files are read by a thread of its own, below a handle of the folder.
+//! The data folder: a separate thread reads its files, through a handle of the folder.
 //!
-//! A file that hangs, such as one of a network share that is gone, holds up the folder alone. A name that leads out
-//! of the folder, or to a pipe or device, is not opened.
+//! A file that hangs, for example on a lost network share, blocks only this folder. A name that leads out of
+//! the folder, or to a pipe or device, is not opened.
 
 use api::{Code, Problem};
 use base::folder::{DataFolder, HeldFile};
@@ -11,9 +11,9 @@ use std::sync::mpsc;
 use std::time::Duration;
 use tokio::sync::oneshot;
 
-/// Files that wait to be read.
+/// Limit of files that wait to be read.
 const WAITING: usize = 32;
-/// Time for a file to be read, and for the folder to answer.
+/// Time limit for reading a file, and for the folder to answer.
 const PATIENCE: Duration = Duration::from_secs(10);
 const ANSWER: Duration = Duration::from_secs(2);
 
@@ -27,7 +27,7 @@ impl FolderReader {
     /// Opens a folder, and starts the thread that reads it.
     ///
     /// # Errors
-    /// When it cannot be opened, or the system gives no thread.
+    /// When the folder cannot be opened, or a thread cannot be started.
     pub fn start(path: &Path) -> io::Result<Self> {
         let folder = DataFolder::open(path)?;
         let (tasks, waiting) = mpsc::sync_channel::<Task>(WAITING);
@@ -36,7 +36,7 @@ impl FolderReader {
         Ok(Self(tasks))
     }
 
-    /// Has the thread do something, for so long at most.
+    /// Runs a task on the thread, with a time limit.
     async fn ask<T: Send + 'static>(
         &self,
         patience: Duration,
@@ -44,7 +44,7 @@ impl FolderReader {
     ) -> Option<T> {
         let (reply, done) = oneshot::channel();
         let task: Task = Box::new(move |folder| {
-            // A caller that left does not want the answer any more.
+            // A caller that left no longer needs the reply.
             if !reply.is_closed() {
                 let _ = reply.send(task(folder));
             }
@@ -53,7 +53,8 @@ impl FolderReader {
         tokio::time::timeout(patience, done).await.ok()?.ok()
     }
 
-    /// A file of the folder, by its name there, with what is read with it; an error says why it is none.
+    /// A file of the folder by its name, with the files that are read with it; the inner error says why it
+    /// cannot be read.
     ///
     /// # Errors
     /// `store-unavailable` when the folder does not answer.
@@ -65,7 +66,7 @@ impl FolderReader {
         self.ask(PATIENCE, move |folder| folder.read(&name)).await.ok_or_else(silent)
     }
 
-    /// True if the thread is not held up.
+    /// Whether the thread is responsive.
     pub async fn answers(&self) -> bool {
         self.ask(ANSWER, |_| ()).await.is_some()
     }

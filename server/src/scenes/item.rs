@@ -67,7 +67,7 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// Of a scene.
+    /// Facts about a scene.
     pub fn of(scene: &Scene) -> Self {
         let [vehicle, pedestrian, cyclist, other] = scene.counts();
         Self {

@@ -1,7 +1,7 @@
-//! Read-only scenes: demos inside the program, and files of the folder given with `--data`.
+//! Read-only scenes: embedded demos, and files of the folder given with `--data`.
 //!
-//! Files are read once in the background for the list; a scene is parsed again when it is opened,
-//! and a few stay in memory.
+//! Files are read once in the background for the list. A scene is parsed again when it is opened, and a few
+//! stay in memory.
 
 use super::demos;
 use super::folder::FolderReader;
@@ -25,14 +25,14 @@ use std::sync::{Arc, PoisonError, RwLock, Weak};
 use std::time::SystemTime;
 use work::Pool;
 
-/// Most files taken from the data folder.
+/// Limit of files from the data folder.
 const MOST_FILES: usize = 5_000;
 
 #[derive(Clone, Debug)]
 enum ScenePlace {
     /// Id of a demo.
     Demo(String),
-    /// Name of a file of the data folder, and the position of the scene in it.
+    /// Name of a file of the data folder, and the index of the scene in it.
     File(PathBuf, usize),
 }
 
@@ -42,10 +42,10 @@ struct Entry {
     place: ScenePlace,
 }
 
-/// What a list says of a scene's file.
+/// Facts about a scene's file, for lists.
 struct FileFacts {
     etag: String,
-    /// Of it and of what is read with it.
+    /// Bytes of the file and of those that are read with it.
     bytes: u64,
     modified: SystemTime,
 }
@@ -62,10 +62,11 @@ struct LibraryState {
 pub struct Library(Arc<LibraryState>);
 
 impl Library {
-    /// The demos at once; the folder's files as they are read. Keeps opened scenes in this memory.
+    /// Starts with the demos; the folder's files follow as they are read. Opened scenes are cached in this
+    /// memory.
     ///
     /// # Errors
-    /// When the folder cannot be opened, or the system gives no thread.
+    /// When the folder cannot be opened, or a thread cannot be started.
     pub fn start(folder: Option<&Path>, pool: Arc<Pool>, memory: Arc<Memory>) -> io::Result<Self> {
         let reader = folder.map(FolderReader::start).transpose()?;
         let (entries, open) = (RwLock::default(), Arc::new(Cache::new(Arc::clone(&memory))));
@@ -80,7 +81,7 @@ impl Library {
         Ok(library)
     }
 
-    /// True if the data folder, where there is one, answers.
+    /// Whether the data folder, if there is one, answers.
     pub async fn answers(&self) -> bool {
         match &self.0.folder {
             Some(folder) => folder.answers().await,
@@ -92,20 +93,20 @@ impl Library {
         look(&self.0.entries.read().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// For lists, by id.
+    /// All items for lists, by id.
     pub fn items(&self) -> Vec<SceneItem> {
         self.with(|entries| entries.values().map(|e| e.item.clone()).collect())
     }
 
-    /// True when this id is one of the library's.
+    /// Whether this id belongs to the library.
     pub fn has(&self, id: &str) -> bool {
         self.with(|entries| entries.contains_key(id))
     }
 
-    /// Opens a scene; `None` when the id is not one of the library's.
+    /// Opens a scene; `None` if the id does not belong to the library.
     ///
     /// # Errors
-    /// When its file cannot be read any more.
+    /// When its file can no longer be read.
     pub async fn open(&self, id: &str) -> Result<Option<Opened>, Problem> {
         let key = id.to_owned();
         if let Some(known) = self.0.open.get(&key) {
@@ -128,10 +129,10 @@ impl Library {
         Ok(Some(opened))
     }
 
-    /// A map that one of the scenes has.
+    /// The map of one of the scenes, by hash.
     ///
     /// # Errors
-    /// When its file cannot be read any more.
+    /// When its file can no longer be read.
     pub async fn map(&self, hash: &ContentHash) -> Result<Option<Shared<LaneMap>>, Problem> {
         let hex = hash.hex();
         let holder = self
@@ -191,7 +192,7 @@ impl Library {
         };
         files.truncate(MOST_FILES);
         let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
-        // Tables beside the tracks are read with them.
+        // Companion tables are read together with the tracks.
         let followers = table::followers(&names, None);
         for (_, path) in files.iter().enumerate().filter(|(at, _)| !followers.contains(at)) {
             let held = folder.read(path).map_err(|error| error.to_string());
@@ -218,11 +219,11 @@ impl Library {
     }
 }
 
-/// Version of a file, with the files that are read with it.
+/// ETag of a file, including the files that are read with it.
 fn etag_of(bytes: &[u8], others: &[(String, Arc<Vec<u8>>)]) -> String {
     let hash = |bytes: &[u8]| ContentHash::of_bytes(bytes).hex();
     let own = hash(bytes);
-    // That of a file with nothing beside it is the one of its bytes.
+    // A single file's ETag is that of its bytes.
     let hash = if others.is_empty() {
         own
     } else {
@@ -232,7 +233,7 @@ fn etag_of(bytes: &[u8], others: &[(String, Arc<Vec<u8>>)]) -> String {
     format!("\"ro-{}\"", hash.get(..16).unwrap_or_default())
 }
 
-/// The scene of an entry; of a file of the data folder from what its name leads to now.
+/// The scene of an entry; for the data folder, from the file that its name leads to now.
 fn read(entry: &Entry, file: Option<io::Result<HeldFile>>) -> Result<Scene, Problem> {
     match &entry.place {
         ScenePlace::Demo(id) => demos::file(id).ok_or_else(|| Problem::internal("demo scene is gone"))?.scene,
@@ -267,8 +268,8 @@ fn scenes_of(path: &Path, held: &HeldFile) -> Result<Vec<Scene>, String> {
     Ok(read.scenes.into_iter().map(|s| s.scene).collect())
 }
 
-/// `womd-<scenario id>` where the source has an id, else a name made from the file's. A scene with futures is one of many
-/// results of its source, so its file names it.
+/// `womd-<scenario id>` if the source has an id, else a name made from the file's. A scene with futures is
+/// one of many results of its source, so it is named by its file.
 fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
     let own = scene.meta.source_id.as_ref().filter(|_| scene.generated.is_none());
     match (own, scene.meta.source.as_str()) {

@@ -5,11 +5,11 @@ use formats::native::{
 };
 use scene::{Scene, State, Track, Vec2};
 
-/// Lines keep to within this of where they were, metres: a pixel of a picture that shows a junction.
+/// Greatest deviation of simplified lines, metres: one pixel of a picture that shows a junction.
 const TOLERANCE_M: f64 = 0.4;
 
-/// The scene with its lines simplified, of each road user the first and the last state, and nothing that a
-/// picture of some hundred pixels does not show. It is a scene document like any other.
+/// The scene with simplified lines and the first and last state of each road user, without details that a
+/// picture of a few hundred pixels does not show. It is an ordinary scene document.
 pub fn preview(scene: &Scene) -> SceneDoc {
     let mut doc = SceneDoc::from_scene(scene, MapForm::Inline);
     doc.meta = MetaDoc { source: doc.meta.source, licence: doc.meta.licence, ..MetaDoc::default() };
@@ -49,7 +49,7 @@ fn first_and_last(track: &Track) -> Option<TrackDoc> {
 fn thin(map: &mut MapDoc) {
     for lane in &mut map.lanes {
         simplify(&mut lane.points_m);
-        // These speak of points by their number.
+        // These refer to points by index.
         lane.left_boundary.clear();
         lane.right_boundary.clear();
         lane.left_neighbors.clear();
@@ -79,7 +79,7 @@ fn tenths(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-/// The points without which the line would leave the tolerance (Douglas and Peucker), both ends among them.
+/// The points that keep the line within the tolerance (Douglas and Peucker), including both ends.
 fn corners(points: &[Vec2], tolerance_m: f64) -> Vec<Vec2> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut keep = vec![false; points.len()];
@@ -99,7 +99,7 @@ fn corners(points: &[Vec2], tolerance_m: f64) -> Vec<Vec2> {
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
 }
 
-/// From a point to the straight line between two others.
+/// Distance from a point to the segment between two others.
 fn distance_m(p: Vec2, a: Vec2, b: Vec2) -> f64 {
     let (abx, aby, apx, apy) = (b.x - a.x, b.y - a.y, p.x - a.x, p.y - a.y);
     let length2 = abx * abx + aby * aby;

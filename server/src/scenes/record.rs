@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::value::RawValue;
 use std::fmt;
 
-/// The row that keeps a scene under an id. Marks its futures stale when they answer another scene.
+/// The row of a scene under an id. Marks its futures stale if they were made for another scene.
 ///
 /// # Errors
 /// When something cannot be written as JSON.
@@ -35,7 +35,7 @@ pub fn of_scene(mut scene: Scene, id: &str) -> Result<SceneRecord, Problem> {
     })
 }
 
-/// The row of a document with a stored map.
+/// The row of a document whose map is stored.
 ///
 /// # Errors
 /// When it cannot be written as JSON.
@@ -64,7 +64,7 @@ pub fn map_json(map: &LaneMap) -> Result<Vec<u8>, Problem> {
     serde_json::to_vec(&MapDoc::from_map(map)).map_err(Problem::internal)
 }
 
-/// Lines (with areas) and points of a map.
+/// Number of lines (with areas) and points of a map.
 pub fn size(map: &LaneMap) -> (usize, usize) {
     let lines = map.road_lines.iter().chain(&map.road_edges).map(|l| l.points.xy.len());
     let areas = [&map.crosswalks, &map.speed_bumps, &map.driveways, &map.drivable];
@@ -73,10 +73,10 @@ pub fn size(map: &LaneMap) -> (usize, usize) {
     counts.fold((0, 0), |(lines, points), n| (lines + 1, points + n))
 }
 
-/// A stored document with its map put in place of the reference; all other bytes stay as they are.
+/// A stored document with the reference replaced by its map; all other bytes stay unchanged.
 ///
 /// # Errors
-/// When the text is no document with a map.
+/// When the text is not a document with a map.
 pub fn with_map(json: &[u8], map: &[u8]) -> Result<Vec<u8>, Problem> {
     let map: &RawValue = serde_json::from_slice(map).map_err(Problem::internal)?;
     let mut doc: OrderedObject<'_> = serde_json::from_slice(json).map_err(Problem::internal)?;

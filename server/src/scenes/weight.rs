@@ -1,14 +1,14 @@
-//! How many bytes of memory scenes and maps take: what caches are bounded by. Everything of a scene counts that a client
-//! can make long.
+//! Memory of scenes and maps in bytes, by which caches are limited. It counts every part that a client can
+//! make long.
 
 use scene::map::{Boundary, Lane, LaneMap, Neighbor, Points};
 use scene::{Agent, Generated, Scene, Signal, State};
 use serde_json::Value;
 use std::mem::size_of;
 
-/// Bytes of a text beside its letters, with what the allocator takes.
+/// Bytes of a text besides its letters, including the allocator's.
 const TEXT: usize = 40;
-/// Bytes of an entry of a map by keys beside key and value.
+/// Bytes of a map entry besides key and value.
 const ENTRY: usize = 32;
 
 fn text(text: &str) -> usize {
@@ -19,7 +19,7 @@ fn texts<'a>(list: impl IntoIterator<Item = &'a String>) -> usize {
     list.into_iter().map(|entry| text(entry)).sum()
 }
 
-/// A list with what each entry takes beside its own size.
+/// Bytes of a list, including what each entry allocates.
 fn list<T>(list: &[T], beside: impl Fn(&T) -> usize) -> usize {
     TEXT + list.iter().map(|entry| size_of::<T>() + beside(entry)).sum::<usize>()
 }
@@ -97,7 +97,7 @@ pub fn of_scene(scene: &Scene) -> usize {
     size_of::<Scene>() + of_map(&scene.map) + moving + made + words + extra
 }
 
-/// Bytes of an open scene, with the scores of its motion that are kept beside it.
+/// Bytes of an open scene, including the cached scores of its motion.
 pub fn of_open(scene: &Scene) -> usize {
     let states: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
     of_scene(scene) + 4 * states * size_of::<Option<State>>()

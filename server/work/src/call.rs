@@ -13,26 +13,26 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 tokio::task_local! {
-    /// Whose request the task works for.
+    /// Caller whose request the task serves.
     static CALLER: Caller;
 }
 
-/// Works for a caller: documents that `work` reads and writes take turns and queue places as that one's.
+/// Runs `work` for a caller: its documents use the caller's turns and queue places.
 pub async fn on_behalf_of<F: Future>(caller: Caller, work: F) -> F::Output {
     CALLER.scope(caller, work).await
 }
 
-/// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
+/// Documents up to this size are processed at once, bytes: a queue would cost more than it saves.
 const SMALL_BYTES: usize = 32 << 10;
 
 /// Time in which the threads of a lane must take a small call.
 const ANSWER: Duration = Duration::from_secs(2);
 
-/// Sender of a call's one reply.
+/// Sender of a call's only reply.
 struct ReplySlot<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
 
 impl<T> ReplySlot<T> {
-    /// Gives the answer. False when there is one already.
+    /// Sends the result. False if one was already sent.
     fn give(&self, result: Result<T, Problem>) -> bool {
         // The caller may have left; the result still ends the call.
         lock(&self.0).take().map(|sender| drop(sender.send(result))).is_some()
@@ -52,14 +52,14 @@ impl<T: Send> Ending for ReplySlot<T> {
     }
 }
 
-/// The refusal of a call that a newer revision has overtaken.
+/// The refusal of a call that a newer revision has superseded.
 pub fn superseded(by: u64) -> Problem {
     let detail = format!("Revision {by} of the same client took over.");
     Problem::new(Code::Superseded, detail).with(|m| m.by_revision = Some(by))
 }
 
 impl Pool {
-    /// Waits for a worker and gives what the work gives. Leaving the wait cancels the work.
+    /// Waits for a worker and returns the result of the work. Dropping the future cancels the work.
     ///
     /// # Errors
     /// The work's own problem, a full queue, a time limit, or shutdown.
@@ -85,8 +85,8 @@ impl Pool {
         receiver.await.unwrap_or_else(|_| Err(Problem::internal("a call ended without its answer")))
     }
 
-    /// True if the threads of a lane take a small call soon; in a lane whose calls may wait long, unless all of its
-    /// threads are still at calls that ended some time ago.
+    /// Whether the threads of a lane take a small call soon. A lane with long waits fails only if all its
+    /// threads are busy with calls that ended some time ago.
     pub async fn answers(self: &Arc<Self>, lane: PoolLane) -> bool {
         let kind = match lane {
             PoolLane::Document => JobKind::Document,
@@ -100,8 +100,8 @@ impl Pool {
         matches!(call.await, Ok(Ok(())))
     }
 
-    /// Work on a document of about so many bytes: at once when that is little, else like all other work of the caller
-    /// that the task works for ([`on_behalf_of`]), or of the program itself.
+    /// Runs work on a document of about this size: at once if it is small, else queued for the task's caller
+    /// ([`on_behalf_of`]), or for the program itself.
     ///
     /// # Errors
     /// As [`Self::run`].
@@ -113,7 +113,7 @@ impl Pool {
         if bytes <= SMALL_BYTES {
             return work();
         }
-        // Reading takes about this long a byte; the largest are cut where they are unpacked.
+        // Reading takes about this time per byte; the largest documents are refused when they are decoded.
         let cost = Duration::from_nanos(10 * bytes.min(64 << 20) as u64);
         let caller = CALLER.try_with(Caller::clone).unwrap_or_default();
         let asked = JobRequest { kind: JobKind::Document, cost, caller };

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-/// Bounded table of clients, the longest unseen forgotten first.
+/// Bounded table of clients; the one unseen longest is dropped first.
 #[derive(Debug)]
 pub struct Clients {
     most: usize,
@@ -23,10 +23,10 @@ impl Clients {
         Self { most: most.max(1), idle, seen: HashMap::new() }
     }
 
-    /// Checks that a revision is newer than all before it.
+    /// Checks that a revision is newer than all earlier ones.
     ///
     /// # Errors
-    /// The highest revision so far, when this one is not above it.
+    /// The highest revision so far, if this one is not higher.
     pub fn check(&self, client: &str, revision: u64, now: Instant) -> Result<(), u64> {
         let remembered = |seen: &&Seen| now.duration_since(seen.at) <= self.idle;
         match self.seen.get(client).filter(remembered) {
@@ -35,7 +35,7 @@ impl Clients {
         }
     }
 
-    /// Notes a revision that is newer.
+    /// Records a newer revision.
     pub fn advance(&mut self, client: &str, revision: u64, now: Instant) {
         let idle = self.idle;
         if let Some(seen) = self.seen.get_mut(client) {

@@ -1,8 +1,8 @@
-//! A fair queue: of the callers that wait, the one served longest ago is next.
+//! A fair queue: of the waiting callers, the one served longest ago is next.
 
 use std::collections::HashMap;
 
-/// Callers remembered. A forgotten one counts as never served.
+/// Number of remembered callers. A forgotten one counts as never served.
 const MOST: usize = 1_024;
 
 /// When each caller was last served.

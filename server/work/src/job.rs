@@ -1,4 +1,4 @@
-//! One job: its caller, its work, and its only end.
+//! One job: its caller, its work, and its end.
 
 use super::kind::{JobKind, PoolLane};
 use super::lock;
@@ -21,19 +21,19 @@ pub struct Caller {
     pub job: Option<String>,
     /// Client whose newer revisions supersede this one, and this revision.
     pub client: Option<(String, u64)>,
-    /// The connection it came by.
+    /// Connection of the request.
     pub connection: Option<u64>,
-    /// Whose it is.
+    /// Party of the caller.
     pub party: Party,
-    /// The WebSocket it came by, which has a share of its own among those of its party.
+    /// The WebSocket of the request, which has its own share among those of its party.
     pub line: Option<u64>,
     /// No caller waits for the answer.
     pub background: bool,
 }
 
 impl Caller {
-    /// The names under which callers take turns, from the whole to its parts: the party; the client or the WebSocket,
-    /// or all plain requests of the party together; the connection.
+    /// The names under which callers take turns, from the whole to its parts: the party; the client or the
+    /// WebSocket, or all plain requests of the party together; the connection.
     pub(super) fn names(&self) -> CallerNames {
         let party = self.party.to_string();
         let share = match (&self.client, self.line) {
@@ -46,7 +46,7 @@ impl Caller {
     }
 }
 
-/// Names of a caller, each a part of the one before.
+/// Names of a caller; each is a part of the previous one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CallerNames {
     pub party: String,
@@ -66,7 +66,7 @@ pub struct JobRequest {
 }
 
 impl JobRequest {
-    /// Its queue.
+    /// The lane of its queue.
     pub fn lane(&self) -> PoolLane {
         self.kind.lane(self.cost, self.caller.background)
     }
@@ -91,15 +91,15 @@ impl Stop {
     }
 }
 
-/// End of a job. Only the first one counts.
+/// End of a job. Only the first call counts.
 pub trait Ending: Send + Sync {
-    /// Ends the job without a result. False when it had ended already.
+    /// Ends the job without a result. False if it had already ended.
     fn stop(&self, stop: Stop) -> bool;
 
-    /// True when it has ended.
+    /// Whether it has ended.
     fn is_over(&self) -> bool;
 
-    /// Time for which a reader has left something waiting.
+    /// How long a reader has left data waiting.
     fn stalled(&self) -> Duration {
         Duration::ZERO
     }
@@ -108,7 +108,7 @@ pub trait Ending: Send + Sync {
 /// Data about the job for its work.
 #[derive(Debug)]
 pub struct Ticket {
-    /// Id, unique among jobs under way.
+    /// Id, unique among open jobs.
     pub id: String,
     /// Client whose newer revisions supersede this one, and this revision.
     pub client: Option<(String, u64)>,
@@ -130,7 +130,7 @@ impl Ticket {
     }
 }
 
-/// A job that waits or is worked on.
+/// A waiting or running job.
 pub struct Job {
     pub(super) kind: JobKind,
     pub(super) lane: PoolLane,
@@ -141,13 +141,13 @@ pub struct Job {
     work: Mutex<Option<Work>>,
     /// When a worker took it.
     began: Mutex<Option<Instant>>,
-    /// Time for which it has yielded to others since then.
+    /// Total time for which it has yielded to others.
     paused: Mutex<Duration>,
     /// When it was stopped from outside.
     stopped: Mutex<Option<Instant>>,
-    /// It is worked on while another one yields.
+    /// Whether it runs while another one yields.
     is_inside: AtomicBool,
-    /// Its thread works on another one meanwhile.
+    /// Whether its thread runs another job meanwhile.
     is_yielding: AtomicBool,
 }
 
@@ -178,13 +178,13 @@ impl Job {
         }
     }
 
-    /// A worker takes it.
+    /// Called when a worker takes it.
     pub(super) fn begin(&self) -> Option<Work> {
         *lock(&self.began) = Some(Instant::now());
         lock(&self.work).take()
     }
 
-    /// The client that it works for.
+    /// Its client.
     pub(super) fn client(&self) -> Option<&str> {
         self.ticket.client.as_ref().map(|client| client.0.as_str())
     }
@@ -195,15 +195,16 @@ impl Job {
         since.saturating_sub(*lock(&self.paused))
     }
 
-    /// It is worked on while another one yields.
+    /// Marks that it runs while another one yields.
     pub(super) fn go_inside(&self) {
         self.is_inside.store(true, Ordering::Relaxed);
     }
 
-    /// Between two of its steps: whether another one goes first. One of another caller that is expected to take at
-    /// most a quarter of its time does, until such ones have taken that time once more than it has worked; one of
-    /// another party does as long as others together have no more of the thread than this one. Only the first
-    /// level yields in turn, so that two parties with many calls do not pile them up.
+    /// Whether another job goes first between two steps of this one. A job of another caller does if its
+    /// expected time is at most a quarter of this one's, and others have had at most this one's working time
+    /// plus its expected time. A job of another party does if others would then have had no more time than
+    /// this one. Only the first level yields in turn, so that two parties with many calls do not pile them
+    /// up.
     pub(super) fn lets_go(&self, other: &Self) -> bool {
         let (worked, given) = (self.worked(), *lock(&self.paused));
         let is_smaller = other.caller.own != self.caller.own && 4 * other.cost <= self.cost;
@@ -211,7 +212,7 @@ impl Job {
         (is_smaller && given <= worked + self.cost) || (in_turn && given + other.cost <= worked)
     }
 
-    /// Lets another one go first, which `work` does.
+    /// Runs `work`, another job, first.
     pub(super) fn pause(&self, work: impl FnOnce()) {
         let began = Instant::now();
         self.is_yielding.store(true, Ordering::Relaxed);
@@ -224,7 +225,7 @@ impl Job {
         self.ending.is_over()
     }
 
-    /// A worker is at it, and at nothing else, although it was stopped longer ago than this.
+    /// Whether a worker still runs only this job, although it was stopped longer ago than `patience`.
     pub(super) fn hangs(&self, patience: Duration) -> bool {
         let is_at_it = lock(&self.began).is_some() && !self.is_yielding.load(Ordering::Relaxed);
         is_at_it && lock(&self.stopped).is_some_and(|at| at.elapsed() > patience)
@@ -234,7 +235,7 @@ impl Job {
         self.ending.stalled()
     }
 
-    /// Ends it and stops its work, unless it has ended already.
+    /// Ends the job and stops its work, unless it has already ended.
     pub(super) fn stop(&self, stop: Stop) {
         let outcome = stop.outcome();
         let first = self.ending.stop(stop);

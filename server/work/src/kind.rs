@@ -1,25 +1,25 @@
-//! Sorts of work.
+//! Kinds of work, and the lanes of the pool.
 
 use std::time::Duration;
 
-/// Calls that are expected to take longer wait among themselves.
+/// Calls that are expected to take longer use the patient lane.
 const PATIENT: Duration = Duration::from_millis(150);
 
 /// A queue of the pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoolLane {
-    /// Calls that people wait for.
+    /// Interactive calls.
     Quick,
     /// Long calls, with or without a waiting caller.
     Patient,
     /// Small calls without a waiting caller.
     Background,
-    /// Documents, which must be read before the cost of a call is known.
+    /// Documents, which must be parsed before the cost of a call is known.
     Document,
 }
 
 impl PoolLane {
-    /// All of them.
+    /// All lanes.
     pub const ALL: [Self; 4] = [Self::Quick, Self::Patient, Self::Background, Self::Document];
 
     /// Niceness of its threads, as in nice(2). The quick lane is slightly nice, so that the browser on the
@@ -59,9 +59,9 @@ pub enum JobKind {
     Run,
     /// Tries towards a condition.
     Search,
-    /// Scenes out of a file.
+    /// Scenes from a file.
     Import,
-    /// A file out of a scene.
+    /// A file from a scene.
     Export,
     /// Reading, checking or writing of a JSON document.
     Document,
@@ -83,7 +83,7 @@ impl JobKind {
         }
     }
 
-    /// Word for people.
+    /// Noun for messages.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Generate => "generation",

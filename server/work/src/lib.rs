@@ -1,14 +1,14 @@
-//! CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
+//! The pool for CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
 //!
 //! There are four lanes with their own threads. Long work (big generations, large files) never delays smaller
-//! calls, with or without a waiting caller. None of these delays reading and writing of documents, so that a
-//! newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take turns,
-//! and a long call yields between its steps to smaller ones of others, and to those of other parties in turn.
-//! Threads for long work, or work without a waiting caller, leave the cores to the others.
+//! calls, with or without a waiting caller. None of these delays reading and writing of documents, so a newer
+//! revision is read, and a scene saved, while all workers are busy. Within a lane callers take turns. A long
+//! call yields between its steps to smaller ones of others, and in turn to those of other parties. Threads
+//! for long work, or work without a waiting caller, leave the cores to the others.
 //!
-//! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
-//! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
-//! which the work looks at between its steps.
+//! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision, DELETE,
+//! a dropped connection, a time limit, or shutdown. All but the result also set its [`Cancel`], which the
+//! work checks between its steps.
 
 mod call;
 mod clients;
@@ -37,7 +37,7 @@ use std::time::{Duration, Instant};
 use sync::atomic::{AtomicBool, Ordering};
 use sync::{Condvar, Mutex, MutexGuard, thread};
 
-/// Soonest time after which a refused call is to be repeated, seconds.
+/// Shortest time after which a refused call may be repeated, seconds.
 const SOONEST_S: f64 = 0.01;
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -57,17 +57,17 @@ pub fn give_way(lane: PoolLane) {
 /// Shared by handlers and workers.
 pub struct Pool {
     state: Mutex<PoolState>,
-    /// One for the threads of each lane: waking other threads in vain takes a core from the waker.
+    /// One per lane: waking other threads in vain would take a core from the waker.
     arrived: [Condvar; PoolLane::ALL.len()],
     limits: Arc<Limits>,
     stopped: AtomicBool,
 }
 
 impl Pool {
-    /// Starts the workers and the one that watches time limits.
+    /// Starts the workers and the thread that watches time limits.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system cannot start a thread.
     pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
         let pool = Arc::new(Self {
             state: Mutex::new(PoolState::new(limits)),
@@ -99,11 +99,11 @@ impl Pool {
         thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
     }
 
-    /// Queues a job. `make` gives what is to be done and where its end goes.
+    /// Queues a job. `make` returns the work and the receiver of its end.
     ///
     /// # Errors
-    /// `shutting-down`, `exists`, `stale-revision` or `busy`; then nothing has changed, and the same revision may
-    /// be tried again.
+    /// `shutting-down`, `exists`, `stale-revision` or `busy`; then nothing has changed, and the same revision
+    /// may be tried again.
     pub fn submit<E: Ending + 'static>(
         self: &Arc<Self>,
         asked: JobRequest,
@@ -112,7 +112,7 @@ impl Pool {
         let (lane, names) = (asked.lane(), asked.caller.names());
         let JobRequest { kind, cost, caller } = asked;
         let mut state = lock(&self.state);
-        // Documents of calls that are under way are still read and written while the server closes.
+        // During shutdown, documents of open calls are still read and written.
         let refused = state.closing && lane != PoolLane::Document;
         if refused || self.stopped.load(Ordering::Relaxed) {
             return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
@@ -145,7 +145,7 @@ impl Pool {
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, lane, cost, names, ticket, end, work));
         state.arrived(&job);
-        // A worker reads documents too, while all readers are at it or have been called for others already.
+        // A worker reads documents too, if all readers are busy or already woken for others.
         let reads = lane == PoolLane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
         let wakes = if reads { PoolLane::Quick } else { lane };
         drop(state);
@@ -153,8 +153,8 @@ impl Pool {
         Ok((ending, Handle { job, pool: Arc::clone(self) }))
     }
 
-    /// A place in the queue of a lane. In a full one the newest call of the greediest caller gives it up, and is
-    /// returned; the greediest one itself is refused.
+    /// Checks for a place in the queue of a lane. In a full one the newest call of the greediest caller gives
+    /// up its place, and is returned; if that is the new caller itself, it is refused.
     ///
     /// # Errors
     /// `busy`.
@@ -171,7 +171,7 @@ impl Pool {
         state.gives_way(lane, names).map(Some).ok_or_else(|| self.busy(state, lane))
     }
 
-    /// Refusal of a call for which there is no room in a lane.
+    /// Refusal of a call for which a lane has no room.
     fn busy(&self, state: &mut PoolState, lane: PoolLane) -> Problem {
         let waiting = state.lane(lane).queue.len();
         let threads = if lane == PoolLane::Document { self.limits.readers() } else { self.limits.workers() };
@@ -180,8 +180,8 @@ impl Pool {
         Problem::new(Code::Busy, detail).retry_after_ms((1e3 * wait_s).ceil() as u64)
     }
 
-    /// Refuses a call before anything is done for it where it would be refused afterwards: what a small call of
-    /// this client waits for is full.
+    /// Refuses a call early if it would be refused later: the lane that a small call of this client waits for
+    /// is full.
     ///
     /// # Errors
     /// `busy`.
@@ -190,7 +190,7 @@ impl Pool {
         self.check_room(&mut lock(&self.state), PoolLane::Quick, client, &caller.names()).map(drop)
     }
 
-    /// Cancels a job by its id; unknown ids are nothing to do.
+    /// Cancels a job by its id; an unknown id has no effect.
     pub fn cancel(&self, id: &str) {
         let job = lock(&self.state).jobs.get(id).cloned();
         if let Some(job) = job {
@@ -199,18 +199,18 @@ impl Pool {
         }
     }
 
-    /// True when another call would be queued.
+    /// Whether another call would be queued.
     pub fn has_room(&self) -> bool {
         let mut state = lock(&self.state);
         !state.closing && (state.lane(PoolLane::Quick).queue.len() as u64) < self.limits.queue
     }
 
-    /// Takes no more long work.
+    /// Stops taking long work.
     pub fn close(&self) {
         lock(&self.state).closing = true;
     }
 
-    /// Ends everything under way and lets the workers go.
+    /// Ends all open jobs and lets the workers exit.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
         let jobs = lock(&self.state).close();
@@ -220,14 +220,14 @@ impl Pool {
         self.arrived.iter().for_each(Condvar::notify_all);
     }
 
-    /// Works on jobs of these lanes, the first one first, until the pool stops.
+    /// Runs jobs of these lanes, the first one preferred, until the pool stops.
     fn work(&self, lanes: &[PoolLane]) {
         while let Some(job) = self.take(lanes) {
             self.perform(&job);
         }
     }
 
-    /// The next job to work on; `None` when the pool has stopped.
+    /// The next job to run; `None` when the pool has stopped.
     fn take(&self, lanes: &[PoolLane]) -> Option<Arc<Job>> {
         let mut state = lock(&self.state);
         loop {
@@ -245,12 +245,12 @@ impl Pool {
         }
     }
 
-    /// Works on a job that was taken out of its queue.
+    /// Runs a job that was taken out of its queue.
     fn perform(&self, job: &Job) {
         let began = Instant::now();
         metrics::work(job.kind.name(), "queue", job.ticket.elapsed().as_secs_f64());
         if let Some(work) = job.begin().filter(|_| !job.is_over()) {
-            // Work shares caches of plain values only, so they are usable after a panic.
+            // Work shares only caches of plain values, which are usable after a panic.
             if catch_unwind(AssertUnwindSafe(work)).is_err() {
                 job.fail(Problem::internal(format!("a {} panicked", job.kind.noun())));
             }
@@ -262,7 +262,7 @@ impl Pool {
         state.show();
     }
 
-    /// Between two steps of a long call: others that wait for its thread and whose turn it is ([`Job::lets_go`]) go
+    /// Called between two steps of a long call: lets waiting jobs whose turn it is ([`Job::lets_go`]) run
     /// first.
     pub fn let_others_go(&self, ticket: &Ticket) {
         let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
@@ -273,7 +273,7 @@ impl Pool {
         }
     }
 
-    /// Ends jobs that exceed their time or whose reader has stopped reading.
+    /// Ends jobs that exceed their time limit or whose reader has stopped reading.
     fn watch(&self) {
         let seconds = Duration::from_secs;
         let mut rounds = 0u64;
@@ -304,7 +304,7 @@ impl Pool {
     }
 }
 
-/// A reader's hold on its job: dropping it before the end stops the work.
+/// A reader's handle of its job: dropping it before the end stops the work.
 pub struct Handle {
     job: Arc<Job>,
     pool: Arc<Pool>,

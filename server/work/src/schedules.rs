@@ -1,8 +1,8 @@
-//! The pool under a model checker: small dramas of callers and workers, gone through in thousands of orders
-//! in which their threads can take turns. A schedule that violates an invariant, or deadlocks, is printed and
-//! can be repeated (`shuttle::replay`).
+//! Tests of the pool under a model checker: small scenarios of callers and workers, run in thousands of
+//! thread interleavings. A schedule that violates an invariant, or deadlocks, is printed and can be repeated
+//! (`shuttle::replay`).
 //!
-//! `SCHEDULES` says how many orders of each drama are gone through by each of two ways to draw them.
+//! `SCHEDULES` is the number of interleavings per scenario, for each of two ways to draw them.
 
 use super::job::{Caller, Ending, JobRequest, Stop, Ticket, Work};
 use super::kind::{JobKind, PoolLane};
@@ -14,10 +14,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Changes of the thread that the second way of drawing makes at most where it matters.
+/// Limit of preemptions in the second way of drawing.
 const DEPTH: usize = 3;
 
-/// Goes through many orders of one drama.
+/// Runs many interleavings of one scenario.
 fn explore(drama: fn()) {
     let count = std::env::var("SCHEDULES").ok().and_then(|text| text.parse().ok()).unwrap_or(1_000);
     shuttle::check_random(drama, count);
@@ -32,7 +32,7 @@ enum How {
     Refused(Code),
 }
 
-/// End of a call, and number of times that it was worked on.
+/// End of a call, and how often it was run.
 #[derive(Default)]
 struct End {
     how: Mutex<Option<How>>,
@@ -41,7 +41,7 @@ struct End {
 }
 
 impl End {
-    /// False when it has ended already.
+    /// False if it has already ended.
     fn end(&self, how: How) -> bool {
         let mut slot = lock(&self.how);
         let first = slot.is_none();
@@ -96,7 +96,7 @@ impl Door {
     }
 }
 
-/// Two workers of each sort, or one, and room for so many calls.
+/// A pool with one or two workers of each kind, and room for this many calls.
 fn pool(running: u64, queue: u64) -> Arc<Pool> {
     Pool::start(&Arc::new(Limits { running, queue, ..Limits::default() })).unwrap()
 }
@@ -117,7 +117,7 @@ fn revision(number: u64) -> JobRequest {
 
 type Call = (Arc<End>, Handle);
 
-/// Submits work of a few steps that checks between them for cancellation.
+/// Submits work of a few steps that checks for cancellation between them.
 fn ask(pool: &Arc<Pool>, asked: JobRequest, step: impl Fn(&Ticket) + Send + 'static) -> Result<Call, Code> {
     let call = pool.submit(asked, |ticket| {
         let end = Arc::new(End::default());
@@ -142,7 +142,7 @@ fn steps(_: &Ticket) {
     thread::yield_now();
 }
 
-/// Invariants whenever no thread holds the state.
+/// Invariants that hold whenever no thread holds the state.
 fn holds(pool: &Pool) {
     let mut state = lock(&pool.state);
     if state.closing {
@@ -155,7 +155,7 @@ fn holds(pool: &Pool) {
     }
 }
 
-/// Waits until every call has ended; then nothing is left, and the threads end.
+/// Waits until every call has ended; then nothing is left, and the threads exit.
 fn close(pool: &Arc<Pool>) {
     loop {
         let mut state = lock(&pool.state);
@@ -261,7 +261,7 @@ fn a_call_that_is_given_up_leaves_its_place() {
         assert_eq!(ask(&pool, quick("third", 3), steps).err(), Some(Code::Busy));
         let (gone, hold) = second;
         let (own, by_id) = (Arc::clone(&pool), thread::spawn(move || drop(hold)));
-        // Its id and its reader give it up at the same time.
+        // Its id and its reader cancel it at the same time.
         own.cancel("second");
         by_id.join().unwrap();
         assert_eq!((gone.wait(), gone.runs()), (How::Refused(Code::Cancelled), 0));
@@ -294,7 +294,7 @@ fn giving_up_meets_working_at_any_moment() {
     });
 }
 
-/// Calls that wait for each other: they only end where all of them are worked on at the same time.
+/// Calls that wait for each other: they end only if all of them run at the same time.
 fn side_by_side(pool: &Arc<Pool>, calls: &[(JobKind, u64)]) {
     let doors: Vec<Arc<Door>> = calls.iter().map(|_| Arc::default()).collect();
     let mut held = Vec::new();

@@ -13,25 +13,26 @@ use std::time::Duration;
 /// Jobs of one lane.
 #[derive(Default)]
 pub struct LaneQueue {
-    /// In the order of their arrival.
+    /// Waiting jobs, in the order of their arrival.
     pub queue: VecDeque<Arc<Job>>,
     /// Number of running jobs.
     pub running: usize,
-    /// Running mean of the time that jobs take, for each second expected.
+    /// Running mean of the actual time of jobs per expected second.
     pace: Option<f64>,
-    /// Refused jobs so far.
+    /// Number of refused jobs so far.
     refused: usize,
 }
 
 impl LaneQueue {
-    /// Expected wait of a new job for one of so many threads, seconds.
+    /// Expected wait of a new job for one of these threads, seconds.
     fn wait_s(&self, threads: usize) -> f64 {
         let waiting: f64 = self.queue.iter().map(|job| job.cost.as_secs_f64()).sum();
         waiting * self.pace.unwrap_or(1.0) / threads.max(1) as f64
     }
 
-    /// When a refused caller gets a place, seconds: as the first job leaves the queue, the next caller as the second one
-    /// does, and so on around. So callers who obey come when places get free, and not all at the same time.
+    /// When a refused caller gets a place, seconds. The first caller gets the time at which the first job
+    /// leaves the queue, the next caller that of the second job, and so on, cyclically. Callers who obey then
+    /// come as places get free, not all at once.
     pub fn next_place_s(&mut self, threads: usize) -> f64 {
         let places = self.queue.len().max(1);
         let turn = self.refused % places + 1;
@@ -39,7 +40,7 @@ impl LaneQueue {
         self.wait_s(threads) * turn as f64 / places as f64
     }
 
-    /// A job ended.
+    /// Records the end of a job.
     pub fn finished(&mut self, job: &Job, took: Duration) {
         self.running -= 1;
         let pace = took.as_secs_f64() / job.cost.as_secs_f64().max(1e-3);
@@ -47,7 +48,7 @@ impl LaneQueue {
     }
 }
 
-/// The name that is there most often, and how often.
+/// The most frequent name, and its count.
 fn most<'a>(names: impl Iterator<Item = &'a String>) -> Option<(&'a String, usize)> {
     let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
     names.for_each(|name| *counts.entry(name).or_default() += 1);
@@ -62,9 +63,9 @@ pub struct PoolState {
     /// Revisions of clients.
     pub clients: Clients,
     fair_queue: FairQueue,
-    /// Threads that wait, by the first lane that they take.
+    /// Number of waiting threads, by the first lane that they take.
     pub idle: [usize; PoolLane::ALL.len()],
-    /// No more calls are taken.
+    /// No more calls are accepted.
     pub closing: bool,
 }
 
@@ -87,31 +88,31 @@ impl PoolState {
         &mut self.lanes[lane as usize]
     }
 
-    /// Jobs that are worked on.
+    /// Number of running jobs.
     pub fn running(&self) -> usize {
         self.lanes.iter().map(|lane| lane.running).sum()
     }
 
-    /// Number of threads of a lane that are still at jobs which were stopped longer ago than this.
+    /// Number of threads of a lane that still run jobs which were stopped longer ago than `patience`.
     pub fn hanging(&self, lane: PoolLane, patience: Duration) -> usize {
         self.jobs.values().filter(|job| job.lane == lane && job.hangs(patience)).count()
     }
 
-    /// Number of waiting jobs in a lane, without those of this client, which a newer revision of it would
-    /// end.
+    /// Number of waiting jobs in a lane, without those of this client, which a newer revision would end.
     pub fn waiting_beside(&mut self, lane: PoolLane, client: Option<&str>) -> usize {
         let own = |job: &&Arc<Job>| client.is_some() && job.client() == client;
         let queue = &self.lane(lane).queue;
         queue.len() - queue.iter().filter(own).count()
     }
 
-    /// In a full queue: the newest job of the party that has most of them there, and in that party of the caller that
-    /// has most. `None` where that is the new caller itself, whose job would be the newest.
+    /// The job that gives up its place in a full queue: the newest one of the party with the most waiting
+    /// jobs, and within it of the caller with the most. `None` if that is the new caller itself, whose job
+    /// would be the newest.
     pub fn gives_way(&mut self, lane: PoolLane, new: &CallerNames) -> Option<Arc<Job>> {
         let queue = &self.lane(lane).queue;
         let (greediest, count) = most(queue.iter().map(|job| &job.caller.party))?;
         let own = queue.iter().filter(|job| job.caller.party == new.party).count();
-        // The new job would make its party the greediest: then its shares decide.
+        // The new job would make its party the greediest; then the shares within it decide.
         let party = if count > own + 1 { greediest } else { &new.party };
         let of_party = || queue.iter().filter(|job| job.caller.party == *party);
         let (share, count) = most(of_party().map(|job| &job.caller.share))?;
@@ -122,14 +123,15 @@ impl PoolState {
         of_party().rfind(|job| job.caller.share == *share).cloned()
     }
 
-    /// A job waits from now on.
+    /// Adds a waiting job.
     pub fn arrived(&mut self, job: &Arc<Job>) {
         self.lane(job.lane).queue.push_back(Arc::clone(job));
         self.jobs.insert(job.ticket.id.clone(), Arc::clone(job));
         self.show();
     }
 
-    /// Takes a job out of a lane's queue: among those that fit, the one whose caller was served longest ago.
+    /// Takes a job out of a lane's queue: of those that satisfy `fits`, the one whose caller was served
+    /// longest ago.
     pub fn next(&mut self, lane: PoolLane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
@@ -140,7 +142,7 @@ impl PoolState {
         let (at, _) = fitting.min_by_key(|(_, job)| turns(job))?;
         let job = self.lane(lane).queue.remove(at)?;
         let CallerNames { party, share, own } = &job.caller;
-        // A caller may be all of its share, and that all of its party.
+        // A caller may be its whole share, and that its whole party.
         let mut names = vec![party, share, own];
         names.dedup();
         names.into_iter().for_each(|name| self.fair_queue.serve(name));
@@ -149,7 +151,7 @@ impl PoolState {
         Some(job)
     }
 
-    /// Ends what this client has running or queued.
+    /// Ends the running and queued jobs of this client.
     pub fn supersede(&mut self, client: &str, revision: u64) {
         let of_client = |job: &&Arc<Job>| job.client() == Some(client);
         let older: Vec<_> = self.jobs.values().filter(of_client).cloned().collect();
@@ -159,7 +161,7 @@ impl PoolState {
         }
     }
 
-    /// Takes a job that has ended out of its queue, if it still waits there.
+    /// Removes a job that has ended from its queue, if it still waits there.
     pub fn forget_queued(&mut self, job: &Arc<Job>) {
         let queue = &mut self.lane(job.lane).queue;
         let before = queue.len();
@@ -170,7 +172,7 @@ impl PoolState {
         self.show();
     }
 
-    /// Empties all queues and gives all jobs.
+    /// Empties all queues and returns all jobs.
     pub fn close(&mut self) -> Vec<Arc<Job>> {
         self.closing = true;
         self.lanes.iter_mut().for_each(|lane| lane.queue.clear());

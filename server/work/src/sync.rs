@@ -1,5 +1,5 @@
-//! Threads, locks and flags of the pool: the standard library's, or those of a model checker that runs the same
-//! code in every order it can think of (unit tests of this crate, `schedules`).
+//! Threads, locks and flags of the pool: the standard library's, or those of a model checker that explores
+//! thread interleavings (unit tests of this crate, `schedules`).
 
 #[cfg(test)]
 pub use shuttle::sync::{Condvar, Mutex, MutexGuard, atomic};

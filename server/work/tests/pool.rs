@@ -1,4 +1,4 @@
-//! The pool with the threads of the system: answers, refusals, turns, and what ends a call.
+//! The pool with system threads: answers, refusals, turns, and the ends of calls.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
@@ -11,7 +11,7 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 use work::{Caller, Ending, Handle, JobKind, JobRequest, Pool, PoolLane, Stop, Ticket, Work};
 
-/// An end that says when it has come.
+/// An end that signals when it comes.
 struct Told(Mutex<Option<oneshot::Sender<()>>>);
 
 impl Told {
@@ -128,7 +128,7 @@ async fn a_lane_whose_threads_hang_at_ended_calls_does_not_answer() {
     }
 }
 
-/// Submits work of so many milliseconds for a connection, and records its name when it is done.
+/// Submits work of this many milliseconds for a connection, and records its name when it is done.
 fn noted(
     pool: &Arc<Pool>,
     done: &Arc<Mutex<Vec<&'static str>>>,
@@ -145,8 +145,8 @@ fn noted(
     tokio::spawn(async move { pool.run(asked, work).await.unwrap() })
 }
 
-/// Asks for a generation of several steps of so many milliseconds. Between two of them it lets others go; at its end it
-/// notes its name, and the receiver hears of it.
+/// Submits a generation of several steps of this many milliseconds. Between two steps it lets others go
+/// first; at its end it records its name and signals the receiver.
 fn yielding<T: Send + 'static>(
     pool: &Arc<Pool>,
     done: &Arc<Mutex<Vec<T>>>,
@@ -196,7 +196,7 @@ async fn what_nobody_waits_for_holds_up_nobody() {
         let asked = JobRequest { kind: JobKind::Generate, cost: Duration::from_millis(cost_ms), caller };
         let work = move |_: &experts::Cancel| {
             std::thread::sleep(Duration::from_millis(ms));
-            // Of this thread, on Linux.
+            // Niceness of this thread, on Linux.
             Ok(rustix::process::getpriority_process(None).unwrap())
         };
         let pool = Arc::clone(&pool);
@@ -208,7 +208,7 @@ async fn what_nobody_waits_for_holds_up_nobody() {
     assert!(!behind.is_finished());
     let behind = behind.await.unwrap();
     assert!(!cfg!(target_os = "linux") || behind == (first + 10).min(19), "{first} and {behind}");
-    // A long call does not delay it either: a caller may wait for it by the time it runs.
+    // A long call does not delay it either, because a caller may be waiting for it by the time it runs.
     let long = call(false, 4_000, 300);
     tokio::time::sleep(Duration::from_millis(5)).await;
     call(true, 1, 1).await.unwrap();
@@ -316,7 +316,7 @@ async fn a_full_queue_refuses_the_newest_of_the_greediest() {
         greedy.push(call(1, connection, None));
         pause().await;
     }
-    // One at work, four wait, the last is refused.
+    // One runs, four wait, the last is refused.
     assert_eq!(greedy.pop().unwrap().await.unwrap(), Err(Code::Busy));
     let other = call(2, 7, None);
     pause().await;
@@ -324,7 +324,7 @@ async fn a_full_queue_refuses_the_newest_of_the_greediest() {
     let line = call(1, 8, Some(8));
     pause().await;
     assert_eq!(greedy.pop().unwrap().await.unwrap(), Err(Code::Busy), "plain requests count together");
-    // Two parties with two each and none greedier than a third one would be: it still finds a place.
+    // Two parties have two each, and a third one would not be greedier, so it still finds a place.
     let third = call(3, 9, None);
     pause().await;
     release.store(true, Ordering::Relaxed);

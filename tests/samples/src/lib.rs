@@ -1,8 +1,8 @@
 //! Location of recorded scenes for tests; they are not part of the repository.
 //!
 //! `DRAGTRAFFIC_SAMPLES` names a folder with `womd/train`, `womd/val` and `formats/waymo`. Setting it
-//! promises that all of them exist: a test without its files then fails. Without it the tests read the folder
-//! `shared/data` beside the checkout, and a test without files there is skipped with a printed reason.
+//! promises that all of them exist: a test without its files then fails. Without the variable, tests read the
+//! folder `shared/data` beside the checkout, and a test that finds no files is skipped with a printed reason.
 
 #![allow(
     clippy::panic,
@@ -35,10 +35,10 @@ pub fn files(folder: &str, part: &str) -> Option<Vec<PathBuf>> {
     }
 }
 
-/// The folder of samples itself; `None`, and why, as for [`files`].
+/// The folder of samples itself; `None`, with a printed reason, as in [`files`].
 ///
 /// # Panics
-/// When the variable is set and it holds no such files, or one cannot be read.
+/// If the variable is set and there are no such files, or one cannot be read.
 pub fn folder(folder: &str, part: &str) -> Option<PathBuf> {
     files(folder, part)?.first()?.parent().map(Path::to_path_buf)
 }

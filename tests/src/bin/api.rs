@@ -1,5 +1,5 @@
-//! `api SCHEMATHESIS CONFIG EXAMPLES SEED`: the real server held against its own document by Schemathesis.
-//! `cargo xtask schemathesis` builds it and runs it.
+//! `api SCHEMATHESIS CONFIG EXAMPLES SEED`: checks the real server against its own document with
+//! Schemathesis. `cargo xtask schemathesis` builds and runs it.
 
 #![allow(clippy::print_stderr, reason = "it talks to people")]
 
@@ -8,7 +8,7 @@ use dragtraffic_tests::Server;
 use dragtraffic_tests::program::root;
 use std::process::{Command, ExitCode};
 
-/// Calls are to be short, since their answers are checked and not how long they take.
+/// Limits that keep calls short: the test checks replies, not durations.
 const LIMITS: [&str; 3] = ["reply_points=20000", "regenerated_agents=8", "running=2"];
 
 fn main() -> ExitCode {

@@ -1,9 +1,9 @@
-//! `doubling`: core time of every operation on a map, for towns of twice the size each time.
-//! `cargo xtask doubling` builds it and runs it.
+//! `doubling`: core time of every operation on a map, for towns of doubling size. `cargo xtask doubling`
+//! builds and runs it.
 //!
-//! Each operation is near linear in the points of the map: from half of the largest town to all of it, its time rises by
-//! less than [`MOST_RISE`]. Each request has a map of its own, since maps are remembered. Core time counts, so that an
-//! answer may take long on a busy machine.
+//! Each operation must be nearly linear in the points of the map: from half of the largest town to all of it,
+//! its time rises by less than [`MOST_RISE`]. Each request has its own map, since the server caches maps.
+//! Core time is measured, so that a busy machine does not change the result.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -14,24 +14,24 @@ use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
-/// Limits of time, which a busy machine would exceed.
+/// Raised time limits: a busy machine would exceed the usual ones.
 const PATIENCE: [&str; 4] = ["--limit", "generate_s=900", "--limit", "stream_s=1800"];
-/// Towns of most operations.
+/// Towns for most operations.
 const TOWNS: Towns = Towns { lanes: [500, 1_000, 2_000, 4_000], piece_m: 5.0 };
-/// Towns in files that may have only so many lanes, and kilometres of them, for their size.
+/// Towns for files with bounds on lanes and kilometres.
 const SMALL_TOWNS: Towns = Towns { lanes: [60, 120, 240, 480], piece_m: 1.0 };
 /// Formats of such files.
 const OF_BOUNDED_SIZE: [&str; 2] = ["opendrive", "openscenario"];
-/// Most rise of the time with the last doubling: linear is 2, and sorting a little more.
+/// Greatest rise of the time with the last doubling: linear is 2, and sorting adds a little.
 const MOST_RISE: f64 = 2.6;
-/// Times below this are those of the clock's ticks, seconds.
+/// Shorter times are within the resolution of the clock, seconds.
 const LEAST_S: f64 = 0.1;
-/// Measurements of each, of which the shortest counts.
+/// Measurements of each operation; the shortest counts.
 const REPEATS: u64 = 2;
 
 /// Formats that are written and not read.
 const WRITTEN: [&str; 2] = ["geojson", "mcap"];
-/// Formats that are written, and read again where they can be.
+/// Formats that are written, and read again if they can be.
 const FORMATS: &[&str] = &[
     "dragtraffic",
     "womd",
@@ -55,8 +55,8 @@ struct Towns {
     piece_m: f64,
 }
 
-/// Streets of 40 pieces with a bend after each, in square blocks of the length of 20 pieces, four of them a block; other
-/// ones for each seed.
+/// Streets of 40 pieces with a bend after each, in square blocks with a side of 20 pieces, four streets to a
+/// block. Each seed gives other streets.
 fn town(lanes: usize, piece_m: f64, seed: u64) -> Value {
     let mut random = Random::new(seed);
     let mut part = || random.below(1 << 20) as f64 / f64::from(1 << 20);
@@ -82,7 +82,7 @@ fn town(lanes: usize, piece_m: f64, seed: u64) -> Value {
     scene
 }
 
-/// Makes the request that is measured from a scene; it may ask the server before.
+/// Makes the measured request from a scene; it may call the server first.
 type RequestMaker = Box<dyn Fn(&Server, &Value) -> anyhow::Result<Request>>;
 
 /// One operation on a scene.
@@ -145,7 +145,7 @@ fn operations() -> Vec<Operation> {
     all
 }
 
-/// Core time of an operation on a town, seconds; the reason where there is none.
+/// Core time of an operation on a town, seconds; otherwise the reason why there is none.
 fn measure(operation: &Operation, lanes: usize, server: &Server, seed: &mut u64) -> anyhow::Result<f64> {
     let mut shortest = f64::INFINITY;
     for _ in 0..REPEATS {
@@ -169,7 +169,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether every operation is answered, and none rises by more than it may.
+/// Whether every operation is answered, and the time of none rises too much.
 fn run() -> anyhow::Result<bool> {
     let server = Server::start(&PATIENCE)?;
     server.wait_ready()?;

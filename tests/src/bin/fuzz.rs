@@ -1,8 +1,8 @@
-//! `fuzz [TARGET…] [--seconds N] [--seed S]`, `fuzz READER --file PATH`: readers and requests, with unexpected inputs.
-//! `cargo xtask fuzz` builds it and runs it.
+//! `fuzz [TARGET…] [--seconds N] [--seed S]`, `fuzz READER --file PATH`: tests readers and requests with
+//! unexpected inputs. `cargo xtask fuzz` builds and runs it.
 //!
-//! Each target runs in its own process with bounded memory, so a crash is a finding like any other. Inputs
-//! come from `fuzz/corpus/TARGET`; seed and number identify each, and failing ones are written to
+//! Each target runs in its own process with bounded memory, so that a crash is a finding like any other.
+//! Inputs come from `fuzz/corpus/TARGET`; seed and number identify each, and failing ones are written to
 //! `target/fuzz`. `cargo fuzz` (see `fuzz/`) searches deeper, with a nightly compiler.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
@@ -20,13 +20,13 @@ use std::process::{Command, ExitCode};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// An input that takes longer by the clock hangs, on a busy machine too.
+/// An input that takes longer than this counts as a hang, on a busy machine too.
 const HANGS: Duration = Duration::from_secs(60);
 /// Inputs that take more core time are reported.
 const SLOW: Duration = Duration::from_secs(1);
 /// Address space of a reader under test, KB.
 const MEMORY_KB: u64 = 4 << 20;
-/// Findings after which a target is left.
+/// Findings after which a target is stopped.
 const ENOUGH: usize = 10;
 
 struct Options {
@@ -35,7 +35,7 @@ struct Options {
     seed: u64,
     /// This is the process of one target.
     inside: bool,
-    /// The one input to run, in place of drawn ones.
+    /// The single input to run instead of drawn ones.
     file: Option<PathBuf>,
 }
 
@@ -51,7 +51,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs the targets one after the other; whether nothing was found.
+/// Runs the targets in turn; returns whether nothing was found.
 fn run(arguments: &[String]) -> anyhow::Result<bool> {
     let options = options(arguments)?;
     std::fs::create_dir_all(folder())?;
@@ -114,14 +114,14 @@ fn corpus(name: &str) -> anyhow::Result<Corpus> {
     Corpus::read(&root().join("fuzz/corpus").join(name))
 }
 
-/// Keeps an input that broke something.
+/// Saves an input that caused a failure.
 fn keep(name: &str, seed: u64, n: u64) -> anyhow::Result<String> {
     let path = folder().join(format!("{name}-{seed}-{n}"));
     std::fs::write(&path, corpus(name)?.input(seed, n))?;
     Ok(path.display().to_string())
 }
 
-/// Runs a target in a process of its own; what it was at when the process was lost.
+/// Runs a target in its own process; returns the current input if the process died.
 fn outside(name: &str, options: &Options) -> anyhow::Result<Option<String>> {
     let program = std::env::current_exe()?;
     let is_request = requests::TARGETS.iter().any(|target| target.name == name);
@@ -179,7 +179,7 @@ impl Tally {
     }
 }
 
-/// One target, in this process, until its time is over.
+/// Runs one target in this process until its time is over.
 fn inside(name: &str, options: &Options) -> anyhow::Result<bool> {
     let began = Instant::now();
     watch(began);
@@ -217,7 +217,7 @@ fn inside(name: &str, options: &Options) -> anyhow::Result<bool> {
     Ok(tally.findings.is_empty())
 }
 
-/// One reader on one file.
+/// Runs one reader on one file.
 fn one(name: &str, file: &Path) -> anyhow::Result<bool> {
     let reader = formats::checks::TARGETS.iter().find(|(reader, _)| *reader == name);
     let (_, check) = reader.with_context(|| format!("{name} is no reader"))?;
@@ -228,7 +228,7 @@ fn one(name: &str, file: &Path) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// When the input that is worked on was begun, milliseconds from the start; 0 for none.
+/// When the current input was begun, milliseconds from the start; 0 for none.
 static BEGUN_MS: AtomicU64 = AtomicU64::new(0);
 
 /// Ends the process when an input hangs; the recorded place identifies the input.
@@ -272,8 +272,8 @@ fn drive(
     Ok(tally)
 }
 
-/// Core time of this thread, where the system reports it; other load does not count. Requests run on other
-/// threads, and the server has its own limits for them.
+/// Core time of this thread, if the system reports it, so that other load does not count. Requests run on
+/// other threads, and the server has its own limits for them.
 fn worked() -> Duration {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     Duration::from_nanos(text.split(' ').next().and_then(|ns| ns.parse().ok()).unwrap_or(0))

@@ -1,8 +1,8 @@
-//! `imports [FORMAT…] [--megabytes 10]`: how long readers take, and how much memory, for a file of about that size of
-//! each format. `cargo xtask imports` builds it and runs it.
+//! `imports [FORMAT…] [--megabytes 10]`: time and memory that readers take for a file of about that size in
+//! each format. `cargo xtask imports` builds and runs it.
 //!
-//! Files are written by the formats' own writers, of a demo scene that is laid out again and again beside itself; a
-//! format without a writer reads the largest file of its corpus. Each file is read in a process of its own.
+//! Files are written by the formats' own writers, from repeated copies of a demo scene. A format without a
+//! writer reads the largest file of its corpus. Each file is read in its own process.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -15,15 +15,15 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 const DEMO: &str = "assets/scenes/demo-crossing.json";
-/// Distance of copies, metres, and how many lie side by side.
+/// Distance between copies, metres, and the number of copies in a row.
 const APART_M: f64 = 300.0;
 const ABREAST: usize = 6;
-/// Ever larger scenes: copies of the map and its road users, and steps.
+/// Scenes of increasing size: copies of the map and its road users, and steps.
 const SIZES: [(usize, usize); 8] =
     [(1, 91), (4, 91), (9, 91), (9, 300), (9, 600), (16, 600), (25, 600), (36, 600)];
-/// Most road users of a scene, and most copies of one in a file.
+/// Most road users of a scene, and most copies of one road user in a file.
 const MOST: (usize, usize) = (256, 190);
-/// A file is large enough from this share of the requested size on.
+/// A file is large enough from this share of the requested size.
 const ENOUGH: f64 = 0.8;
 
 fn main() -> ExitCode {
@@ -71,7 +71,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Reads a file in a process of its own.
+/// Reads a file in its own process.
 fn tell(id: &str, path: &Path, what: &str) -> anyhow::Result<()> {
     let output = Command::new(std::env::current_exe()?).args(["--inside", id]).arg(path).output()?;
     let text = String::from_utf8_lossy(&output.stdout);
@@ -89,7 +89,7 @@ fn tell(id: &str, path: &Path, what: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// One file, in this process: scenes, seconds, and the most memory in MB.
+/// Reads one file in this process: prints scenes, seconds, and the peak memory in MB.
 fn inside_of(id: &str, path: &Path) -> anyhow::Result<()> {
     let format = registry::by_id(id).with_context(|| format!("no format is called {id}"))?;
     let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
@@ -104,7 +104,7 @@ fn inside_of(id: &str, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A file of about so many bytes, and what it is.
+/// A file of about that many bytes, with a description.
 fn file_of(format: &dyn Format, bytes: f64, folder: &Path) -> anyhow::Result<Option<(PathBuf, String)>> {
     let info = format.info();
     if !info.export {
@@ -152,7 +152,7 @@ fn file_of(format: &dyn Format, bytes: f64, folder: &Path) -> anyhow::Result<Opt
     Ok(Some((path, what)))
 }
 
-/// The scene so many times beside itself, with motion of so many steps: there and back again.
+/// Copies of the scene side by side, with motion of that many steps: there and back again.
 fn laid_out(demo: &Value, copies: usize, steps: usize) -> Value {
     let mut scene = demo.clone();
     scene["generated"] = Value::Null;
@@ -181,7 +181,7 @@ fn laid_out(demo: &Value, copies: usize, steps: usize) -> Value {
     scene
 }
 
-/// Moves points and renames ids, wherever they are.
+/// Moves points and renames ids at any depth.
 fn moved(value: &mut Value, copy: usize, shift: [f64; 2]) {
     match value {
         Value::Array(list) if list.len() == 2 && list.iter().all(Value::is_number) => {
@@ -197,7 +197,7 @@ fn moved(value: &mut Value, copy: usize, shift: [f64; 2]) {
             for (name, value) in members {
                 match (name.as_str(), &mut *value) {
                     ("id" | "lane" | "line", Value::String(id)) => *id = format!("{copy}-{id}"),
-                    // Ranges and runs are no points.
+                    // Ranges and runs are not points.
                     ("self" | "other" | "states", _) => {}
                     _ => moved(value, copy, shift),
                 }
@@ -207,7 +207,7 @@ fn moved(value: &mut Value, copy: usize, shift: [f64; 2]) {
     }
 }
 
-/// A road user that is seen all the time, elsewhere and for longer; nothing for others.
+/// A copy of a road user that is seen all the time, moved and extended; nothing for the others.
 fn driven(agent: &Value, copy: usize, shift: [f64; 2], steps: usize) -> Option<Value> {
     let mut agent = agent.clone();
     let count = agent["track"]["x_m"].as_array()?.len();

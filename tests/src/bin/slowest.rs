@@ -1,9 +1,9 @@
-//! `slowest [--tries N] [--seed S]`: looks for the slowest valid request within the limits, and for what a drag takes
-//! beside it. `cargo xtask slowest` builds it and runs it.
+//! `slowest [--tries N] [--seed S]`: searches for the slowest valid request within the limits, and measures
+//! drags at the same time. `cargo xtask slowest` builds and runs it.
 //!
-//! Each kind of request is tried at its limits first. Then the slowest ones are changed at random, and a change that
-//! takes longer is kept. A request counts by the core time that the server spends on it, so that other work on the
-//! machine does not matter; a drag counts by the clock.
+//! Each kind of request is first tried at its limits. Then the slowest ones are changed at random, and a
+//! change that takes longer is kept. A request counts by the core time that the server spends on it, so that
+//! other work on the machine does not matter; a drag counts by the clock.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -15,17 +15,17 @@ use serde_json::{Value, json};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Most core time of a request, seconds.
+/// Greatest core time of a request, seconds.
 const MOST_S: f64 = 10.0;
-/// Most time of 19 of 20 drags beside it, milliseconds, on a quiet machine.
+/// Greatest time of 19 of 20 concurrent drags, milliseconds, on a quiet machine.
 const DRAG_MS: f64 = 100.0;
-/// Time between two drags: those of a hand.
+/// Time between two drags, as by hand.
 const PAUSE: Duration = Duration::from_millis(16);
 
-/// Most core time of a search: it ends by the clock, and lets smaller calls go first after each try.
+/// Greatest core time of a search: it ends by the clock, and yields to smaller calls after each try.
 const SEARCH_S: f64 = 60.0;
 
-/// Numbers that make a request, each with its most.
+/// Numbers that make a request, each with its range.
 struct Kind {
     name: &'static str,
     path: &'static str,
@@ -102,7 +102,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "begin of a run", path: "/v1/runs", ranges: &[(2, 128), (3, 600)], body: begin },
 ];
 
-/// Name of the kind with a bound of its own.
+/// Name of the kind with its own bound.
 const SEARCH: &str = "tries of a search";
 
 fn with_lanes(agents: usize, lanes: Vec<Value>) -> Value {
@@ -121,7 +121,7 @@ fn lane(id: String, points: Vec<[f64; 2]>) -> Value {
     json!({"id": id, "type": "surface_street", "points_m": points})
 }
 
-/// So many lanes of so many points anywhere on a square of this side.
+/// Lanes with points anywhere on a square of this side.
 fn tangle(n: &[u64]) -> Value {
     let [lanes, points, side_m] = [n[0], n[1], n[2]];
     let mut random = Random::new(7);
@@ -130,8 +130,8 @@ fn tangle(n: &[u64]) -> Value {
     one(with_lanes(2, lanes.collect()))
 }
 
-/// Lanes to and fro across a square of this side, every other one at a right angle, so that each piece of one crosses
-/// all pieces of its neighbours; under and beside so many cars.
+/// Lanes to and fro across a square of this side, alternately at right angles, so that each piece of one
+/// crosses all pieces of its neighbours; cars are on and beside them.
 fn combs(n: &[u64]) -> Value {
     let (lanes, points, side_m, agents) = (n[0], n[1], n[2] as f64, n[3] as usize);
     let at = |i: u64, k: u64| {
@@ -156,7 +156,7 @@ fn filled_pile(n: &[u64]) -> Value {
     json!({"scene": piled(n), "density": {"count": 100}})
 }
 
-/// Stars of so many corners at one place, under so many cars.
+/// Stars with that many corners at one place, under that many cars.
 fn areas(n: &[u64]) -> Value {
     let mut scene = street(n[2] as usize, 91);
     let star = |_| {
@@ -193,7 +193,7 @@ fn file(n: &[u64]) -> Value {
 }
 
 fn crowd(n: &[u64]) -> Value {
-    // Below the largest reply that is allowed, where this would be larger. More modes leave room for fewer samples.
+    // Keeps the reply below its greatest size. More modes leave room for fewer samples.
     let steps = n[3].min(400_000 / (n[0] * n[1] * n[2])).max(1);
     json!({"scene": street(n[0] as usize, 11), "agents": "all", "samples": n[1], "modes": n[2], "steps": steps})
 }
@@ -206,7 +206,7 @@ fn goals(n: &[u64]) -> Value {
     json!({"scene": street(n[0] as usize, 11), "agents": "all", "conditions": conditions})
 }
 
-/// Cars that drive through each other: so many metres between them.
+/// Cars that drive through each other, with this distance between them.
 fn score(n: &[u64]) -> Value {
     let mut scene = street(0, n[1] as usize);
     let near = |i: u64| {
@@ -225,7 +225,7 @@ fn long(n: &[u64]) -> Value {
     street(n[0] as usize, n[1] as usize)
 }
 
-/// Tries among so many road users, of so many seconds, towards what never happens.
+/// A search with that many tries, road users and seconds, for an event that never happens.
 fn search(n: &[u64]) -> Value {
     let situation = json!({"template": "cut-in", "parameters": {"gap_m": {"uniform": [2, 8]}}});
     json!({"scene": street(n[0] as usize, 20), "where": "collisions > 1000000", "tries": n[1],
@@ -236,7 +236,7 @@ fn begin(n: &[u64]) -> Value {
     json!({"scene": street(n[0] as usize, n[1] as usize), "egos": ["0"]})
 }
 
-/// What a request came to.
+/// Measurements of a request.
 struct Tried {
     kind: usize,
     numbers: Vec<u64>,
@@ -249,7 +249,7 @@ struct Tried {
 }
 
 impl Tried {
-    /// The time of 19 of 20 drags beside it; `None` with fewer.
+    /// The time of 19 of 20 concurrent drags; `None` with fewer drags.
     fn p95_ms(&self) -> Option<f64> {
         let mut sorted = self.drags_ms.clone();
         sorted.sort_by(f64::total_cmp);
@@ -268,7 +268,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether all requests keep to their time.
+/// Whether all requests stay within their time.
 fn run() -> anyhow::Result<bool> {
     let (mut tries, mut seed) = (24, 1);
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -283,7 +283,7 @@ fn run() -> anyhow::Result<bool> {
     server.wait_ready()?;
     let mut all = Vec::new();
     for (kind, of_kind) in KINDS.iter().enumerate() {
-        // At the limits; where those together are refused, each number is lowered in turn.
+        // At the limits; if all limits together are refused, each number is lowered in turn.
         let mut numbers: Vec<u64> = of_kind.ranges.iter().map(|(_, most)| *most).collect();
         for round in 0..8 * numbers.len() {
             let tried = attempt(&server, kind, &numbers)?;
@@ -299,7 +299,7 @@ fn run() -> anyhow::Result<bool> {
     let mut random = Random::new(seed);
     for _ in 0..tries {
         all.sort_by(|a, b| b.core_s.total_cmp(&a.core_s));
-        // One of the slowest, with one number changed.
+        // One of the slowest requests, with one number changed.
         let Some(parent) = all.iter().filter(|tried| tried.status == 200).nth(random.index(4)) else { break };
         let (kind, mut numbers) = (parent.kind, parent.numbers.clone());
         let at = random.index(numbers.len());
@@ -312,7 +312,7 @@ fn run() -> anyhow::Result<bool> {
     Ok(report(&all))
 }
 
-/// Sends a request, and drags beside it.
+/// Sends a request, and drags at the same time.
 fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Tried> {
     let of_kind = &KINDS[kind];
     let body = serde_json::to_vec(&(of_kind.body)(numbers))?;
@@ -335,7 +335,7 @@ fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Trie
     let seconds = began.elapsed().as_secs_f64();
     let reply = asked.join().map_err(|_| anyhow::anyhow!("the request broke off"))??;
     let busy_s = server.core_s()? - before;
-    // Drags beside it take core time too: that of as many alone.
+    // The drags take core time too: subtract the time of as many drags alone.
     let before = server.core_s()?;
     let alone = of_drags.min(20);
     (0..alone).try_for_each(|_| server.send(&drag).map(drop))?;
@@ -363,7 +363,7 @@ fn line(tried: &Tried) -> String {
     format!("{core_s:7.2} {seconds:7.2} {drag:>7} {kilobytes:7} {status:4} {name} {:?} {code}", tried.numbers)
 }
 
-/// Prints the table; whether the bounds hold.
+/// Prints the table; returns whether the bounds hold.
 fn report(all: &[Tried]) -> bool {
     println!(" core s  wall s drag ms      kB");
     all.iter()

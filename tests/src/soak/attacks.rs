@@ -1,6 +1,6 @@
-//! Clients that each took the server down once, beside those of all sorts, with an end to its memory: maps of lanes that
-//! cross, pings that are not read, links of all to all, scenes held with letters of no use, refused connections that
-//! stay, forms of many parts, lines that are full, the longest work that is allowed.
+//! Attacks that each took the server down once, run beside all kinds of clients with bounded memory. They are
+//! maps of crossing lanes, unread pings, links between all lanes, held scenes with useless members, refused
+//! connections that stay open, forms of many parts, full lines, and the longest allowed work.
 
 use super::Tell;
 use super::clients::{ClientTask, Common, Report, all_sorts};
@@ -17,14 +17,14 @@ use std::time::{Duration, Instant};
 
 /// Memory that the server may use (`--memory`).
 const MEMORY: &str = "1g";
-/// Address space that the system gives it (`ulimit -v`), kB: memory, and what is reserved for stacks.
+/// Address space of the server (`ulimit -v`), kB: its memory, and the space reserved for stacks.
 const ADDRESS_SPACE_KB: u64 = 1_600_000;
-/// Last number of the attackers' addresses: each is a party of its own.
+/// Last number of the first attacker's address: each attacker is its own party.
 const FIRST_ADDRESS: u8 = 10;
 
 type Attack = fn(&Attacker<'_>, &mut Random) -> anyhow::Result<()>;
 
-/// All attacks, each from an address of its own.
+/// All attacks, each from its own address.
 const ATTACKS: &[(&str, Attack)] = &[
     ("crossing", crossing),
     ("pings", pings),
@@ -43,10 +43,10 @@ struct Attacker<'a> {
     common: &'a Common,
 }
 
-/// Runs clients of all sorts and all attacks for a given time.
+/// Runs all kinds of clients and all attacks for a given time.
 ///
 /// # Errors
-/// If a reply is not one that its client may get, or the server ends.
+/// If a client gets a reply that it must not get, or the server ends.
 pub fn attacks(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     let folder = tempfile::tempdir()?;
     let mut command = Command::new("sh");
@@ -88,7 +88,7 @@ impl Attacker<'_> {
         Ok(stream)
     }
 
-    /// Sends a request; the reply has one of these codes, if it is a refusal. A connection may be closed on it.
+    /// Sends a request; a refusal must have one of these codes. The server may close the connection after it.
     fn ask(&self, request: &Request, allowed: &[&str]) -> anyhow::Result<()> {
         let mut stream = self.connect()?;
         let _ = stream.write_all(&request.bytes(self.common.address()));
@@ -103,7 +103,7 @@ impl Attacker<'_> {
         Ok(())
     }
 
-    /// Opens a line.
+    /// Opens a line (a WebSocket).
     fn line(&self) -> anyhow::Result<Option<TcpStream>> {
         let mut stream = self.connect()?;
         let request = Request::new("GET", "/v1/generate").keep().header("connection", "Upgrade");
@@ -136,7 +136,7 @@ const TEXT: u8 = 1;
 const CLOSE: u8 = 8;
 const PING: u8 = 9;
 
-/// Lanes of points anywhere on a square, new each time.
+/// Lanes with points anywhere on a square, new each time.
 fn crossing(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let (lanes, side_m) = (2 + random.below(4), 40.0 + random.below(40) as f64);
     let mut at = || side_m * (random.below(10_000) as f64 / 10_000.0 - 0.5);
@@ -150,7 +150,7 @@ fn crossing(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> 
     attacker.ask(&Request::new("POST", "/v1/generate").json(&body), &["map-too-complex", "generate-timeout"])
 }
 
-/// Pings as fast as they go, and nothing read.
+/// Sends pings as fast as possible, and reads nothing.
 fn pings(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let Some(mut line) = attacker.line()? else { return Ok(()) };
     let (ping, began) = (frame(PING, &[b'x'; 125]).repeat(64), Instant::now());
@@ -159,7 +159,7 @@ fn pings(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A map of lanes with as many links as are allowed, or more, as a file.
+/// A file with a map whose lanes have as many links as are allowed, or more.
 fn links(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let (lanes, links) = (300 + random.below(1_700), 20 + random.below(60));
     let lane = |i: u64| {
@@ -174,7 +174,7 @@ fn links(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     attacker.ask(&export, &["map-too-complex", "reply-too-large", "generate-timeout"])
 }
 
-/// Scenes that are held, each with members that no answer depends on.
+/// Held scenes, each with members that no reply depends on.
 fn holds(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let mut body = generate(2);
     (body["hold"], body["steps"], body["seed"]) = (json!(true), json!(1), json!(random.below(1 << 30)));
@@ -182,7 +182,7 @@ fn holds(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     attacker.ask(&Request::new("POST", "/v1/generate").json(&body), &[])
 }
 
-/// Connections that are refused and stay.
+/// Refused connections that stay open.
 fn places(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let ask = json!({"scene_id": "demo-crossing", "agents": ["5"], "score": false, "futures": "compact"});
     let request = Request::new("POST", "/v1/generate").keep().json(&ask);
@@ -199,7 +199,7 @@ fn places(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A form of many empty parts before its file.
+/// A form with many empty parts before its file.
 fn parts(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let name = if random.below(2) == 0 { "" } else { "file" };
     let part = format!("--b\r\ncontent-disposition: form-data; name=\"{name}\"; filename=\"f\"\r\n\r\n\r\n");
@@ -208,7 +208,7 @@ fn parts(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     attacker.ask(&form.body(format!("{}--b--\r\n", part.repeat(50_000))), &["invalid-field"])
 }
 
-/// A line with more questions than it may have open, given up or closed without a word read.
+/// A line with more questions than may be open, abandoned or closed before any reply is read.
 fn full_line(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let Some(mut line) = attacker.line()? else { return Ok(()) };
     let mut body = generate(12);
@@ -227,7 +227,7 @@ fn full_line(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()>
     Ok(())
 }
 
-/// All of many road users, many times.
+/// Many generations of all of many road users.
 fn long_work(attacker: &Attacker<'_>, random: &mut Random) -> anyhow::Result<()> {
     let mut body = generate(16 + random.below(40) as usize);
     (body["agents"], body["samples"], body["score"]) =

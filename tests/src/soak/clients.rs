@@ -17,23 +17,23 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Memory is read this often.
+/// Time between two readings of the memory.
 const EVERY: Duration = Duration::from_secs(5);
-/// In the second half memory may rise by this part of itself...
+/// In the second half, memory may rise by this share...
 const RISE_SHARE: f64 = 0.05;
-/// ...and by so many bytes: pages that the allocator holds back.
+/// ...and by this many bytes, for pages that the allocator retains.
 const RISE_BYTES: f64 = 8e6;
-/// Bounds of the counted latencies rise by this factor.
+/// Ratio of successive latency bounds.
 const STEP: f64 = 1.2;
 
 /// Counts of the clients.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Run, seconds.
+    /// Duration, seconds.
     pub seconds: f64,
     /// Replies by client, status and code.
     pub replies: BTreeMap<(&'static str, u16, String), u64>,
-    /// Replies of success by client and time: the k-th count is of those up to 0.1 ms x `STEP`^k.
+    /// Successful replies by client and time: the k-th count is of those up to 0.1 ms x `STEP`^k.
     times: BTreeMap<&'static str, Vec<u64>>,
     /// Memory of the server, one reading every five seconds, bytes.
     pub memory: Vec<f64>,
@@ -68,7 +68,7 @@ const CLIENTS: &[Client] = &[
 /// Runs all clients for a given time.
 ///
 /// # Errors
-/// If a reply is not one that its client may get, or the server ends.
+/// If a client gets a reply that it must not get, or the server ends.
 pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     let server = Server::with_demos()?;
     server.wait_ready()?;
@@ -83,7 +83,7 @@ pub fn clients(time: Duration, seed: u64, tell: Tell<'_>) -> anyhow::Result<Repo
     Ok(report)
 }
 
-/// Work of all clients that only read.
+/// The work of all clients that only read.
 pub(super) fn all_sorts<'a>(seed: u64) -> Vec<ClientTask<'a>> {
     let task = |(number, (name, client)): (usize, &'static Client)| -> ClientTask<'a> {
         let random = Random::of_part(seed, number as u64);
@@ -96,18 +96,18 @@ pub(super) fn all_sorts<'a>(seed: u64) -> Vec<ClientTask<'a>> {
 pub(super) type ClientTask<'a> = Box<dyn FnOnce(&Common) -> anyhow::Result<()> + Send + 'a>;
 
 impl Common {
-    /// Of clients of one server.
+    /// The common state of clients of one server.
     pub(super) fn of(address: SocketAddr) -> Self {
         Self { address, over: AtomicBool::new(false), revisions: AtomicU64::new(0), report: Mutex::default() }
     }
 
-    /// The trial is over.
+    /// Whether the trial is over.
     pub(super) fn is_over(&self) -> bool {
         self.over.load(Ordering::Relaxed)
     }
 
-    /// Runs clients for a given time, each in a thread of its own, and reads the memory of the server. The first
-    /// failure stops all.
+    /// Runs clients for a given time, each in its own thread, and reads the memory of the server. The first
+    /// failure stops all of them.
     pub(super) fn work(
         self,
         server: &Server,
@@ -167,18 +167,18 @@ impl Common {
         done
     }
 
-    /// The server's.
+    /// Address of the server.
     pub(super) fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Notes what came of a request that somebody else has sent.
+    /// Counts the result of a request that another client has sent.
     pub(super) fn note(&self, name: &'static str, status: u16, code: &str) {
         let mut report = self.report.lock().unwrap_or_else(PoisonError::into_inner);
         *report.replies.entry((name, status, code.to_owned())).or_default() += 1;
     }
 
-    /// Sends a request and notes what came of it; the reply when it is one of success.
+    /// Sends a request and counts its result; returns the reply if it succeeded.
     pub(super) fn ask(
         &self,
         name: &'static str,
@@ -233,7 +233,7 @@ fn drag(common: &Common, random: &mut Random) -> anyhow::Result<()> {
         let request =
             Request::new("POST", "/v1/generate").header("accept", "application/x-ndjson").json(&body);
         match random.below(5) {
-            // The next revision comes before this one has its answer.
+            // The next revision is sent before this one has its reply.
             0 => left = Some(request.open(common.address)?),
             1 => {
                 left = Some(request.open(common.address)?);
@@ -241,7 +241,7 @@ fn drag(common: &Common, random: &mut Random) -> anyhow::Result<()> {
                 common.ask("cancel", &cancel, &[])?;
             }
             _ => {
-                // An older one that is read late finds this one before it.
+                // An older revision that is read late finds this one before it.
                 common.ask("drag", &request, &["superseded", "stale-revision"])?;
             }
         }
@@ -261,7 +261,7 @@ fn leave(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let stream = Request::new("POST", "/v1/generate").json(&body).open(common.address)?;
     std::thread::sleep(Duration::from_millis(random.below(80)));
     if random.below(2) == 0 {
-        // One that says goodbye in order may have closed its end already.
+        // The server may have closed its end in order already.
         let _ = stream.shutdown(Shutdown::Both);
     }
     Ok(())
@@ -291,7 +291,7 @@ fn score(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     common.ask("score", &Request::new("POST", "/v1/score").json(&body), &[]).map(drop)
 }
 
-/// A file comes in, is looked at, and goes.
+/// A file is imported, read and deleted.
 fn import(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let file = street(1 + random.below(10) as usize, 30).to_string();
     let request = Request::new("POST", "/v1/import?format=dragtraffic")
@@ -319,7 +319,7 @@ fn export(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     common.ask("export", &request, &["cannot-represent"]).map(drop)
 }
 
-/// A body that comes a byte at a time, and then not at all.
+/// A body that is sent a byte at a time, and then stops.
 fn slow(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let path = ["/v1/generate", "/v1/import", "/v1/scenes"][random.below(3) as usize];
     let request =
@@ -357,14 +357,14 @@ fn half(common: &Common, random: &mut Random) -> anyhow::Result<()> {
         1 => b"GET /v1/info HTTP/1.1\r\nhost:".to_vec(),
         _ => b"POST /v1/generate HTTP/1.1\r\nhost: localhost\r\ncontent-length: 99999999999\r\n\r\n".to_vec(),
     };
-    // The server may refuse before all is written.
+    // The server may refuse before the whole request is written.
     let _ = stream.write_all(&bytes);
     std::thread::sleep(Duration::from_millis(random.below(200)));
     Ok(())
 }
 
 impl Report {
-    /// Holds the second half of the run against a flat line.
+    /// Checks that memory stays flat in the second half of the run.
     ///
     /// # Errors
     /// When memory rises by more than the tolerance.
@@ -380,7 +380,7 @@ impl Report {
         Ok(())
     }
 
-    /// The time within which so large a part of a client's replies came, seconds.
+    /// The time within which this share of a client's replies came, seconds.
     fn within(&self, name: &str, share: f64) -> f64 {
         let Some(counts) = self.times.get(name) else { return f64::NAN };
         let wanted = (counts.iter().sum::<u64>() as f64 * share).ceil() as u64;

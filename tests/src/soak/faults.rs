@@ -1,5 +1,4 @@
-//! Faults of the disk under a busy server: it reports them, stays up, loses nothing, and recovers with the
-//! disk.
+//! Disk faults under a busy server: it reports them, stays up, loses nothing, and recovers with the disk.
 
 use super::Tell;
 use crate::faults::{Call, Disk, Fault, How};
@@ -12,17 +11,17 @@ use anyhow::{Context, bail, ensure};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Writers that take turns: the calls of a round come in one order.
+/// Number of writers. They take turns, so that the calls of a round come in one order.
 const WRITERS: u64 = 3;
-/// Most changes in which a fault is waited for.
+/// Greatest number of changes until a fault must occur.
 const CHANGES: usize = 40;
-/// A fault that lasts is met by so many changes.
+/// Number of changes that a lasting fault meets.
 const REFUSED: usize = 3;
 
 /// Counts of a trial.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Report {
-    /// Rounds, each with one fault or a run of them.
+    /// Rounds, each with one fault or a series of faults.
     pub rounds: u64,
     /// Calls that failed.
     pub failed: u64,
@@ -48,10 +47,10 @@ struct Trial {
     report: Report,
 }
 
-/// Lets so many calls fail, in as many rounds as that takes.
+/// Runs rounds until this many calls have failed.
 ///
 /// # Errors
-/// When the server loses something, falls, is not what `/readyz` says, or answers otherwise than it promises.
+/// When the server loses something, ends, or replies against its contract or against `/readyz`.
 pub fn faults(count: u64, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     let folder = tempfile::tempdir()?;
     std::fs::create_dir(folder.path().join("data"))?;
@@ -181,7 +180,7 @@ impl Trial {
         }
     }
 
-    /// The disk is well again: so is the server, at once, and nothing is lost.
+    /// After the repair of the disk, the server recovers at once, and nothing is lost.
     fn recovers(&mut self) -> anyhow::Result<()> {
         self.disk.well()?;
         let ready = self.server()?.get("/readyz")?;
@@ -198,7 +197,7 @@ impl Trial {
         })
     }
 
-    /// A server starts on a failing disk: it starts, or reports why it cannot.
+    /// A server starts on a failing disk, or reports why it cannot.
     fn at_the_start(&mut self) -> anyhow::Result<()> {
         self.server.take().context("no server")?.kill()?;
         let fault = Fault { before: self.random.below(6), ..Fault::drawn(&mut self.random) };
@@ -210,7 +209,7 @@ impl Trial {
         self.restart().with_context(|| format!("{fault}, at the start"))
     }
 
-    /// A copy is taken on a disk that fails: there is a sound one, or none, and nothing half made.
+    /// The store is copied on a failing disk: the result is a complete copy or none.
     fn at_a_copy(&mut self) -> anyhow::Result<()> {
         let copies = self.folder.path().join("copies");
         std::fs::create_dir_all(&copies)?;
@@ -233,7 +232,7 @@ impl Trial {
             self.report.copies_refused += 1;
         }
         let left = names(&copies)?;
-        // A name may be in place before the disk refuses to confirm it: then the file is whole.
+        // A name may exist before the disk refuses to confirm it: then the file is complete.
         for name in left.iter().filter(|name| *name == "copy.sqlite") {
             writers::sound(&copies.join(name))?;
             std::fs::remove_file(copies.join(name))?;
@@ -242,7 +241,7 @@ impl Trial {
         Ok(())
     }
 
-    /// Scenes of the store and of the data folder are read on a disk that fails.
+    /// Scenes of the store and of the data folder are read on a failing disk.
     fn at_a_read(&mut self) -> anyhow::Result<()> {
         let before = self.random.below(3);
         self.disk.fails(Fault { call: Call::Read, how: How::Broken, before, failing: 2 })?;

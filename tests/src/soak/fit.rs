@@ -1,4 +1,4 @@
-//! A straight line through readings.
+//! Fits a straight line to readings.
 
 /// Rise of a line fitted to equidistant readings, from the first to the last.
 pub fn rise(readings: &[f64]) -> f64 {

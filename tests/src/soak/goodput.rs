@@ -1,4 +1,4 @@
-//! Goodput of clients who obey a refusal, beside that of clients who ask again at once.
+//! Goodput of clients that obey a refusal, compared with clients that retry at once.
 
 use super::Tell;
 use crate::http::{Reply, Request, connect_from};
@@ -12,15 +12,15 @@ use std::net::SocketAddr;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Least goodput of those who obey, as a part of that of those who do not.
+/// Least goodput of obedient clients, as a share of that of the others.
 const LEAST: f64 = 0.9;
-/// Rounds of a kind, each with all manners in turn, so that other work on the machine does not favour one.
+/// Rounds of a kind. Each has all manners in turn, so that other work on the machine favours none.
 const ROUNDS: usize = 3;
 
-/// What a client does after a refusal.
+/// Behaviour of a client after a refusal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Manner {
-    /// Asks again at once.
+    /// Retries at once.
     Restless,
     /// Waits for `retry_after_ms`.
     Exact,
@@ -30,7 +30,7 @@ enum Manner {
 
 const MANNERS: [Manner; 3] = [Manner::Restless, Manner::Exact, Manner::Seconds];
 
-/// Clients of one sort; each has an address of its own.
+/// Clients of one kind; each has its own address.
 struct CrowdKind {
     name: &'static str,
     clients: u8,
@@ -74,12 +74,12 @@ impl Tally {
     }
 }
 
-/// Answers a second by kind, of each manner.
+/// Replies per second by kind, for each manner.
 #[derive(Debug, Default)]
 pub struct GoodputReport(Vec<(&'static str, [Tally; MANNERS.len()])>);
 
 impl GoodputReport {
-    /// Compares those who wait as exactly as they are told with those who do not wait.
+    /// Compares clients that wait exactly as told with those that do not wait.
     ///
     /// # Errors
     /// When they have less than nine tenths of the goodput.
@@ -110,7 +110,7 @@ impl fmt::Display for GoodputReport {
     }
 }
 
-/// Lets clients of each kind ask for so long in each manner.
+/// Runs the clients of each kind for this time in each manner.
 ///
 /// # Errors
 /// When the server fails.
@@ -155,7 +155,7 @@ fn ask_for(server: SocketAddr, kind: &CrowdKind, manner: Manner, time: Duration)
     Tally { seconds, answered: answered.into_inner(), refused: refused.into_inner() }
 }
 
-/// Sends a request over and over on one connection, until the server ends it.
+/// Sends a request repeatedly on one connection until the server closes it.
 fn converse(
     server: SocketAddr,
     (from, request): (u8, &[u8]),

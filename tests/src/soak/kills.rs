@@ -1,5 +1,5 @@
-//! Kills at any moment during the work of six writers, every other one while the disk fails: answered writes are stored,
-//! and every other write is stored wholly or not at all.
+//! Kills at any moment while six writers work, every other one while the disk fails: acknowledged writes are
+//! stored, and every other write is stored completely or not at all.
 
 use super::Tell;
 use crate::faults::{Disk, Fault};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::Duration;
 
-/// Writers at work.
+/// Number of writers.
 const WRITERS: u64 = 6;
 /// A kill comes within this time after the start, milliseconds.
 const WITHIN_MS: u64 = 300;
@@ -21,7 +21,7 @@ const WITHIN_MS: u64 = 300;
 pub struct KillReport {
     /// Kills.
     pub kills: u64,
-    /// Those that came after a call to the disk had failed.
+    /// Kills after a failed call to the disk.
     pub on_a_failing_disk: u64,
     /// Counts of the writers.
     pub writes: Tally,
@@ -35,10 +35,10 @@ struct Trial {
     report: KillReport,
 }
 
-/// Kills so often, each time at a moment of its own, and compares after each.
+/// Kills the server this many times, each at a random moment, and compares the store after each.
 ///
 /// # Errors
-/// When something that was answered is lost, or the file is damaged.
+/// When an acknowledged write is lost, or the file is damaged.
 pub fn kills(count: u64, seed: u64, tell: Tell<'_>) -> anyhow::Result<KillReport> {
     let folder = tempfile::tempdir()?;
     let (db, disk) = (folder.path().join("scenes.sqlite"), Disk::of(folder.path())?);
@@ -78,7 +78,7 @@ impl Trial {
         Ok(())
     }
 
-    /// Starts on what a kill has left, and compares.
+    /// Starts a server on the files that a kill has left, and compares.
     fn reopened(&mut self) -> anyhow::Result<Server> {
         let mut command = Server::command(&self.db, &[]);
         command.stderr(self.disk.log()?);
@@ -91,7 +91,7 @@ impl Trial {
     }
 }
 
-/// Kills while what the last kill left is put in order.
+/// Kills a server while it recovers from the last kill.
 fn killed_at_the_start(db: &Path, after: Duration) -> anyhow::Result<()> {
     let mut child = Server::command(db, &[]).stdin(Stdio::null()).stdout(Stdio::null()).spawn()?;
     std::thread::sleep(after);

@@ -1,5 +1,6 @@
-//! Fifty users of one server for a given time, each with a token: some drag, more edit and save, as many read, some run
-//! scripts. Every reply must follow the document, no save may be lost, and memory must not grow.
+//! Fifty users of one server for a given time, each with a token: some drag, more edit and save, as many
+//! read, some run scripts. Every reply must follow the document, no save may be lost, and memory must not
+//! grow.
 
 use super::Tell;
 use super::clients::{ClientTask, Common, Report};
@@ -11,7 +12,7 @@ use anyhow::{Context, ensure};
 use serde_json::{Value, json};
 use std::time::Duration;
 
-/// Time between two questions of a hand.
+/// Time between two requests of a drag by hand.
 const HAND: Duration = Duration::from_millis(16);
 
 /// A user with its token, who works until the trial is over.
@@ -70,12 +71,12 @@ impl LiveUser {
         request.header("authorization", &format!("Bearer {}", self.token))
     }
 
-    /// Sends a request; the body of the reply where it is one of success.
+    /// Sends a request; returns the body of the reply if it succeeded.
     fn ask(&self, common: &Common, what: &'static str, request: Request) -> anyhow::Result<Option<Value>> {
         Ok(common.ask(what, &self.as_user(request), &[])?.map(|reply| reply.json()))
     }
 
-    /// Looks and thinks for up to so many seconds.
+    /// Waits for up to this many seconds, as a user who reads.
     fn think(&mut self, common: &Common, seconds: u64) {
         let mut left = self.random.below(1_000 * seconds);
         while left > 0 && !common.is_over() {
@@ -86,7 +87,7 @@ impl LiveUser {
     }
 }
 
-/// Moves a goal for two to six seconds, and looks at the result.
+/// Moves a goal for two to six seconds, and views the result.
 fn drag(user: &mut LiveUser, common: &Common) -> anyhow::Result<()> {
     let steps = 120 + user.random.below(250);
     for step in 0..steps {
@@ -123,7 +124,7 @@ fn edit(user: &mut LiveUser, common: &Common) -> anyhow::Result<()> {
         let body = json!({"scene_id": id, "agents": ["0"]});
         user.ask(common, "generate", Request::new("POST", "/v1/generate").json(&body))?;
     }
-    // A busy server keeps it: a few scenes are left behind.
+    // A busy server may refuse: a few scenes remain.
     user.ask(common, "delete", Request::new("DELETE", &path).header("if-match", &etag))?;
     Ok(())
 }
@@ -132,7 +133,7 @@ fn word(reply: &Value, name: &str) -> anyhow::Result<String> {
     Ok(reply[name].as_str().with_context(|| format!("no {name}: {reply}"))?.to_owned())
 }
 
-/// Looks through the list, and at a scene in one way or another.
+/// Reads the list, and a scene in one of several forms.
 fn read(user: &mut LiveUser, common: &Common) -> anyhow::Result<()> {
     user.ask(common, "list", Request::new("GET", "/v1/scenes?limit=50"))?;
     user.think(common, 4);
@@ -148,7 +149,7 @@ fn read(user: &mut LiveUser, common: &Common) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Steps a run without pause, and asks for all road users in several samples.
+/// Steps a run without pause, and generates all road users in several samples.
 fn script(user: &mut LiveUser, common: &Common) -> anyhow::Result<()> {
     let begin = json!({"scene": street(6, 20), "egos": ["0"], "seed": user.random.below(1_000)});
     let Some(run) = user.ask(common, "begin", Request::new("POST", "/v1/runs").json(&begin))? else {

@@ -1,5 +1,5 @@
 //! Open-ended trials: the real program under load, kills and failing disks, compared with its replies. Each
-//! runs for a given time; the tests run short ones.
+//! trial runs for a given time; the tests run short ones.
 
 pub mod attacks;
 pub mod clients;

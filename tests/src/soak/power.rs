@@ -1,5 +1,5 @@
-//! Power cuts during the work of six writers, at the start, during copies and their return: what was answered is on the
-//! disk, whatever the disk made of that which was not synced.
+//! Power cuts while six writers work, at the start, during copies and while a copy is restored: acknowledged
+//! writes are on the disk, whatever unsynced changes the disk has kept.
 
 use super::Tell;
 use crate::faults::Disk;
@@ -13,15 +13,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Writers at work.
+/// Number of writers.
 const WRITERS: u64 = 6;
-/// The power goes with one of so many changes of files; a saved scene takes about ten.
+/// The power fails at one of this many changes of files; saving a scene takes about ten.
 const CHANGES: u64 = 600;
-/// The same where little is written: at the start, and by a copy.
+/// The same for phases with few writes: the start, and a copy.
 const FEW_CHANGES: u64 = 60;
-/// The power goes at the latest after this time.
+/// The power fails at the latest after this time.
 const WITHIN: Duration = Duration::from_secs(2);
-/// Time in which a server that writes comes to its next change.
+/// Time until a writing server makes its next change.
 const NEXT_CHANGE: Duration = Duration::from_millis(300);
 
 /// Counts of a trial.
@@ -29,11 +29,11 @@ const NEXT_CHANGE: Duration = Duration::from_millis(300);
 pub struct PowerReport {
     /// Cuts.
     pub cuts: u64,
-    /// Those at the start of the server.
+    /// Cuts at the start of the server.
     pub at_the_start: u64,
-    /// Those during a copy of the store.
+    /// Cuts during a copy of the store.
     pub at_a_copy: u64,
-    /// Those during the return to a copy.
+    /// Cuts while a copy is restored.
     pub at_a_return: u64,
     /// Changes of files.
     pub changes: u64,
@@ -51,10 +51,11 @@ struct Trial {
     report: PowerReport,
 }
 
-/// Cuts the power so often, and compares after each time. A disk that lies says that it has synced, and has not.
+/// Cuts the power this many times, and compares the store after each. With `lies`, the disk reports syncs
+/// that it did not make.
 ///
 /// # Errors
-/// When something that was answered is lost, a file is damaged, or the server does not start.
+/// When an acknowledged write is lost, a file is damaged, or the server does not start.
 pub fn power(count: u64, seed: u64, lies: bool, tell: Tell<'_>) -> anyhow::Result<PowerReport> {
     let folder = tempfile::tempdir()?;
     let (disk, model) = (Disk::with_journal(folder.path())?, DiskModel::of(folder.path())?);
@@ -100,7 +101,7 @@ impl Trial {
         self.disk.power_goes(1 + self.random.below(within))
     }
 
-    /// A program that uses the disk; what it says is kept apart.
+    /// A program that uses the disk; its output is kept apart.
     fn on_the_disk(&self, mut command: Command) -> anyhow::Result<Command> {
         self.disk.put_under(&mut command)?;
         command.stdin(Stdio::null()).stderr(self.disk.log()?);
@@ -111,7 +112,7 @@ impl Trial {
         self.on_the_disk(Server::command(&self.db(), &[]))
     }
 
-    /// Copies the store, or returns to the copy; true when that was reported.
+    /// Copies the store, or restores the copy; returns whether success was reported.
     fn tool(&self, name: &str, from: &Path, to: &Path) -> anyhow::Result<bool> {
         let mut command = Command::new(program());
         let (db, out) = (OsStr::new("--db"), OsStr::new("-o"));
@@ -123,7 +124,7 @@ impl Trial {
         Ok(self.on_the_disk(command)?.arg("--force").stdout(Stdio::null()).status()?.success())
     }
 
-    /// Starts on what a cut has left, and compares.
+    /// Starts a server on the files that a cut has left, and compares.
     fn reopened(&mut self) -> anyhow::Result<Server> {
         let server = Server::launch(self.server()?).context("the store cannot be opened")?;
         writers::compare(&mut self.crowd, &server)?;
@@ -132,7 +133,7 @@ impl Trial {
         Ok(server)
     }
 
-    /// No program runs any more: the files become what the disk has of them.
+    /// After the end of all programs, the files become those on the disk.
     fn power_is_gone(&mut self) -> anyhow::Result<()> {
         self.report.changes += self.model.replay(self.disk.journal()?)?;
         self.model.agrees(self.folder.path())?;
@@ -146,7 +147,7 @@ impl Trial {
         Ok(())
     }
 
-    /// While all writers work.
+    /// Cuts the power while all writers work.
     fn at_work(&mut self) -> anyhow::Result<()> {
         let server = self.reopened()?;
         self.power_goes(CHANGES)?;
@@ -161,7 +162,7 @@ impl Trial {
         self.power_is_gone()
     }
 
-    /// While what the last cut has left is put in order.
+    /// Cuts the power while the server recovers from the last cut.
     fn at_the_start(&mut self) -> anyhow::Result<()> {
         self.report.at_the_start += 1;
         self.power_goes(FEW_CHANGES)?;
@@ -172,7 +173,8 @@ impl Trial {
         self.power_is_gone()
     }
 
-    /// While the store is copied beside the server. A copy that was reported is there, and whole.
+    /// Cuts the power while the store is copied beside the server. A reported copy must exist and be
+    /// complete.
     fn at_a_copy(&mut self) -> anyhow::Result<()> {
         self.report.at_a_copy += 1;
         let server = self.reopened()?;
@@ -188,7 +190,7 @@ impl Trial {
         Ok(())
     }
 
-    /// While a copy takes the place of the store: it does so wholly, or not at all.
+    /// Cuts the power while a copy replaces the store: it does so completely, or not at all.
     fn at_a_return(&mut self) -> anyhow::Result<()> {
         self.report.at_a_return += 1;
         let server = self.reopened()?;
@@ -197,7 +199,7 @@ impl Trial {
         let (address, disk) = (server.address, &self.disk);
         let a_while = Duration::from_millis(100);
         writers::work_until(&mut self.crowd, address, a_while, writers::none, || ended(disk, server))?;
-        // What a killed server leaves in the log is put in order by the return itself.
+        // The restore itself recovers the log that a killed server leaves.
         self.power_goes(FEW_CHANGES)?;
         let is_made = self.tool("restore", &self.copy(), &self.db())?;
         self.power_is_gone()?;
@@ -222,7 +224,7 @@ fn ended(disk: &Disk, mut server: Server) -> anyhow::Result<()> {
     server.kill()
 }
 
-/// Scenes of a whole copy.
+/// Number of scenes in a complete copy.
 fn scenes(copy: &Path) -> anyhow::Result<usize> {
     writers::sound(copy)?;
     let connection = rusqlite::Connection::open_with_flags(copy, rusqlite::OpenFlags::SQLITE_OPEN_READ_ONLY)?;

@@ -1,4 +1,4 @@
-//! Schedules: steps drawn by one number, one after another, so that what went wrong can be done again.
+//! Schedules: steps drawn from one seed and run one after another, so that a failure can be reproduced.
 
 use super::Tell;
 use crate::faults::{Disk, Fault, How};
@@ -20,15 +20,15 @@ const WRITERS: u64 = 4;
 pub enum Step {
     /// A writer changes one of its scenes.
     Change(u64),
-    /// All writers work side by side for so many milliseconds.
+    /// All writers work in parallel for this many milliseconds.
     Crowd(u64),
-    /// Generates futures with this seed, the others reacting or not, and reads to the end.
+    /// Generates futures with this seed, with or without reacting road users, and reads to the end.
     Generate(u64, bool),
-    /// Generates futures; the reader disconnects after so many milliseconds.
+    /// Generates futures; the reader disconnects after this many milliseconds.
     Leave(u64),
-    /// Generates futures, and cancels them by their id after so many milliseconds.
+    /// Generates futures, and cancels them by their id after this many milliseconds.
     Cancel(u64),
-    /// A revision is overtaken by the next after so many milliseconds, as while dragging.
+    /// A revision is superseded by the next after this many milliseconds, as in a drag.
     Overtake(u64),
     /// A scene is scored.
     Score,
@@ -44,9 +44,9 @@ pub enum Step {
     Full,
     /// From now on the disk fails.
     Broken,
-    /// From now on the disk is well.
+    /// From now on the disk works.
     Well,
-    /// The server is killed while all writers work, after so many milliseconds, and started again.
+    /// The server is killed while all writers work, after this many milliseconds, and started again.
     Kill(u64),
     /// Stops the server, and starts it again.
     Stop,
@@ -54,7 +54,7 @@ pub enum Step {
     Compare,
 }
 
-/// The steps of a seed: always the same.
+/// The steps of a seed, always the same.
 pub fn steps(seed: u64) -> Vec<Step> {
     let mut random = Random::new(seed);
     let count = 20 + random.below(20);
@@ -82,7 +82,7 @@ pub fn steps(seed: u64) -> Vec<Step> {
         };
         match step {
             Step::Full | Step::Broken => is_well = false,
-            // A server that is started again gets a disk that is well.
+            // A restarted server gets a working disk.
             Step::Well | Step::Kill(_) | Step::Stop => is_well = true,
             _ => {}
         }
@@ -93,10 +93,10 @@ pub fn steps(seed: u64) -> Vec<Step> {
     steps
 }
 
-/// Goes through the schedules of so many seeds, this one the first; the number of steps.
+/// Runs the schedules of `count` seeds from `seed`; returns the number of steps.
 ///
 /// # Errors
-/// At the first step that does not end as it must, with the steps before it and what does them again.
+/// At the first step that fails, with the steps before it and the command that repeats them.
 pub fn schedules(count: u64, seed: u64, tell: Tell<'_>) -> anyhow::Result<u64> {
     let mut done = 0;
     for number in 0..count {
@@ -125,7 +125,7 @@ struct Stage {
     is_well: bool,
 }
 
-/// The disk refuses, or nothing does.
+/// Refusals that are allowed: those of a failing disk, or none.
 fn allowed(is_well: bool) -> fn(u16, &str) -> bool {
     if is_well { writers::none } else { writers::of_the_disk }
 }
@@ -224,7 +224,7 @@ impl Stage {
         }
     }
 
-    /// All writers at work for a while, and something beside them.
+    /// Runs all writers for a while, and something else at the same time.
     fn crowd(&mut self, ms: u64, beside: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
         let (address, after) = (self.server()?.address, Duration::from_millis(ms));
         let lost = writers::tally(&self.crowd).lost;
@@ -244,7 +244,7 @@ impl Stage {
         })
     }
 
-    /// A generation that takes a while, streamed.
+    /// A long streamed generation.
     fn long(&mut self, job: &str) -> (Request, String) {
         self.revision += 1;
         let job = format!("{job}-{}", self.revision);
@@ -287,7 +287,7 @@ impl Stage {
         self.nobody_works()
     }
 
-    /// Nothing goes on for callers that have left.
+    /// Checks that no work continues for callers that have left.
     fn nobody_works(&self) -> anyhow::Result<()> {
         let server = self.server()?;
         let load = || -> anyhow::Result<f64> {

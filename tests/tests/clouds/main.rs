@@ -1,4 +1,4 @@
-//! Batches in an object store: the bytes of a local run, whatever requests and answers are lost.
+//! Batches in an object store give the bytes of a local run, whatever requests and replies are lost.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -13,7 +13,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Every unit is a chunk: many moments between two objects.
+/// One chunk per unit: many moments between two objects.
 const PLAN: &str = r#"
 scenes = ["a.json"]
 seeds = 2
@@ -30,7 +30,7 @@ name = "speeds"
 agents = ["@vehicles"]
 goal = { ahead_m = 20, speed_mps = { choice = [6, 14] } }
 "#;
-/// Where the results go.
+/// Location of the results.
 const PLACE: &str = "s3://night/out";
 
 fn prepared() -> TempDir {
@@ -49,7 +49,7 @@ fn command(folder: &Path, store: &ObjectStore, arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs it, checks how it ended, and gives what went to stdout and to stderr.
+/// Runs the program, checks its exit code, and returns stdout and stderr.
 fn ends(folder: &Path, store: &ObjectStore, arguments: &[&str], code: i32) -> (String, String) {
     let output = command(folder, store, arguments).output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
@@ -83,7 +83,7 @@ fn local(folder: &Path, store: &ObjectStore) -> BTreeMap<String, Vec<u8>> {
 fn lost_requests_kills_and_a_second_process_change_no_byte() {
     let folder = prepared();
     let base = folder.path();
-    // Every third answer is lost after the write, every fifth request before it.
+    // Every third reply is lost after the write, every fifth request before it.
     let store = ObjectStore::start(|write| match write {
         n if n % 3 == 1 => WriteFault::AnswerLost,
         n if n % 5 == 2 => WriteFault::Refused,

@@ -1,4 +1,5 @@
-//! A double of S3: keeps objects in memory, answers `If-None-Match`, and loses requests and answers on demand.
+//! A test double of S3: keeps objects in memory, supports `If-None-Match`, and loses requests and replies on
+//! demand.
 
 use axum::Router;
 use axum::body::Bytes;
@@ -9,7 +10,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What happens to a request that writes.
+/// Fate of a request that writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WriteFault {
     /// It is done and answered.
@@ -20,7 +21,7 @@ pub enum WriteFault {
     AnswerLost,
 }
 
-/// Which fault the write of this number has, from 0.
+/// Fault of the write with this number, from 0.
 type Faults = Arc<dyn Fn(usize) -> WriteFault + Send + Sync>;
 
 #[derive(Default)]
@@ -42,7 +43,7 @@ pub struct ObjectStore {
 }
 
 impl ObjectStore {
-    /// Starts one.
+    /// Starts a store.
     ///
     /// # Errors
     /// When no port is free or no thread can be started.
@@ -62,7 +63,7 @@ impl ObjectStore {
         Ok(Self { address, shared })
     }
 
-    /// Variables of the environment with which a program reaches it.
+    /// Environment variables with which a program reaches the store.
     pub fn variables(&self) -> [(&'static str, String); 5] {
         [
             ("AWS_ENDPOINT_URL", format!("http://{}", self.address)),
@@ -83,7 +84,7 @@ impl ObjectStore {
         below.collect()
     }
 
-    /// Replaces an object, or with `None` removes it.
+    /// Replaces an object, or removes it if `bytes` is `None`.
     pub fn set(&self, name: &str, bytes: Option<&[u8]>) {
         let mut bucket = locked(&self.shared);
         match bytes {
@@ -138,7 +139,7 @@ async fn answer(
     }
 }
 
-/// A date as HTTP has it.
+/// A date in the form of HTTP.
 const LONG_AGO: &str = "Thu, 01 Jan 2026 00:00:00 GMT";
 
 fn etag(bytes: &[u8]) -> String {

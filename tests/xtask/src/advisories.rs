@@ -1,11 +1,11 @@
-//! `cargo xtask advisories`: known faults of the crates we use, by the RustSec database. No package registry carries
-//! that database, so the command needs the network, or the copy that an earlier run has fetched.
+//! `cargo xtask advisories`: known faults of our dependencies, from the RustSec database. No package registry
+//! has that database, so the command needs the network, or the copy of an earlier run.
 
 use crate::{Outcome, run, tools};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Looks the lock file up. Without the network the last copy is used, and its date printed.
+/// Checks the lock file. Without the network the last copy is used, and its date printed.
 pub fn command() -> anyhow::Result<Outcome> {
     let mut fetch = match tools::command("deny")? {
         Ok(tool) => tool,

@@ -1,10 +1,11 @@
-//! `browser`: the journeys through the editor, in real browsers. `web-test`: the tests of the editor, in part in one.
+//! `browser`: the journeys through the editor, in real browsers. `web-test`: the tests of the editor, partly
+//! in a browser.
 
 use crate::system::{NGINX, SystemProgram};
 use crate::{Outcome, npm_packages, program, root, run};
 use std::process::Command;
 
-/// Runs the tests of the editor, those of `web/test/browser` in Chromium: that is installed before them.
+/// Runs the tests of the editor; those of `web/test/browser` run in Chromium, which is installed first.
 pub fn page() -> anyhow::Result<Outcome> {
     let chromium = CHROMIUM.find()?;
     let mut test = Command::new("npm");
@@ -32,7 +33,7 @@ pub fn check() -> anyhow::Result<Outcome> {
     e2e.args(["run", "e2e"]).current_dir(root().join(folder));
     let firefox = FIREFOX.find()?;
     e2e.envs(firefox.as_ref().map(|path| ("FIREFOX", path)));
-    // Without it one journey is left out, and says so.
+    // Without it, one journey is skipped with a message.
     e2e.envs(NGINX.find()?.map(|path| (NGINX.variable, path)));
     let outcome = run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))?;
     Ok(match (outcome, firefox) {

@@ -1,6 +1,6 @@
-//! `checkers`: foreign programs read our files. Each script of `tests/checkers` names the packages that it
-//! needs (PEP 723, and under `[tool.dragtraffic]` those to install without dependencies, and programs that no package
-//! has). It receives the program and a folder to work in, and prints `N passed, N failed` as its last line.
+//! `checkers`: other programs read our files. Each script of `tests/checkers` names its packages (PEP 723),
+//! and under `[tool.dragtraffic]` those to install without dependencies, and programs that no package
+//! contains. It receives the program and a working folder, and prints `N passed, N failed` as its last line.
 
 use crate::environments::Environment;
 use crate::system::SystemProgram;
@@ -11,15 +11,15 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 const SCRIPTS: &str = "tests/checkers";
-/// Programs that a script may name as `programs`; it is told their places by their variables.
+/// Programs that a script may name as `programs`; their variables pass their paths to it.
 const PROGRAMS: &[SystemProgram] =
     &[SystemProgram { variable: "ESMINI", names: &["esmini", BUILT_ESMINI], package: None }];
-/// Where `support/build_esmini.py` puts it: no registry has it.
+/// Output of `support/build_esmini.py`: no registry has this program.
 const BUILT_ESMINI: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/esmini/bin/esmini");
 /// With this set, a script without its packages or programs fails instead of being skipped.
 pub static STRICT: AtomicBool = AtomicBool::new(false);
 
-/// All scripts, each in an environment of its own.
+/// Runs all scripts, each in its own environment.
 pub fn check() -> anyhow::Result<Outcome> {
     let program = program()?;
     let (mut told, mut skipped, mut failed) = (Vec::new(), Vec::new(), Vec::new());
@@ -77,14 +77,14 @@ fn name_of(script: &Path) -> String {
     script.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// With the packages that a script names.
+/// The environment with the packages that a script names.
 fn environment(script: &Path) -> anyhow::Result<Environment> {
     let text = std::fs::read_to_string(script)?;
     let (with, without) = (list(&text, "dependencies"), list(&text, "no-deps"));
     Ok(Environment::of_script(&name_of(script), with, without))
 }
 
-/// Variables and places of the programs that a script names, or which of them is not here.
+/// Variables and paths of the programs that a script names, or the name of a missing one.
 fn programs(script: &Path) -> anyhow::Result<Result<Vec<(&'static str, String)>, String>> {
     let text = std::fs::read_to_string(script)?;
     let mut places = Vec::new();
@@ -104,7 +104,7 @@ fn programs(script: &Path) -> anyhow::Result<Result<Vec<(&'static str, String)>,
     Ok(Ok(places))
 }
 
-/// Those of all scripts.
+/// The environments of all scripts.
 ///
 /// # Errors
 /// When the scripts cannot be read.
@@ -136,7 +136,7 @@ fn run(
     let text = String::from_utf8_lossy(&output.stdout);
     print!("{text}");
     let line = text.lines().last().unwrap_or("said nothing").to_owned();
-    // A script that checks nothing has not passed.
+    // A script without checks has not passed.
     let passed = output.status.success() && line.ends_with(" 0 failed") && !line.starts_with("0 passed");
     Ok(if passed { Ok(line) } else { Err(line) })
 }

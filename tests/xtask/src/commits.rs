@@ -1,15 +1,15 @@
-//! The words of commits: a title of at most 72 characters, and a body that says why.
+//! Checks commit messages: a title of at most 72 characters, and a body with the reason.
 
 use crate::{Outcome, root};
 use anyhow::{Context, ensure};
 use std::process::{Command, Stdio};
 
-/// Commits after this one are looked at; those before it keep their words.
+/// Only commits after this one are checked.
 const BASE: &str = "406bb2d4a3c529b78d228abe1277c81e88cc8763";
 /// Most characters of a title.
 const MOST_CHARS: usize = 72;
 
-/// Reads the commits since the base.
+/// Checks the commits since the base.
 pub fn check() -> anyhow::Result<Outcome> {
     if git(&["cat-file", "-e", &format!("{BASE}^{{commit}}")]).is_err() {
         return Ok(Outcome::Skipped(format!("the history lacks {BASE}")));
@@ -19,7 +19,8 @@ pub fn check() -> anyhow::Result<Outcome> {
     Ok(if faults.is_empty() { Outcome::Passed } else { Outcome::Failed(faults.join(", ")) })
 }
 
-/// What is wrong with each commit: its hash, title and body end with zero bytes, and it with a record separator.
+/// The faults of each commit. Hash, title and body each end with a zero byte, and the commit with a record
+/// separator.
 fn faults(log: &str) -> Vec<String> {
     let commits = log.split('\u{1e}').filter_map(|commit| {
         let (hash, words) = commit.trim_start().split_once('\0')?;
@@ -34,7 +35,7 @@ fn faults(log: &str) -> Vec<String> {
     commits.filter_map(fault).collect()
 }
 
-/// What git prints.
+/// Output of git.
 fn git(arguments: &[&str]) -> anyhow::Result<String> {
     let mut git = Command::new("git");
     let output = git.args(arguments).current_dir(root()).stdin(Stdio::null()).output().context("git")?;

@@ -1,5 +1,5 @@
-//! Nothing comes in from outside unnoticed: each crate, and whether it runs code while we build, stands in
-//! a committed list.
+//! Makes new dependencies visible: a committed list has each crate, and whether it runs code during the
+//! build.
 
 use crate::{Outcome, root};
 use anyhow::{Context, ensure};
@@ -27,14 +27,14 @@ pub fn check() -> anyhow::Result<Outcome> {
     })
 }
 
-/// Writes the list as it is now.
+/// Writes the present list.
 pub fn accept() -> anyhow::Result<Outcome> {
     let lines: Vec<String> = crates()?.into_iter().collect();
     std::fs::write(root().join(LIST), format!("{HEAD}{}\n", lines.join("\n")))?;
     Ok(Outcome::Passed)
 }
 
-/// Names of what came and went.
+/// Names of added and removed crates.
 fn differences(committed: &BTreeSet<String>, now: &BTreeSet<String>) -> Vec<String> {
     let came = now.difference(committed).map(|line| format!("new: {line}"));
     came.chain(committed.difference(now).map(|line| format!("gone: {line}"))).collect()
@@ -59,7 +59,7 @@ fn crates() -> anyhow::Result<BTreeSet<String>> {
     Ok(packages.iter().filter(|package| !package["source"].is_null()).map(line_of).collect())
 }
 
-/// `name`, and what of the crate runs while we build.
+/// `name`, and the parts of the crate that run during the build.
 fn line_of(package: &Value) -> String {
     let targets = package["targets"].as_array().into_iter().flatten();
     let kinds: Vec<&str> = targets

@@ -1,5 +1,5 @@
-//! Virtual environments of Python under `target/environments`: each is made once, with the packages that a file of
-//! requirements or a script names, and again when these change.
+//! Virtual environments of Python under `target/environments`: each is made once, with the packages that a
+//! requirements file or a script names, and again when these change.
 
 use crate::root;
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ pub struct Environment {
     name: String,
     /// Changes if the environment must be rebuilt.
     wanted: String,
-    /// Arguments of `pip install`, one entry a call.
+    /// Arguments of `pip install`, one entry per call.
     installs: Vec<Vec<String>>,
 }
 
@@ -49,7 +49,7 @@ impl Environment {
         Self { name: format!("checker-{name}"), wanted, installs }
     }
 
-    /// Its Python, or why there is none.
+    /// Its Python, or the reason why there is none.
     pub fn python(&self) -> anyhow::Result<Result<PathBuf, String>> {
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = made.get(&self.name) {
@@ -84,7 +84,7 @@ impl Environment {
     }
 }
 
-/// Begins to make all environments beside whatever else is done: most of the time they wait for the network.
+/// Begins to make all environments in the background: they mostly wait for the network.
 ///
 /// # Errors
 /// When a file or script cannot be read.

@@ -1,4 +1,4 @@
-//! Latency of a drag over HTTP on this machine: a figure for information, not a gate.
+//! Latency of a drag over HTTP on this machine, as information and not as a gate.
 
 use crate::{Outcome, program, root};
 use anyhow::{Context, ensure};

@@ -1,14 +1,14 @@
-//! `cargo xtask fuzz` and `cargo xtask imports`: programs of the tests, built as they are. `cargo xtask fuzz --guided`:
-//! the readers under `cargo fuzz`, which a nightly compiler guides by the branches that an input reaches.
+//! `cargo xtask fuzz` and `cargo xtask imports`: programs of the tests. `cargo xtask fuzz --guided`: the
+//! readers under `cargo fuzz`, which a nightly compiler guides by the branches that an input reaches.
 
 use crate::{Outcome, built, root, run, tools};
 use anyhow::{Context, bail, ensure};
 use std::process::Command;
 
-/// Seconds for each reader, unless the caller names others.
+/// Default seconds for each reader.
 const SECONDS: &str = "60";
 
-/// Builds one of the programs and runs it with the arguments given; `--guided` runs `cargo fuzz` instead.
+/// Builds one of the programs and runs it with the given arguments; `--guided` runs `cargo fuzz` instead.
 pub fn command(program: &str, arguments: &[String]) -> anyhow::Result<Outcome> {
     match arguments.split_first() {
         Some((flag, rest)) if program == "fuzz" && flag == "--guided" => guided(rest),
@@ -16,7 +16,7 @@ pub fn command(program: &str, arguments: &[String]) -> anyhow::Result<Outcome> {
     }
 }
 
-/// The readers named, or all, each for as many seconds.
+/// Runs the named readers, or all of them, each for the same time.
 fn guided(arguments: &[String]) -> anyhow::Result<Outcome> {
     let Some(nightly) = nightly()? else {
         return Ok(Outcome::Failed("no nightly compiler here; rustup toolchain install nightly".into()));
@@ -31,7 +31,7 @@ fn guided(arguments: &[String]) -> anyhow::Result<Outcome> {
     };
     let tool = |arguments: &[&str]| -> anyhow::Result<Command> {
         let mut tool = tools::command("fuzz")?.map_err(anyhow::Error::msg)?;
-        // The cargo that runs this one belongs to another compiler.
+        // The cargo that runs this program belongs to another compiler.
         tool.env_remove("CARGO").env("RUSTUP_TOOLCHAIN", &nightly).current_dir(root().join("fuzz"));
         tool.args(arguments);
         Ok(tool)
@@ -49,7 +49,7 @@ fn guided(arguments: &[String]) -> anyhow::Result<Outcome> {
             "no reader is named {name}; readers: {}",
             all.replace('\n', " ")
         );
-        // New inputs go to the first folder; the committed corpus stays as it is.
+        // New inputs go to the first folder; the committed corpus is unchanged.
         let found = target.join("guided").join(&name);
         std::fs::create_dir_all(&found)?;
         let mut fuzz = tool(&["run", "--target-dir"])?;

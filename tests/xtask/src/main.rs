@@ -51,9 +51,9 @@ enum Outcome {
 
 type Check = (&'static str, fn() -> anyhow::Result<Outcome>);
 
-/// The checks in stages, in the order of what is found fastest. Lanes of a stage run side by side where one of them leaves
-/// cores idle: the page's checks while the lints compile, foreign programs that read what ours wrote. What measures time,
-/// or waits for it, runs alone.
+/// The checks in stages, ordered by how fast faults are found. Lanes of a stage run in parallel if one of
+/// them leaves cores idle: the page's checks while the lints compile, and other programs that read our files.
+/// Checks that measure time or wait run alone.
 const STAGES: &[&[&[Check]]] = &[
     &[&[
         ("web-packages", web_packages),
@@ -63,7 +63,7 @@ const STAGES: &[&[&[Check]]] = &[
     &[
         &[
             ("clippy", clippy),
-            // The program of a user, which has no lab; all else is as in the check before.
+            // The program without the lab, as users have it; everything else is as in the check before.
             ("plain", || {
                 cargo(&["clippy", "--workspace", "--locked", "--all-targets", "--", "-D", "warnings"])
             }),
@@ -191,7 +191,7 @@ fn run(command: &mut Command) -> anyhow::Result<Outcome> {
     Ok(if status.success() { Outcome::Passed } else { Outcome::Failed(format!("{shown}: {status}")) })
 }
 
-/// Everything, with the one set of features that all checks share: nothing is built twice.
+/// Everything, with the single set of features that all checks share, so that nothing is built twice.
 const WHOLE: &[&str] = &["--workspace", "--locked", "--features", "dragtraffic/lab"];
 
 fn clippy() -> anyhow::Result<Outcome> {
@@ -212,23 +212,23 @@ fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
 /// Cargo at the root of the project.
 fn cargo_command() -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // A subcommand that finds the name of this package would take itself for a program that cargo runs.
+    // A subcommand that finds the name of this package would assume that cargo runs it.
     cargo.env_remove("CARGO_PKG_NAME").current_dir(root());
     cargo
 }
 
-/// Types, tests and notebook of the Python package, over the extension module as it is built for tests.
+/// Types, tests and notebook of the Python package, with the test build of the extension module.
 fn python() -> anyhow::Result<Outcome> {
     let own = match Environment::of_file("python")?.python()? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
-    // With the tests, since without them dependencies have other features and are compiled once more.
+    // With the tests, since without them dependencies have other features and are compiled again.
     let module = ["build", "--lib", "--tests", "--quiet"];
     if let Outcome::Failed(why) = run(cargo_command().args(module).args(WHOLE))? {
         return Ok(Outcome::Failed(why));
     }
-    // Python takes an extension module by its own ending, from beside the package's files.
+    // Python loads an extension module by its platform's ending, from beside the package's files.
     let (library, module) = if cfg!(windows) {
         ("_native.dll", "_native.pyd")
     } else if cfg!(target_os = "macos") {
@@ -247,7 +247,8 @@ fn python() -> anyhow::Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// One network that a foreign program writes in several formats, read by all of ours; and an extract of OpenStreetMap.
+/// One network that another program writes in several formats, read by all our readers; and an extract of
+/// OpenStreetMap.
 fn maps() -> anyhow::Result<Outcome> {
     let own = match Environment::of_file("maps")?.python()? {
         Ok(own) => own,
@@ -305,7 +306,7 @@ fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
-/// The program as it stands: a build that is older than the sources would be checked in their place.
+/// The present program: a build older than the sources must not be checked.
 fn program() -> anyhow::Result<PathBuf> {
     Ok(built("dragtraffic")?.canonicalize()?)
 }

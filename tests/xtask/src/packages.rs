@@ -1,15 +1,15 @@
-//! `package`: the crates for other projects compile from what their packages hold, and from nothing else.
+//! `package`: the published crates compile from the contents of their packages alone.
 
 use crate::{Outcome, cargo_command, root, run};
 use anyhow::{Context, ensure};
 use std::path::Path;
 use std::process::Command;
 
-/// The crates for other projects.
+/// The published crates.
 const CRATES: &[&str] = &["dragtraffic-scene", "dragtraffic-formats", "dragtraffic-experts"];
 
-/// Packs them, unpacks them beside each other and checks them as a workspace of their own. It has our profiles, and
-/// our target folder: of foreign crates what clippy has looked at is taken.
+/// Packs them, unpacks them beside each other and checks them as a separate workspace. It shares our profiles
+/// and our target folder, so that checked dependencies are reused.
 pub fn check() -> anyhow::Result<Outcome> {
     let target = root().join("target");
     let folder = target.join("packages");
@@ -32,7 +32,8 @@ pub fn check() -> anyhow::Result<Outcome> {
         };
         let packed =
             packed.into_iter().find(|path| is_its(path)).with_context(|| format!("no package of {name}"))?;
-        // Packed files are all of one old date, by which cargo would take what it made of earlier ones for theirs.
+        // All packed files have one old date, by which cargo would mistake earlier results for up-to-date
+        // ones.
         let unpacked = run(Command::new("tar").arg("-xzmf").arg(&packed).arg("-C").arg(&folder))?;
         ensure!(matches!(unpacked, Outcome::Passed), "{} cannot be unpacked", packed.display());
         members.push((name, packed.file_stem().unwrap_or_default().to_string_lossy().into_owned()));
@@ -47,7 +48,8 @@ pub fn check() -> anyhow::Result<Outcome> {
         .arg(target))
 }
 
-/// The manifest of a workspace of these crates and folders; they find each other here, as they would in a registry.
+/// The manifest of a workspace of these crates and folders; they find each other here, as they would in a
+/// registry.
 fn workspace(members: &[(&&str, String)]) -> anyhow::Result<String> {
     let ours = std::fs::read_to_string(root().join("Cargo.toml"))?;
     let profiles = ours.find("[profile.").context("no profile in Cargo.toml")?;

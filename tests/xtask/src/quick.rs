@@ -1,6 +1,7 @@
-//! `cargo xtask quick`: what a developer runs before each commit. It looks at what changed since the branch began:
-//! words of commits, format, lints, unit tests of the crates that changed and, for the page, lint, types and tests without a browser.
-//! Lints look at the crates that depend on a changed one, too, and share what the full run has compiled.
+//! `cargo xtask quick`: the check before each commit. It checks the changes since the branch began: commit
+//! messages, format, lints, unit tests of the changed crates and, for the page, lint, types and tests without
+//! a browser. Lints include the crates that depend on a changed one, and share what the full run has
+//! compiled.
 
 use crate::{Outcome, cargo, cargo_command, clippy, commits, npm, report, root, suites, web_packages};
 use anyhow::{Context, ensure};
@@ -9,10 +10,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
-/// The branches that others begin at.
+/// Branches from which others begin.
 const MAIN: &[&str] = &["@{upstream}", "origin/main", "main"];
 
-/// Folders that the checks of the page look at.
+/// Folders that the checks of the page cover.
 const PAGE: &[&str] = &["web", "tests/browser"];
 
 /// Runs the checks that the changed files need.

@@ -1,4 +1,4 @@
-//! Runs checks in stages, and prints how each ended and how long it took.
+//! Runs checks in stages, and prints their results and durations.
 
 use crate::Outcome;
 use std::cell::RefCell;
@@ -11,16 +11,16 @@ use std::time::{Duration, Instant};
 pub type Work<'a> = &'a (dyn Fn() -> anyhow::Result<Outcome> + Sync);
 /// Checks that run one after the other.
 pub type Lane<'a> = Vec<(&'a str, Work<'a>)>;
-/// How a check ended, and how long it took.
+/// Name, duration and result of a check.
 type Line<'a> = (&'a str, Duration, Outcome);
 
 thread_local! {
-    /// Output of the commands of a check beside which another one runs.
+    /// Output of the commands of a check that runs beside another one.
     static HELD: RefCell<Option<Vec<u8>>> = const { RefCell::new(None) };
 }
 
-/// Runs the stages one after the other, the lanes of each side by side: a check that fails does not stop the others. With
-/// `strict`, a skipped check fails. What failed checks printed beside others comes last, just above the table.
+/// Runs the stages in order and the lanes of each in parallel: a failed check does not stop the others. With
+/// `strict`, a skipped check fails. The output of failed parallel checks comes last, just above the table.
 pub fn run(stages: Vec<Vec<Lane<'_>>>, strict: bool) -> ExitCode {
     let began = Instant::now();
     let (mut lines, mut faults) = (Vec::new(), Vec::new());
@@ -42,7 +42,8 @@ pub fn run(stages: Vec<Vec<Lane<'_>>>, strict: bool) -> ExitCode {
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Runs each lane on a thread. What the commands of a check print comes at its end; where it failed, with its line.
+/// Runs each lane on a thread. The output of a check's commands comes at its end; if it failed, with its
+/// line.
 fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<(Line<'a>, Option<Vec<u8>>)> {
     let held = move |(name, work): &(&'a str, Work<'a>)| {
         HELD.set(Some(format!("== {name}\n").into_bytes()));
@@ -64,7 +65,7 @@ fn side_by_side<'a>(lanes: &[Lane<'a>], strict: bool) -> Vec<(Line<'a>, Option<V
 }
 
 fn print_bytes(text: &[u8]) {
-    // A closed terminal is no fault of the check.
+    // A closed terminal is not a fault of the check.
     let _ = std::io::stdout().lock().write_all(text);
 }
 
@@ -83,7 +84,7 @@ fn worked<'a>(name: &'a str, work: Work<'_>, strict: bool) -> Line<'a> {
     (name, began.elapsed(), outcome)
 }
 
-/// Runs a command. Its output is held where another check runs beside this one.
+/// Runs a command. Its output is held back while another check runs beside this one.
 ///
 /// # Errors
 /// If it cannot be started.
@@ -95,7 +96,7 @@ pub fn status(command: &mut Command) -> std::io::Result<ExitStatus> {
     // One pipe for both, so that lines keep their order.
     let (mut read, write) = std::io::pipe()?;
     let mut child = command.stdout(write.try_clone()?).stderr(write).spawn()?;
-    // The command has the ends of the pipe until it is given others.
+    // The command holds the ends of the pipe until it gets others.
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut text = Vec::new();
     std::io::Read::read_to_end(&mut read, &mut text)?;
@@ -155,7 +156,7 @@ mod tests {
     #[test]
     fn lanes_run_beside_each_other_and_stages_one_after_the_other() {
         let (here, there) = (Barrier::new(2), AtomicUsize::new(0));
-        // Each of the two waits for the other one.
+        // Each of the two waits for the other.
         let meets = || {
             here.wait();
             there.fetch_add(1, Ordering::Relaxed);

@@ -1,5 +1,5 @@
-//! The API held against its own document by Schemathesis: examples, borders, drawn bodies good and bad, and chains
-//! of calls. `tests/schemathesis.toml` says what is checked, and why something is not.
+//! Schemathesis checks the API against its own document: examples, boundaries, valid and invalid drawn
+//! bodies, and chains of calls. `tests/schemathesis.toml` lists the checks, and the reasons for omitted ones.
 
 use crate::environments::Environment;
 use crate::{Outcome, built, root, run};
@@ -7,11 +7,11 @@ use anyhow::{Context, bail};
 use std::process::Command;
 
 const CONFIG: &str = "tests/schemathesis.toml";
-/// Examples of an operation in the check of every merge, and their seed.
+/// Examples per operation in the check of every merge, and their seed.
 const EXAMPLES: u64 = 20;
 const SEED: u64 = 1;
 
-/// A few examples of each operation.
+/// Runs a few examples of each operation.
 pub fn check() -> anyhow::Result<Outcome> {
     examples(EXAMPLES, SEED)
 }

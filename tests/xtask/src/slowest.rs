@@ -1,12 +1,12 @@
-//! The slowest valid request, and what a drag takes beside it (`tests/src/bin/slowest.rs`); how the time of each
-//! operation grows with a map (`doubling.rs`). The figures are those of a release build: `DRAGTRAFFIC_BIN` names another
-//! one.
+//! The slowest valid request, and the time of a drag beside it (`tests/src/bin/slowest.rs`); the growth of
+//! each operation's time with a map (`doubling.rs`). The figures are those of a release build:
+//! `DRAGTRAFFIC_BIN` names another one.
 
 use super::{Outcome, built, cargo_command, root, run, target};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Measures by the program of this name, which prints its table, and fails where a bound is not kept.
+/// Runs the measuring program of this name, which prints its table, and fails if a bound is exceeded.
 pub fn command(name: &str, arguments: &[String]) -> anyhow::Result<Outcome> {
     let search = built(name)?;
     let program = match std::env::var_os("DRAGTRAFFIC_BIN") {

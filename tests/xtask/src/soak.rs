@@ -1,9 +1,9 @@
-//! Trials of the real program that go on for as long as one likes (`dragtraffic_tests::soak`).
+//! Open-ended trials of the real program (`dragtraffic_tests::soak`).
 
 use super::{built, root};
 use std::process::{Command, ExitCode};
 
-/// Builds program and trials as tests have them, and starts one.
+/// Builds program and trials as tests do, and starts one.
 pub fn run(arguments: &[String]) -> ExitCode {
     let soak = match built("soak") {
         Ok(soak) => soak,

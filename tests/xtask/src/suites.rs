@@ -1,5 +1,5 @@
-//! `test`: everything that `cargo test --workspace` runs, by `cargo nextest` where it can be had: it runs as many tests
-//! at a time as there are cores, whatever program they are in. `.config/nextest.toml` says in which order.
+//! `test`: everything that `cargo test --workspace` runs, with `cargo nextest` if it is available: it runs as
+//! many tests at a time as there are cores, across programs. `.config/nextest.toml` gives their order.
 
 use crate::system::NGINX;
 use crate::{Outcome, WHOLE, cargo_command, run, tools, whole_test};
@@ -31,8 +31,8 @@ pub fn check() -> anyhow::Result<Outcome> {
     })
 }
 
-/// Unit tests of some crates, from the build of the full run: another choice of packages would have other features,
-/// and compile all dependencies again. Without nextest the unit tests of all crates run.
+/// Unit tests of some crates, from the build of the full run: another choice of packages would have other
+/// features, and compile all dependencies again. Without nextest the unit tests of all crates run.
 pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
     let (mut tests, filters) = runner()?;
     tests.args(WHOLE).arg("--lib");
@@ -46,7 +46,7 @@ pub fn units(crates: &[String]) -> anyhow::Result<Outcome> {
     run(&mut tests)
 }
 
-/// `cargo nextest run`, which takes filters, else `cargo test`. A crate without tests passes.
+/// `cargo nextest run`, which supports filters, otherwise `cargo test`. A crate without tests passes.
 fn runner() -> anyhow::Result<(Command, bool)> {
     Ok(match tools::command("nextest")? {
         Ok(mut nextest) => {

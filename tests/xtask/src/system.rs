@@ -1,4 +1,4 @@
-//! Programs of the system that checks need: on the path, or installed by `apt-get` where that is allowed.
+//! System programs that checks need: on the path, or installed by `apt-get` if that is allowed.
 
 use crate::{Outcome, run};
 use anyhow::bail;
@@ -6,10 +6,10 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// `apt-get` refuses to work twice at a time.
+/// Two runs of `apt-get` at the same time fail.
 static APT: Mutex<()> = Mutex::new(());
 
-/// To be held while `apt-get` works.
+/// Lock to hold while `apt-get` runs.
 pub fn apt_lock() -> MutexGuard<'static, ()> {
     APT.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -21,12 +21,12 @@ pub struct SystemProgram {
     pub package: Option<&'static str>,
 }
 
-/// The proxy of `docs/hosting.md`: for its test, and for a journey.
+/// The proxy of `docs/hosting.md`, for its test and for a journey.
 pub const NGINX: SystemProgram =
     SystemProgram { variable: "NGINX", names: &["nginx"], package: Some("nginx-light") };
 
 impl SystemProgram {
-    /// The one that its variable names, one on the path, or one installed now where that is allowed.
+    /// The program that its variable names, one on the path, or one installed now if that is allowed.
     pub fn find(&self) -> anyhow::Result<Option<String>> {
         if let Ok(given) = std::env::var(self.variable) {
             return Ok(Some(given));

@@ -1,4 +1,5 @@
-//! Cargo's tools (`cargo deny`, `cargo shear`, ...): those of `tests/tools-requirements.txt`, else those installed.
+//! Cargo's tools (`cargo deny`, `cargo shear`, ...): those of `tests/tools-requirements.txt`, otherwise the
+//! installed ones.
 
 use crate::environments::Environment;
 use crate::{Outcome, root, run};
@@ -13,7 +14,7 @@ pub fn check(name: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
     }
 }
 
-/// A tool at the root of the project, to be given its arguments; or the reason why there is none.
+/// The command of a tool at the root of the project, without arguments; or the reason why there is none.
 pub fn command(name: &str) -> anyhow::Result<Result<Command, String>> {
     let program = format!("cargo-{name}{}", std::env::consts::EXE_SUFFIX);
     let pinned = Environment::of_file("tools")?.python()?.map(|python| python.with_file_name(&program));
@@ -22,7 +23,7 @@ pub fn command(name: &str) -> anyhow::Result<Result<Command, String>> {
         return Ok(Err(format!("{program} cannot be installed; cargo install --locked cargo-{name}")));
     };
     let mut tool = Command::new(found);
-    // A tool that finds the name of this package would take itself for a program that cargo runs.
+    // A tool that finds the name of this package would assume that cargo runs it.
     tool.env_remove("CARGO_PKG_NAME").current_dir(root()).arg(name);
     Ok(Ok(tool))
 }

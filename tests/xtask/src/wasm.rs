@@ -1,7 +1,7 @@
-//! `wasm`: the engine without clock, threads or files, as a page would hold it.
+//! `wasm`: the engine without clock, threads or files, as in a web page.
 //!
-//! The standard library for WebAssembly comes from rustup. Where rustup cannot reach its server, Debian's compiler
-//! for browsers and its sources of that library are unpacked under `target/wasm`.
+//! The standard library for WebAssembly comes from rustup. If rustup cannot reach its server, Debian's
+//! compiler for browsers and its sources of that library are unpacked under `target/wasm`.
 
 use crate::system::apt_lock;
 use crate::{Outcome, cargo_command, root, run};
@@ -36,7 +36,7 @@ pub fn check() -> anyhow::Result<Outcome> {
     run(&mut cargo)
 }
 
-/// The compiler at hand has the standard library of the target.
+/// Whether the available compiler has the standard library of the target.
 fn has_target() -> anyhow::Result<bool> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let sysroot = text_of(Command::new(rustc).args(["--print", "sysroot"]))?;
@@ -53,7 +53,7 @@ fn unpack(folder: &Path) -> anyhow::Result<()> {
     }
     let _alone = apt_lock();
     std::fs::create_dir_all(folder.join("packages"))?;
-    // Lists that are out of date make the download fail below.
+    // Outdated lists make the download fail below.
     let _ = quiet(Command::new("apt-get").args(["update", "-q"]));
     let packages = packages()?;
     let downloaded = Command::new("apt-get")
@@ -87,7 +87,7 @@ fn packages() -> anyhow::Result<Vec<String>> {
     Ok(packages)
 }
 
-/// Lets cargo build with the unpacked compiler, the standard library included.
+/// Makes cargo build with the unpacked compiler and standard library.
 fn use_unpacked(cargo: &mut Command, folder: &Path) -> anyhow::Result<()> {
     let libraries = folder.join("usr/lib");
     let triplets: Vec<PathBuf> =

@@ -1,4 +1,4 @@
-//! A road user ready for its expert: its anchors, its target, and what the networks see of it.
+//! A road user ready for its expert: its anchors, its target, and the inputs of the networks.
 
 use super::AgentFeatures;
 use super::ahead::PathFacts;
@@ -25,44 +25,45 @@ pub const BEYOND_M: f64 = 0.1;
 pub struct AgentPlan {
     /// The agent and its state at the start.
     pub present: AgentAtStart,
-    /// How it can move.
+    /// Its motion model.
     pub model: MotionModel,
     /// The goal to meet.
     pub target: Target,
     /// The via points that it must pass in this window.
     pub vias: Vec<Waypoint>,
-    /// [`MODES`] of them.
+    /// Its [`MODES`] anchors.
     pub anchors: Vec<Anchor>,
     /// Red lights on each anchor's path.
     pub lights: [Vec<Gate>; MODES],
-    /// Where a walker steps onto the lanes on each anchor's path.
+    /// Kerb on each anchor's path, where a walker steps onto the lanes.
     pub kerbs: [Option<Kerb>; MODES],
-    /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
-    /// heading free, radians.
+    /// Lane heading at the goal for each anchor, if the goal lies on a lane and leaves its heading free,
+    /// radians.
     pub lane_headings: [Option<f64>; MODES],
     /// Acceleration with which a standing agent sets off towards a goal, m/s2.
     pub easy_mps2: f64,
     /// Step of the window up to which an agent at rest waits for the one ahead of it to move off.
     pub departs: usize,
-    /// Share of the learned offsets that is driven at each instant: less and less after a goal.
+    /// Factor of the learned offsets at each instant; it decays after a goal.
     pub aside_share: [f64; INSTANTS],
-    /// Where it may drive: [`World::ground`].
+    /// Ground on which it may drive: [`World::ground`].
     pub drivable: Arc<Drivable>,
     /// As [`AgentPlan::drivable`]; `None` unless the agent is a vehicle that starts on this ground.
     pub ground: Option<Arc<Drivable>>,
-    /// For the networks.
+    /// Inputs of the networks.
     pub features: AgentFeatures,
-    /// Motions are projected onto the goal: see [`Planning::projection`](crate::planning::world::Planning).
+    /// Whether motions are projected onto the goal: see
+    /// [`Planning::projection`](crate::planning::world::Planning).
     pub projected: bool,
 }
 
-/// Works out anchors and features of one road user.
+/// Computes anchors and features of one road user.
 pub fn plan(world: &World<'_>, who: &AgentAtStart) -> AgentPlan {
     let anchors = anchors(world, who, &world.model(who), &world.target(who));
     plan_with(world, who, anchors)
 }
 
-/// Features of a road user with given anchors, [`MODES`] of them.
+/// Features of a road user with the given [`MODES`] anchors.
 pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) -> AgentPlan {
     let model = world.model(who);
     let target = world.target(who);
@@ -74,7 +75,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
         let path_identity = anchor.path_identity();
-        // Slots of one path share what can be said of the path.
+        // Slots of one path share the facts about the path.
         let facts = match last.take() {
             Some((identity, facts)) if identity == path_identity => {
                 lights[slot] = lights[slot - 1].clone();
@@ -126,20 +127,21 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
 }
 
 impl AgentPlan {
-    /// A place farther than `off_lanes_m` from every lane that the agent may use. Beyond the ends of the roads the map
-    /// does not say where lanes are, so nothing there is off them.
+    /// Whether a place is farther than `off_lanes_m` from every lane that the agent may use. Beyond the ends
+    /// of the map's roads no place is, because lanes there are unknown.
     pub fn is_off_lanes(&self, graph: &LaneGraph, place: Vec2, off_lanes_m: f64) -> bool {
         !graph.has_lane_for(place, off_lanes_m, self.present.agent_type)
             && !self.drivable.is_beside_allowed(place)
             && !self.drivable.is_beyond_map(place)
     }
 
-    /// The agent has neither a goal nor a via point.
+    /// Whether the agent has neither a goal nor a via point.
     pub fn is_free(&self) -> bool {
         self.target.is_free() && self.vias.is_empty()
     }
 
-    /// The agent stands at a red light that is known to turn green, and has neither a goal nor a via point.
+    /// Whether the agent stands at a red light that is known to turn green, and has neither a goal nor a via
+    /// point.
     pub fn sets_off(&self) -> bool {
         self.is_free()
             && self.model.start_speed_mps() < STANDING_MPS
@@ -147,9 +149,9 @@ impl AgentPlan {
     }
 }
 
-/// See [`AgentPlan::ground`].
-/// On wheels the share decays by e every `fading_s` seconds after a goal with a position. Walkers follow no
-/// lane, so theirs stays 1.
+/// Factor of the learned offsets at each instant, see [`AgentPlan::aside_share`]. For wheeled agents it
+/// decays by a factor of e every `fading_s` seconds after a goal with a position. Walkers follow no lane, so
+/// theirs stays 1.
 fn aside_share(model: &MotionModel, target: &Target, fading_s: f64) -> [f64; INSTANTS] {
     let fades = model.kind == MotionKind::Drive && target.position.is_some();
     std::array::from_fn(|i| {
@@ -171,7 +173,7 @@ fn lane_headings(
     target: &Target,
     anchors: &[Anchor],
 ) -> [Option<f64>; MODES] {
-    // Riders go on and off lanes as they like.
+    // Riders enter and leave lanes freely.
     let (Some(goal), None, AgentType::Vehicle) = (target.position, target.heading_rad, who.agent_type) else {
         return [None; MODES];
     };
@@ -185,7 +187,7 @@ fn lane_headings(
     })
 }
 
-/// Headings of the lanes that a place lies on.
+/// Headings of the lanes that contain a place.
 fn lanes_under(world: &World<'_>, who: &AgentAtStart, place: Vec2) -> Vec<f64> {
     let lanes = world.graph.lanes();
     let near = world.graph.nearest_for(place, 4.0, who.agent_type);

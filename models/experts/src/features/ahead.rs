@@ -1,4 +1,4 @@
-//! Facts about a path ahead: leaders, signals, signs, crossing traffic, the junction.
+//! Facts about the path ahead: leaders, signals, signs, crossing traffic, the junction.
 
 use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
@@ -6,9 +6,9 @@ use scene::geometry::direction;
 use scene::routes::{AdjacentLane, LaneGraph, Leg, Route, speed};
 use scene::{SignalState, wrap_angle};
 
-/// Standing road users this far ahead count as a queue, metres.
+/// Distance ahead within which standing road users count as a queue, metres.
 const QUEUE_M: f64 = 60.0;
-/// Another agent whose centre comes this near to a path meets it, metres.
+/// An agent whose centre comes this near to a path crosses it, metres.
 const MEETS_M: f64 = 3.0;
 
 /// Facts about a path that do not depend on its timing.
@@ -23,11 +23,12 @@ pub(super) struct PathFacts {
     pub(super) light: Option<LightAhead>,
     /// Distance to the first stop sign, metres.
     pub(super) stop_sign_m: Option<f64>,
-    /// The earliest crossing by another road user that goes straight on.
+    /// The earliest crossing by a road user that continues straight on.
     pub(super) crossing: Option<CrossingAhead>,
     /// The first junction on the path.
     pub(super) junction: Option<JunctionAhead>,
-    /// Lanes that run beside the first one: the same way on its left and on its right, the other way.
+    /// Number of lanes beside the first one: same direction on the left, same direction on the right,
+    /// opposite direction.
     pub(super) beside: [usize; 3],
 }
 
@@ -35,27 +36,27 @@ pub(super) struct PathFacts {
 pub(super) struct LightAhead {
     pub(super) state: SignalState,
     pub(super) distance_m: f64,
-    /// How long it has been in this state.
+    /// Time for which it has been in this state.
     pub(super) age_s: f64,
 }
 
-/// Where another road user meets a path if it goes straight on.
+/// Place where another road user crosses a path if it continues straight on.
 #[derive(Clone, Copy)]
 pub(super) struct CrossingAhead {
-    /// Along the path.
+    /// Distance along the path.
     pub(super) distance_m: f64,
-    /// When it is there.
+    /// Time at which it is there.
     pub(super) time_s: f64,
     pub(super) speed_mps: f64,
 }
 
-/// The first junction on a path, as the map's connecting lanes say.
+/// The first junction on a path, by the map's connecting lanes.
 pub(super) struct JunctionAhead {
     pub(super) from_m: f64,
     pub(super) to_m: f64,
-    /// How far the path turns in it, radians to the left.
+    /// Turn of the path in it, radians to the left.
     pub(super) turn_rad: f64,
-    /// Ways that the lane before it leads on.
+    /// Number of successors of the lane before it.
     pub(super) ways: usize,
 }
 
@@ -88,7 +89,7 @@ impl PathFacts {
     }
 }
 
-/// The first junction that a route passes, or in which it begins.
+/// The first junction that a route passes or begins in.
 fn junction(route: &Route, graph: &LaneGraph) -> Option<JunctionAhead> {
     let connects = |leg: &Leg| graph.lanes()[leg.lane].interpolating;
     let first = route.legs.iter().position(connects)?;
@@ -110,7 +111,7 @@ fn beside(route: &Route, graph: &LaneGraph) -> [usize; 3] {
     [count(&lane.left, true), count(&lane.right, true), count(&lane.left, false)]
 }
 
-/// The earliest place at which a road user that goes straight on meets the path.
+/// The earliest place at which a road user that continues straight on crosses the path.
 fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<CrossingAhead> {
     let mut soonest: Option<CrossingAhead> = None;
     for other in obstacles.iter().filter(|o| o.speed_mps > 0.5) {

@@ -1,32 +1,32 @@
-//! Blocks of inputs as tables: each input has a name, a unit and a scale, said once. Widths, indices, the arrays
-//! that the networks see, their documentation and the hash in the weights' header come from here.
+//! Blocks of inputs as tables: each input has a name, a unit and a scale, defined once. Widths, indices, the
+//! arrays of the networks, their documentation and the hash in the weights' header are derived from them.
 
-/// One number that a network sees.
+/// One input of a network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// Such as `goal_distance` or `path.3.ahead`.
+    /// Name, such as `goal_distance` or `path.3.ahead`.
     pub name: String,
-    /// Of the value before it is divided by the scale; empty for pure numbers, `flag` for 0 or 1.
+    /// Unit of the value before scaling; empty for pure numbers, `flag` for 0 or 1.
     pub unit: &'static str,
-    /// What the value is divided by.
+    /// Divisor of the value.
     pub scale: f64,
-    /// What it is.
+    /// Meaning of the value.
     pub meaning: &'static str,
 }
 
 /// A fixed row of inputs.
 pub trait Block {
-    /// Inputs of the row.
+    /// Number of inputs of the row.
     const WIDTH: usize;
 
-    /// Appends all inputs in their order, their names behind `prefix`.
+    /// Appends all inputs in order; their names begin with `prefix`.
     fn describe(prefix: &str, out: &mut Vec<Feature>);
 
     /// Appends all values in the same order, scaled.
     fn write(&self, out: &mut Writer<'_>);
 }
 
-/// What a network sees of a value lies within this, so that a far goal or a wild log cannot drown everything else.
+/// Bound of scaled inputs, so that a far goal or an outlier in a log does not dominate all others.
 const BOUND: f64 = 20.0;
 
 /// Fills an array from the left.
@@ -36,7 +36,7 @@ pub struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// The next value, divided by its scale and bounded; what is not finite counts as zero.
+    /// Writes the next value, scaled and clamped; a value that is not finite becomes zero.
     pub fn push(&mut self, value: f64, scale: f64) {
         let scaled = value / scale;
         if let Some(slot) = self.values.get_mut(self.at) {
@@ -46,7 +46,7 @@ impl Writer<'_> {
     }
 }
 
-/// The row as a network sees it. An array of another width does not compile.
+/// The row in the form of the networks. An array of another width does not compile.
 pub fn encoded<B: Block, const N: usize>(block: &B) -> [f32; N] {
     const { assert!(N == B::WIDTH, "the array is as wide as the block") };
     let mut values = [0.0; N];
@@ -68,13 +68,14 @@ pub fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
 }
 
-/// Defines a block: a struct of `f64` fields and of other blocks, in the order in which networks see them. A field
-/// is `name: (flag)`, `name: (SCALE "UNIT")`, one of these `; COUNT` times, or `[Block; COUNT]`, and what it means.
+/// Defines a block: a struct of `f64` fields and of other blocks, in the order of the networks' inputs. A
+/// field is `name: (flag)`, `name: (SCALE "UNIT")`, one of these `; COUNT` times, or `[Block; COUNT]`, and
+/// its meaning.
 macro_rules! block {
     ($(#[$meta:meta])* pub struct $name:ident { $($field:ident: $spec:tt $meaning:literal,)* }) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        // In this order and without gaps: indices are offsets.
+        // In this order and without gaps, because indices are offsets.
         #[repr(C)]
         pub struct $name { $(#[doc = $meaning] pub $field: block!(@type $spec),)* }
 
@@ -158,7 +159,7 @@ mod tests {
     }
 
     block! {
-        /// A row of everything a block can have.
+        /// A row with every kind of field.
         pub struct Row {
             stands: (flag) "stands",
             path: [Point; 2] "two points",

@@ -1,4 +1,4 @@
-//! A road user, its neighbours and its anchors as rows of the tables.
+//! Encodes a road user, its neighbours and its anchors as rows of the tables.
 
 use super::ahead::{LightAhead, PathFacts};
 use super::block::{encoded, flag};
@@ -14,11 +14,11 @@ use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
 use scene::{AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
 
-/// Slower than this another road user does not move at all, m/s.
+/// Speed below which another road user counts as not moving, m/s.
 const STILL_MPS: f64 = 0.1;
-/// Where something is that is not there, metres.
+/// Distance of something that does not exist, metres.
 const FAR_M: f64 = 100.0;
-/// When something happens that does not happen in the window, seconds.
+/// Time of an event that does not occur in the window, seconds.
 const NEVER_S: f64 = 12.0;
 
 /// The road user's frame: x ahead, y left.
@@ -109,7 +109,7 @@ pub(super) fn own(
     })
 }
 
-/// The others that matter most: near ones first, those ahead before those behind, moving before standing.
+/// The most important other road users: near before far, ahead before behind, moving before standing.
 pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &AgentFrame) -> Vec<[f32; NEIGHBOUR]> {
     let mut order: Vec<(f64, &AgentAtStart)> = world
         .present
@@ -122,7 +122,7 @@ pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &AgentFra
         })
         .filter(|(rank, _)| *rank < FAR_M)
         .collect();
-    // Stable: equal ranks stay in the world's order.
+    // A stable sort: equal ranks stay in the world's order.
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.truncate(NEIGHBOURS);
     order.into_iter().map(|(_, p)| neighbour(world, p, frame)).collect()
@@ -182,7 +182,7 @@ fn path_points(frame: &AgentFrame, anchor: &Anchor) -> [PathPoint; PATH_POINTS] 
     })
 }
 
-/// An anchor in its slot, with what lies ahead on its path.
+/// An anchor in its slot, with the facts about its path ahead.
 pub(super) fn anchor(frame: &AgentFrame, anchor: &Anchor, facts: &PathFacts, slot: usize) -> [f32; ANCHOR] {
     let base = &anchor.base;
     let route = anchor.route.as_ref();

@@ -1,19 +1,19 @@
-//! What a draft meets: the other agents along *their* drafts, as the draft sees them while it moves.
+//! Encounters of a draft: other agents on *their* drafts, as seen from the moving draft.
 //!
-//! An encounter is one other agent beside one draft. Its numbers are in the frame of the draft's own box at each
-//! time, so that they do not depend on where in the world, or at what time in the window, two agents meet.
+//! An encounter is one other agent beside one draft. Its numbers are in the frame of the draft's own box at
+//! each time. They therefore do not depend on where in the world, or when in the window, two agents meet.
 
 use crate::planning::{INSTANTS, MODES};
 use scene::geometry::overlap_energy::{MovingBox, Poses, absent, gap};
 
 /// Most encounters of a draft, nearest first.
 pub const ENCOUNTERS: usize = 8;
-/// Instants at which the other agent's pose is said: 1.5, 3, 4.5, 6, 7.5 and 9 s.
+/// Instants at which the other agent's pose is included: 1.5, 3, 4.5, 6, 7.5 and 9 s.
 const POSES_AT: [usize; 6] = [2, 5, 8, 11, 14, 17];
 /// Numbers of one encounter: poses (ahead, left, cosine, sine), gaps at all instants, half sizes of both boxes.
 pub const ENCOUNTER: usize = 4 * POSES_AT.len() + INSTANTS + 4;
 
-/// Agents farther than this from a draft, all the time, are no encounter, metres.
+/// Agents that always stay farther than this from a draft are no encounter, metres.
 const WITHIN_M: f32 = 20.0;
 /// Scale of positions and of half sizes, metres.
 const POSITION_M: f32 = 20.0;
@@ -22,10 +22,10 @@ const HALF_M: f32 = 3.0;
 const GAP_M: [f32; 2] = [-3.0, 6.0];
 const GAP_SCALE_M: f32 = 3.0;
 
-/// Encounters of the drafts of one agent; empty where nobody is near.
+/// Encounters of the drafts of one agent; empty if nobody is near.
 pub type Encounters = [Vec<[f32; ENCOUNTER]>; MODES];
 
-/// The encounters of one draft of a box of `half` length and width, nearest first.
+/// The encounters of one draft of a box with these half sizes, nearest first.
 pub fn encounters<'a>(
     own: &Poses<INSTANTS>,
     half: [f32; 2],
@@ -43,7 +43,7 @@ pub fn encounters<'a>(
     near.iter().map(|(.., other)| encounter(own, half, other)).collect()
 }
 
-/// Least distance of the centres, infinite for an agent that is never there.
+/// Smallest distance of the centres; infinite for an agent that is always absent.
 fn nearest_m(own: &Poses<INSTANTS>, other: &Poses<INSTANTS>) -> f32 {
     let squares = own.iter().zip(other).filter(|(a, b)| !absent(a) && !absent(b));
     let squares = squares.map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(found.len(), ENCOUNTERS);
         let left = |e: &[f32; ENCOUNTER]| e[1] * POSITION_M;
         assert!((left(&found[0]) - 2.5).abs() < 1e-4 && (left(&found[1]) - 5.0).abs() < 1e-4);
-        // Beside it by 2.5 m, 2 m wide both: half a metre between them, at every instant.
+        // Beside it by 2.5 m, both 2 m wide: half a metre between them, at every instant.
         let gaps = &found[0][4 * POSES_AT.len()..][..INSTANTS];
         assert!(gaps.iter().all(|g| (g * GAP_SCALE_M - 0.5).abs() < 1e-3), "{gaps:?}");
     }

@@ -1,7 +1,8 @@
-//! What the experts see: the tables of inputs.
+//! Inputs of the experts: the tables.
 //!
-//! The order of the fields is the order of the inputs; the weights' header holds a hash of these tables. A changed
-//! name, unit, scale or order asks for weights that were trained on it. `docs/features.md` is made from here.
+//! The order of the fields is the order of the inputs, and the weights' header holds a hash of these tables.
+//! After a change of a name, unit, scale or order, weights have to be trained again. `docs/features.md` is
+//! generated from here.
 
 use super::block::{Block, Feature, block, described, index_of};
 use crate::planning::{INSTANTS, MODES, RESIDUAL};
@@ -9,7 +10,7 @@ use scene::ContentHash;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// Most other road users seen.
+/// Number of other road users among the inputs.
 pub const NEIGHBOURS: usize = 16;
 
 block! {
@@ -178,9 +179,9 @@ pub const NEIGHBOUR: usize = <Neighbour as Block>::WIDTH;
 /// Numbers of an anchor.
 pub const ANCHOR: usize = <AnchorInputs as Block>::WIDTH;
 
-/// Which of the numbers about the road user itself speak of its goal: time, masks, values.
+/// Range of the inputs about the road user itself that describe its goal: time, masks, values.
 pub const OWN_GOAL: Range<usize> = index_of!(Own, goal_time)..index_of!(Own, on_lane);
-/// The values among them, without time and masks.
+/// Range of the values among them, without time and masks.
 pub const OWN_GOAL_VALUES: Range<usize> = index_of!(Own, goal_ahead)..index_of!(Own, on_lane);
 /// Position ahead and left, heading as cosine and sine, and speed among those values; then the box's length and width.
 pub const OWN_CONDITION: [usize; 7] = [
@@ -192,9 +193,9 @@ pub const OWN_CONDITION: [usize; 7] = [
     index_of!(Own, length),
     index_of!(Own, width),
 ];
-/// The mask bit of the goal's position among them.
+/// Index of the mask of the goal's position.
 pub const OWN_GOAL_POSITION: usize = index_of!(Own, goal_position_fixed);
-/// Which of a neighbour's numbers speak of its goal.
+/// Range of a neighbour's inputs that describe its goal.
 pub const NEIGHBOUR_GOAL: Range<usize> = index_of!(Neighbour, goal_fixed)..NEIGHBOUR;
 
 /// The tables by name.
@@ -206,7 +207,7 @@ pub fn tables() -> [(&'static str, Vec<Feature>); 3] {
     ]
 }
 
-/// Names everything about the inputs and outputs of an expert that its weights rest on.
+/// Hash of everything about an expert's inputs and outputs on which its weights depend.
 pub fn tables_hash() -> String {
     let mut text = format!("neighbours {NEIGHBOURS} modes {MODES} instants {INSTANTS} residual {RESIDUAL}\n");
     for (block, features) in tables() {
@@ -218,7 +219,7 @@ pub fn tables_hash() -> String {
     ContentHash::of_bytes(text.as_bytes()).hex()
 }
 
-/// The tables as a page.
+/// The tables as a Markdown page.
 pub fn page() -> String {
     let mut out = String::from(
         "# What the experts see\n\nMade from `models/experts/src/features/tables.rs`; `cargo xtask golden --accept` \

@@ -1,4 +1,4 @@
-//! Projections that keep a fixed goal while knots change.
+//! Projections that keep a fixed goal when knots change.
 
 use crate::planning::{hat, integrated_hat, twice_integrated_hat};
 use nalgebra::DMatrix;
@@ -6,8 +6,8 @@ use scene::motion::Target;
 use scene::{KNOT_S, KNOTS, STEP_S};
 
 /// Projections of the residual knots onto the subspace that does not change the fixed goal fields. The base
-/// meets the goal already: along the path, position and speed at the goal's step; across it, offset and,
-/// where the heading is fixed, drift.
+/// already meets the goal. Along the path, these are position and speed at the goal's step; across it, offset
+/// and, if the heading is fixed, drift.
 pub(super) fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
     let t = target.step as f64 * STEP_S;
     let row = |f: fn(usize, f64) -> f64| (0..KNOTS).map(|k| f(k, t)).collect::<Vec<_>>();

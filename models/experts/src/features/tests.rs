@@ -10,7 +10,7 @@ use scene::routes::LaneGraph;
 use scene::{Agent, AgentType, Goal, Scene, Signal, SignalState, State, Subtype, Vec2};
 use std::sync::Arc;
 
-/// A value by its name, back in its unit.
+/// A value by its name, converted back to its unit.
 fn value<B: Block>(row: &[f32], name: &str) -> f64 {
     let features = described::<B>();
     let index = features.iter().position(|f| f.name == name).unwrap_or_else(|| panic!("no input {name}"));

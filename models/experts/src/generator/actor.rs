@@ -15,28 +15,28 @@ use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, State};
 pub(super) struct PlannedActor {
     pub(super) id: AgentId,
     pub(super) plan: AgentPlan,
-    /// Its motion without this call. A reacting agent keeps it unless another is in the way.
+    /// Its motion without this call. A reacting agent keeps it unless another agent is in its way.
     pub(super) kept: Option<Vec<State>>,
     /// The future that the user picked; it is not changed.
     pub(super) pinned: Option<Vec<State>>,
-    /// First drafts.
+    /// First drafts, one per mode.
     pub(super) modes: Modes,
-    /// By mode, summing to one.
+    /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes by falling probability.
+    /// Modes in order of falling probability.
     pub(super) order: [Slot; MODES],
-    /// Stays where it is.
+    /// The actor stays where it is.
     pub(super) rests: bool,
     /// The agent was parked when the call began and has neither a goal nor a via point.
     pub(super) stays_parked: bool,
     pub(super) stays_probability: f64,
     /// A vehicle that starts within the road's edges.
     pub(super) keeps_to_the_road: bool,
-    /// Share of the networks' output that counts.
+    /// Factor of the networks' output, from 0 to 1.
     network_weight: f32,
 }
 
-/// Modes by falling probability.
+/// Modes in order of falling probability.
 pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
     let mut order: [Slot; MODES] = std::array::from_fn(Slot::new);
     order.sort_by(|a, b| {
@@ -47,7 +47,7 @@ pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
 }
 
 impl PlannedActor {
-    /// A road user with a plan; `kept` is the motion that it has without this call, if it has one.
+    /// A road user with a plan. `kept` is the motion that it has without this call, if any.
     pub(super) fn new(id: AgentId, plan: AgentPlan, kept: Option<Vec<State>>) -> Self {
         Self {
             id,
@@ -65,7 +65,7 @@ impl PlannedActor {
         }
     }
 
-    /// Lets the networks count less for an agent that goes, or must go, faster than their training data.
+    /// Lowers the weight of the networks for an agent that is, or has to be, faster than their training data.
     pub(super) fn weigh_networks(&mut self, tuning: &SpeedTuning) {
         let Self { plan, network_weight, .. } = self;
         let mean_mps = |anchor: &Anchor| anchor.base[HORIZON_STEPS] / (HORIZON_STEPS as f64 * STEP_S);
@@ -75,23 +75,24 @@ impl PlannedActor {
         *network_weight = ((unknown_mps - speed_mps) / (unknown_mps - known_mps)).clamp(0.0, 1.0) as f32;
     }
 
-    /// The part of the networks' modes that counts.
+    /// The networks' modes times the actor's `network_weight`.
     pub(super) fn weighed(&self, mut modes: Modes) -> Modes {
         modes.as_flattened_mut().iter_mut().for_each(|value| *value *= self.network_weight);
         modes
     }
 
-    /// An actor that the call regenerates, or that has no motion of its own to keep.
+    /// An actor that the call regenerates, or that has no motion to keep.
     pub(super) fn asked(world: &World<'_>, who: &AgentAtStart) -> Self {
         Self::new(world.agent(who).id.clone(), plan(world, who), None)
     }
 
-    /// An actor that may replace its motion `kept` to yield to others; it keeps the goal it had.
+    /// An actor that may replace its motion `kept` to yield to others. It keeps the goal that it had.
     pub(super) fn reacting(world: &World<'_>, who: &AgentAtStart, kept: Vec<State>) -> Self {
         Self::new(world.agent(who).id.clone(), plan(world, who), Some(kept))
     }
 
-    /// Goes on from a state that an earlier window reached: what rolls backwards does so until it stands.
+    /// Prepares a start in a state that an earlier window reached. A vehicle that rolls backwards does so
+    /// until it stands.
     pub(super) fn goes_on(&mut self, parked: bool) {
         let plan = &mut self.plan;
         self.stays_parked = parked && plan.is_free();
@@ -102,30 +103,31 @@ impl PlannedActor {
         }
     }
 
-    /// Sets what the initializer says of its modes.
+    /// Sets the first modes and their probabilities from the initializer's output.
     pub(super) fn set_modes(&mut self, modes: Modes, probability: [f64; MODES]) {
         (self.modes, self.probability) = (modes, probability);
         self.order = by_probability(&probability);
     }
 
-    /// Most probable mode.
+    /// The most probable mode.
     pub(super) fn likeliest(&self) -> Slot {
         self.order[0]
     }
 
-    /// A vehicle that stands beside or off every lane: nothing but its driver can make it go.
+    /// Whether the actor is a vehicle at rest beside or off every lane. No light and no leader can make it
+    /// go.
     pub(super) fn is_parked(&self) -> bool {
         let off_lane =
             |anchor: &Anchor| anchor.route.as_ref().is_none_or(|r| r.lateral_m.abs() > BESIDE_LANE_M);
         self.plan.present.agent_type == AgentType::Vehicle && self.plan.anchors.first().is_some_and(off_lane)
     }
 
-    /// Rest is all that it can do.
+    /// Whether rest is the only motion that the actor can have.
     pub(super) fn only_rests(&self) -> bool {
         self.rests && (self.stays_parked || !self.plan.is_free())
     }
 
-    /// Its motion is fixed: it rests, or a person picked its future.
+    /// Whether its motion is fixed: it rests, or a person picked its future.
     pub(super) fn keeps_still(&self) -> bool {
         self.rests || self.pinned.is_some()
     }

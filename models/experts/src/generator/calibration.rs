@@ -1,10 +1,11 @@
-//! The probabilities that an answer gives its futures.
+//! Calibration of the probabilities in an answer.
 
 use crate::tuning::ProbabilityTuning;
 
-/// Probabilities that sum to one, from weights. The networks learn them from simulated timing, and parting, projection and
-/// choice change the futures after that, so they are surer than recordings warrant: a temperature makes all flatter, and
-/// on wheels with a goal position (`sure`) a share is spread evenly. Their order stays.
+/// Turns weights into probabilities that sum to one, in the same order. Raw weights are overconfident against
+/// recordings: the networks learn from simulated timing, and diversity, projection and choice change the
+/// futures afterwards. A temperature flattens all probabilities. With a goal position (`sure`), a vehicle or
+/// cyclist gets a share spread evenly instead.
 pub(super) fn calibrated(
     weights: Vec<f64>,
     (sure, walks): (bool, bool),

@@ -1,4 +1,4 @@
-//! The candidate motions of an actor, each with its origin. The choice picks one of them for every actor.
+//! The candidate motions of an actor, each with its origin. The choice picks one per actor.
 
 use super::actor::PlannedActor;
 use super::choice::distance;
@@ -13,39 +13,39 @@ use crate::tuning::MiddleTuning;
 use scene::motion::{Gear, Reach, Smoothing};
 use scene::{AgentType, Vec2};
 
-/// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
-/// only candidate that its actor has ([`CandidateOrigin::Pinned`]). A rejected one belongs here as well: the modes
-/// near it are taken out in [`candidates`], before anything is made from them.
+/// Origin of a candidate. A person's decision is an origin too: a picked future is the only candidate of its
+/// actor ([`CandidateOrigin::Pinned`]). Rejected futures would belong here as well: [`candidates`] would drop
+/// the modes near them before it derives anything from those modes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CandidateOrigin {
     /// The motion that a reacting actor has without this call.
     Kept,
     /// The future that a person picked.
     Pinned,
-    /// Standing where it is.
+    /// Rest at the start pose.
     Rest,
     /// The draft of a mode.
     Mode(Slot),
-    /// The mean of all modes of one path, nearest to this one.
+    /// The mean of all modes on one path; this mode is the nearest to it.
     PathMean(Slot),
-    /// The motion that a person has seen last of this mode, brought to the present goal.
+    /// The motion of this mode that the user saw last, adapted to the present goal.
     Shown(Slot),
-    /// The motion that the actor is driving, taken further. It is nearest to this mode.
+    /// The motion that the actor is driving, continued. This mode is the nearest to it.
     UnderWay(Slot),
     /// The draft of this mode after overlaps were resolved.
     Settled(Slot),
     /// The draft of this mode, guided out of a conflict of the chosen scene.
     Guided(Slot),
-    /// A motion on the path of this mode that swerves for what is in its way.
+    /// A motion on the path of this mode that swerves around an obstacle.
     Swerving(Slot),
-    /// A motion on the path of this mode that stops before what is in its way.
+    /// A motion on the path of this mode that stops before an obstacle.
     Stopping(Slot),
-    /// A motion on the path of this mode that stays behind those ahead and after those that cross first.
+    /// A motion on the path of this mode that follows its leaders and yields to agents that cross first.
     Following(Slot),
 }
 
 impl CandidateOrigin {
-    /// The mode that it is, was made from, or is nearest to.
+    /// The mode that the candidate is, was made from, or is nearest to.
     pub(super) fn slot(self) -> Option<Slot> {
         match self {
             Self::Kept | Self::Pinned | Self::Rest => None,
@@ -61,34 +61,34 @@ impl CandidateOrigin {
         }
     }
 
-    /// It is no motion of this answer: the actor had it before, or a person gave it.
+    /// Whether the motion existed before this answer: the actor had it, or a person picked it.
     pub(super) fn is_given(self) -> bool {
         matches!(self, Self::Kept | Self::Pinned)
     }
 
-    /// A person has seen it last.
+    /// Whether the user saw it last.
     pub(super) fn is_shown(self) -> bool {
         matches!(self, Self::Shown(_))
     }
 
-    /// It goes on with what was shown or driven before.
+    /// Whether it continues what was shown or driven before.
     pub(super) fn goes_on(self) -> bool {
         matches!(self, Self::Shown(_) | Self::UnderWay(_))
     }
 
-    /// It is an alternative of the answer by itself; all other motions of this answer take an alternative's place
-    /// where they are chosen.
+    /// Whether it is an alternative of the answer by itself. Other new motions replace an alternative when
+    /// they are chosen.
     pub(super) fn is_alternative(self) -> bool {
         matches!(self, Self::Rest | Self::Mode(_))
     }
 }
 
-/// One thing that an actor could do.
+/// One possible motion of an actor.
 #[derive(Clone, Debug)]
 pub(super) struct MotionCandidate {
-    /// Of an alternative; zero for what is given or was made from alternatives.
+    /// Probability of an alternative; zero for given motions and for motions derived from alternatives.
     pub(super) probability: f64,
-    /// Where it came from.
+    /// Where the motion came from.
     pub(super) origin: CandidateOrigin,
     /// The motion itself.
     pub(super) motion: Rollout,
@@ -98,19 +98,19 @@ pub(super) struct MotionCandidate {
 pub(super) struct Material<'a> {
     pub(super) actor: &'a PlannedActor,
     pub(super) drafts: &'a Drafts,
-    /// A plan moves the actor already.
+    /// An earlier plan already moves the actor.
     pub(super) moves: bool,
     pub(super) tuning: &'a MiddleTuning,
-    /// The future that a person has seen last, in the sample and window that follow it.
+    /// The future that the user saw last, for the sample and window that continue it.
     pub(super) shown: Option<&'a ShownLast>,
     /// The actor is driving that future.
     pub(super) under_way: bool,
-    /// So many alternatives are weighed, the likeliest.
+    /// Number of alternatives that the choice weighs, by falling probability.
     pub(super) weighed: usize,
 }
 
 impl Material<'_> {
-    /// All that the actor could do, in the order in which ties are decided. What is given comes first.
+    /// All candidates of the actor, in the order that decides ties. Given motions come first.
     pub(super) fn candidates(&self) -> Vec<MotionCandidate> {
         let PlannedActor { plan, pinned, kept, .. } = self.actor;
         let given =
@@ -137,9 +137,9 @@ impl Material<'_> {
         out
     }
 
-    /// The motion that was shown last, where it led next to the present goal: a goal that moves by little then moves the
-    /// motion by little, whatever the modes are. Where no draft gets to the goal (`missed` says why), it need
-    /// not either.
+    /// The motion that was shown last, if it led close to the present goal. A small move of the goal then
+    /// moves the motion by little, whatever the modes are. If no draft reaches the goal (`missed` holds the
+    /// reason), this motion may miss it too.
     fn shown_last(&self, missed: Option<Reach>) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
         let plan = &self.actor.plan;
@@ -151,13 +151,13 @@ impl Material<'_> {
         Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::Shown(slot), motion })
     }
 
-    /// The motion that the actor is driving, within its limits and on to its goal.
+    /// The motion that the actor is driving, within its limits and extended to its goal.
     fn driven(&self, alternatives: &[MotionCandidate]) -> Option<MotionCandidate> {
         let plan = &self.actor.plan;
         let free = self.under_way && !self.actor.only_rests() && plan.model.gear == Gear::Forward;
         let shown = self.shown.filter(|_| free && self.actor.kept.is_none())?;
         let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
-        // Smoothed, since a plan that is taken up each second must not keep every swing.
+        // Smoothed: a plan that is continued every second must not keep every swing.
         let motion = self.without_creep(short_along(plan, &places, Smoothing::WISHED, true));
         let apart = |c: &&MotionCandidate| distance(&c.motion.states, &motion.states);
         let modes = alternatives.iter().filter(|c| matches!(c.origin, CandidateOrigin::Mode(_)));
@@ -165,7 +165,7 @@ impl Material<'_> {
         Some(MotionCandidate { probability: 0.0, origin: CandidateOrigin::UnderWay(slot), motion })
     }
 
-    /// The same where the motion that was shown last stops before another agent.
+    /// The last shown motion, stopping before another agent.
     pub(super) fn shown_stopping(&self) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
         let motion = || short_along(&self.actor.plan, &places, Smoothing::DRIVEN, false);
@@ -176,7 +176,7 @@ impl Material<'_> {
         })
     }
 
-    /// The mode and the places of the motion that was shown last, and whether they lead next to the present goal.
+    /// Mode and places of the motion that was shown last, and whether they lead close to the present goal.
     fn seen(&self) -> Option<(Slot, [Vec2; INSTANTS], bool)> {
         let shown = self.shown.filter(|_| !self.actor.only_rests() && self.actor.kept.is_none())?;
         let slot = Slot::all().find(|slot| Some(slot.number()) == shown.anchor)?;
@@ -194,7 +194,7 @@ impl Material<'_> {
         Some((slot, shown.places.get(..INSTANTS)?.try_into().ok()?, near))
     }
 
-    /// Rest where the actor may rest, then modes by falling probability, `count` in all.
+    /// Rest if the actor may rest, then modes by falling probability; `count` in all.
     pub(super) fn alternatives(&self, count: usize) -> Vec<MotionCandidate> {
         let actor = self.actor;
         let mut out = Vec::with_capacity(count);
@@ -222,8 +222,8 @@ impl Material<'_> {
         out
     }
 
-    /// Where no mode is the middle of what may happen, the mean of each path's modes, which is nearer to all of
-    /// them than any one is.
+    /// For actors without a middle mode: the mean of each path's modes. Its expected distance to them is less
+    /// than that of any single mode.
     fn path_means(&self, alternatives: &[MotionCandidate]) -> Vec<MotionCandidate> {
         let actor = self.actor;
         if middle(actor).is_some() || actor.only_rests() {
@@ -253,13 +253,13 @@ impl Material<'_> {
         without_creep(&self.actor.plan, self.moves, motion)
     }
 
-    /// Share of what was learned in the mode in the middle.
+    /// Share of the learned residual that the middle mode keeps.
     fn learned_share(&self) -> f32 {
         learned_share(self.actor, self.tuning)
     }
 
-    /// The mode that the scene is built around: in the first sample the middle of what may happen, where a mode
-    /// is that; in further ones the mode that was drawn, so that each is one of its own.
+    /// The mode that the scene is built around. In the first sample it is the middle of the distribution, for
+    /// actors that have such a mode. In further samples it is the drawn mode, so that samples differ.
     pub(super) fn around(&self, sample: usize) -> Option<Slot> {
         match sample {
             0 => middle(self.actor),
@@ -268,7 +268,7 @@ impl Material<'_> {
     }
 }
 
-/// Share of what was learned in the mode in the middle.
+/// Share of the learned residual that the middle mode keeps.
 pub(super) fn learned_share(actor: &PlannedActor, tuning: &MiddleTuning) -> f32 {
     let share = match actor.plan.present.agent_type {
         AgentType::Pedestrian => tuning.learned_on_foot,
@@ -277,13 +277,13 @@ pub(super) fn learned_share(actor: &PlannedActor, tuning: &MiddleTuning) -> f32 
     share as f32
 }
 
-/// The mode that is the middle of what may happen, where there is a place to go.
+/// The mode in the middle of the distribution, for an actor with a goal position.
 pub(super) fn middle(actor: &PlannedActor) -> Option<Slot> {
     let moves = actor.pinned.is_none() && !actor.rests;
     (moves && actor.plan.target.position.is_some()).then_some(Slot::FIRST)
 }
 
-/// The candidate that is shown where nothing is chosen: what is given or rests, else the leading draft.
+/// The candidate that is shown when the choice does not run: a given motion or rest, else the leading draft.
 pub(super) fn own(actor: &PlannedActor, leading: Slot, candidates: &[MotionCandidate]) -> usize {
     let of = |origin: CandidateOrigin| candidates.iter().position(|c| c.origin == origin);
     if actor.pinned.is_some() || actor.kept.is_some() || actor.rests {
@@ -292,9 +292,10 @@ pub(super) fn own(actor: &PlannedActor, leading: Slot, candidates: &[MotionCandi
     of(CandidateOrigin::Settled(leading)).or_else(|| of(CandidateOrigin::Mode(leading))).unwrap_or(0)
 }
 
-/// The alternatives of an answer by falling probability, at most `count`, and which of them is shown; `None` where the
-/// actor goes on with what it was given. A shown candidate that is no alternative takes the place of the one of its
-/// slot. `lawful` is the share of each candidate's probability that is left to it by the rules it breaks.
+/// The alternatives of an answer by falling probability, at most `count`, and the index of the shown one.
+/// `None` if the actor keeps a given motion. A chosen candidate that is no alternative replaces the
+/// alternative of its slot. `lawful` is the factor of each candidate's probability for the rules that it
+/// breaks.
 pub(super) fn shown(
     candidates: Vec<MotionCandidate>,
     lawful: &[f64],

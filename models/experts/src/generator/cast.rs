@@ -6,14 +6,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Most agents that get new futures in one call.
 pub(super) const MOST_ACTORS: usize = 128;
 
-/// The parts in a window, by index into the scene's agents.
+/// The parts of a window, by index into the scene's agents.
 pub(super) struct WindowCast {
-    /// The agents that get new futures in any case.
+    /// Agents that get new futures in any case.
     pub(super) acting: BTreeSet<usize>,
-    /// The agents that may react to them.
+    /// Agents that may react to them.
     pub(super) may_react: BTreeSet<usize>,
-    /// The acting agents that were parked when the call began: they stay.
+    /// Acting agents that were parked when the call began and stay parked.
     pub(super) parked: BTreeSet<usize>,
-    /// The motions, from the window's start on, of other agents that reacted in an earlier window.
+    /// Motions, from the window's start on, of other agents that reacted in an earlier window.
     pub(super) resumed: BTreeMap<usize, Vec<State>>,
 }

@@ -1,5 +1,5 @@
-//! One candidate an actor so that the scene is coherent: coordinate descent with pair moves. It costs no
-//! accuracy and microseconds of time.
+//! Picks one candidate per actor so that the scene is coherent: coordinate descent with pair moves. It costs
+//! microseconds and no accuracy.
 
 use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
@@ -12,16 +12,16 @@ use std::sync::Arc;
 
 const MOST_SWEEPS: usize = 12;
 
-/// A candidate of an actor, as the joint choice weighs it.
+/// A candidate of an actor as the joint choice sees it.
 pub(super) struct JointOption {
     pub(super) sweep: Arc<Sweep>,
-    /// Cost by itself.
+    /// Total cost of the candidate by itself.
     pub(super) cost: f64,
-    /// The part of it for breaking rules.
+    /// Part of `cost` for broken rules.
     pub(super) rule_cost: f64,
-    /// The part of it that the others bear.
+    /// Part of `cost` that the other agents bear.
     pub(super) burden: f64,
-    /// The motion that the agent has anyway: its distance to other kept motions is as it was.
+    /// The agent has this motion anyway, so its distance to other kept motions does not change.
     pub(super) kept: bool,
 }
 
@@ -31,11 +31,12 @@ impl JointOption {
     }
 }
 
-/// A motion that stays as it is.
+/// A motion that the choice does not change.
 #[derive(Clone, Copy)]
 pub(super) struct FixedMotion<'a> {
     pub(super) sweep: &'a Sweep,
-    /// Of a road user that comes in later, and stays out where it would meet another one then: these steps.
+    /// For a road user that enters later and stays out if its place is taken: the first and last step of its
+    /// entry.
     pub(super) comes_in: Option<(usize, usize)>,
 }
 
@@ -44,7 +45,7 @@ impl FixedMotion<'_> {
         self.sweep.swept()
     }
 
-    /// It would come in where this motion is then, or meet it sooner than it can help.
+    /// Whether the road user cannot enter because this motion is in its place then, or too soon after.
     pub(super) fn is_kept_out_by(&self, motion: &Sweep) -> bool {
         let touch = |step: usize| {
             self.sweep.at(step).zip(motion.at(step)).is_some_and(|(own, other)| overlaps(own, other, 0.0))
@@ -62,7 +63,7 @@ pub(super) fn distance(a: &Trajectory, b: &Trajectory) -> f64 {
     sum / (HORIZON_STEPS / EVERY) as f64
 }
 
-/// Costs of an actor's options by themselves: expected distance to its modes over the least of them.
+/// Cost of each option by itself: its expected distance to the modes, minus the least such distance.
 pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]) -> Vec<f64> {
     let expected: Vec<f64> =
         options.iter().map(|o| modes.iter().map(|(m, p)| p * distance(o, m)).sum::<f64>()).collect();
@@ -78,7 +79,7 @@ pub(super) struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// Index of the chosen option of each road user. Ties go to the lower index.
+    /// Index of the chosen option of each road user. The lower index wins ties.
     pub(super) fn solve(&self) -> Vec<usize> {
         let own = self.own_costs();
         let mut pairs = Pairs::new(&self.agents, self.tuning);
@@ -106,7 +107,7 @@ impl Choice<'_> {
         chosen
     }
 
-    /// Whether the chosen option of each road user overlaps another's chosen option or a fixed motion.
+    /// For each road user, whether its chosen option overlaps another chosen option or a fixed motion.
     pub(super) fn in_conflict(&self, chosen: &[usize]) -> Vec<bool> {
         let mut out = vec![false; chosen.len()];
         let near = self.near();
@@ -167,7 +168,7 @@ impl Choice<'_> {
         changed
     }
 
-    /// Each option by itself and against what is fixed.
+    /// Cost of each option by itself and against the fixed motions.
     fn own_costs(&self) -> Vec<Vec<f64>> {
         let against = |option: &JointOption| -> f64 {
             let fixed = self.fixed.iter().filter(|f| !option.kept && !f.is_kept_out_by(&option.sweep));
@@ -176,10 +177,10 @@ impl Choice<'_> {
         self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
 
-    /// For each road user, the others whose options can come near one of its own.
+    /// For each road user, the others whose options can come near one of its options.
     fn near(&self) -> Vec<Vec<usize>> {
         let n = self.agents.len();
-        // From this distance on two that cross cost something.
+        // Two motions closer than this cost something.
         let margin_m = Thresholds::default().gap_m.max(CLOSE_M);
         let bounds: Vec<SweptBounds> = self
             .agents
@@ -202,12 +203,12 @@ impl Choice<'_> {
     }
 }
 
-/// Costs of pairs of options, each computed once.
+/// Costs of pairs of options; each is computed once.
 struct Pairs<'a> {
     agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,
-    /// For two road users, the first before the second: a cost for each option of the first and then of the second.
-    /// Empty until they are compared; not a number until the options are.
+    /// For two road users, the lower index first: one cost per pair of options. Empty until the two are
+    /// compared; NaN until the two options are.
     known: Vec<Vec<f64>>,
 }
 
@@ -233,7 +234,7 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Cost of a meeting of two motions.
+/// Cost of an encounter of two motions.
 pub(super) fn price(a: &SweptBoxes, b: &SweptBoxes, tuning: &ChoiceTuning) -> f64 {
     let found = overlap(a, b);
     if found.overlaps {
@@ -270,7 +271,7 @@ mod tests {
 
     #[test]
     fn the_cheaper_way_out_is_taken() {
-        // Both start alike; the second may also change lane.
+        // Both start with the same motion; the second may also change lane.
         let choice = Choice {
             tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0)], vec![ride(0.5, 8.0, 1.0), ride(4.0, 8.0, 2.0)]],
@@ -283,7 +284,8 @@ mod tests {
 
     #[test]
     fn pairs_move_together() {
-        // Each single change meets the other's present choice; only changing both is free of conflict.
+        // Each single change conflicts with the other's present choice; only both changes together are free
+        // of conflict.
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
         let kept = ride(8.3, 8.0, 0.0);
         let choice = Choice {

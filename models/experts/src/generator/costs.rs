@@ -22,11 +22,11 @@ use scene::score::Actor as ScoreActor;
 use scene::{Agent, AgentType, Future, HORIZON_STEPS, STEP_S, State};
 use std::sync::Arc;
 
-/// The standards that an actor's candidates are compared with.
+/// What an actor's candidates are compared with.
 pub(super) struct Yardstick<'a> {
     /// The mode that the scene is built around.
     pub(super) around: Option<Slot>,
-    /// The future that a person has seen last.
+    /// The future that the user saw last.
     pub(super) shown: Option<&'a ShownLast>,
     /// The actor is driving that future.
     pub(super) under_way: bool,
@@ -34,14 +34,14 @@ pub(super) struct Yardstick<'a> {
     pub(super) judge: &'a Judge<'a>,
     /// The agents that do not act.
     pub(super) others: &'a Others<'a>,
-    /// The road user in the scene, and the window's first step.
+    /// The road user in the scene.
     pub(super) agent: &'a Agent,
     pub(super) start_step: usize,
     pub(super) tuning: &'a ChoiceTuning,
 }
 
-/// The options of the joint choice: one entry a candidate, in their order. `known` are those of the first candidates, from
-/// before the others were added.
+/// The options of the joint choice: one per candidate, in their order. `known` holds the options of the first
+/// candidates, from before the others were added.
 pub(super) fn options(
     actor: &PlannedActor,
     candidates: &[MotionCandidate],
@@ -75,11 +75,11 @@ pub(super) fn options(
         let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
         let goes = actor.plan.target.position.is_some();
         let cost = match c.origin {
-            // Where the others are alike, a swerving motion is far from all of them.
+            // Where all others are alike, a swerving motion is far from every one of them.
             CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) | CandidateOrigin::UnderWay(_) => {
                 cost.min(tuning.most_swerving + missed)
             }
-            // What reaches the same goal is no worse for being far from the rest.
+            // A motion that reaches the same goal is no worse for being far from the rest.
             CandidateOrigin::Mode(_) | CandidateOrigin::Guided(_) if goes => {
                 cost.min(tuning.most_central + missed)
             }
@@ -103,8 +103,7 @@ pub(super) fn options(
     costs.into_iter().enumerate().map(|(o, cost)| option(o, cost)).collect()
 }
 
-/// How far each candidate is from all alternatives by their probability, and whether it misses its goal or a via
-/// point.
+/// Expected distance of each candidate to all alternatives, and whether it misses its goal or a via point.
 fn central(
     plan: &AgentPlan,
     candidates: &[MotionCandidate],
@@ -125,7 +124,7 @@ fn central(
     medoid_costs(&all, &weighted).into_iter().zip(candidates).map(|(cost, c)| cost + missed(c)).collect()
 }
 
-/// Cost of harsh braking or steering, by its seconds.
+/// Cost of harsh braking or steering, by its duration in seconds.
 fn harsh(actor: &PlannedActor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
     if actor.plan.present.agent_type == AgentType::Pedestrian {
         return 0.0;
@@ -137,12 +136,12 @@ fn harsh(actor: &PlannedActor, states: &Trajectory, tuning: &ChoiceTuning) -> f6
         -change.dot(&ahead) > tuning.harsh_mps2 || cross(ahead, change).abs() > tuning.harsh_mps2
     };
     let steps = states.windows(2).filter(|w| is_harsh(w)).count();
-    // A step or two are a jerk of the wheel.
+    // One or two steps are only a jerk of the wheel.
     if steps > 2 { tuning.harsh + tuning.harsh_second * steps as f64 * STEP_S } else { 0.0 }
 }
 
-/// Cost of running a red light, of harsh braking or steering, and for a vehicle of leaving the road or driving against
-/// the traffic.
+/// Cost of running a red light and of harsh braking or steering; for a vehicle also of leaving the road or
+/// driving against the traffic.
 fn rule_cost_of(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {
@@ -154,7 +153,7 @@ fn rule_cost_of(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -
     cost
 }
 
-/// Cost to a walker without a goal of stepping out before a fast vehicle.
+/// Cost to a walker without a goal of stepping out in front of a fast vehicle.
 fn stepping_out(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let plan = &actor.plan;
     let beside = plan.target.position.is_none() && plan.kerbs.iter().any(Option::is_some);
@@ -167,7 +166,7 @@ fn stepping_out(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -
     if before_any { by.tuning.stepping_out } else { 0.0 }
 }
 
-/// Cost of showing another motion than a person has seen last.
+/// Cost of showing another motion than the one that the user saw last.
 fn switching(candidate: &MotionCandidate, by: &Yardstick<'_>) -> f64 {
     let Some(shown) = by.shown else { return 0.0 };
     let mut apart: Vec<f64> = Vec::with_capacity(INSTANTS);
@@ -186,8 +185,8 @@ fn switching(candidate: &MotionCandidate, by: &Yardstick<'_>) -> f64 {
     switching * ((mean_m + 0.5 * most_m) / tuning.switching_m).min(1.0) + tuning.other_mode * other
 }
 
-/// Cost to a vehicle that starts on a lane of being away from every lane, and to one that starts within the road's edges
-/// of having a corner beyond them or driving against the traffic.
+/// Cost to a vehicle that starts on a lane of being off every lane. A vehicle that starts within the road's
+/// edges also pays for a corner beyond them and for driving against the traffic.
 fn off_road(actor: &PlannedActor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceTuning) -> f64 {
     let present = &actor.plan.present;
     let Some(start) = states.first().filter(|_| present.agent_type == AgentType::Vehicle) else {
@@ -231,7 +230,7 @@ mod tests {
         car_on_a_street(0.0, Goal::default())
     }
 
-    /// Standing, at so many metres to the front.
+    /// Standing this many metres ahead.
     fn at(x_m: f64, probability: f64, origin: CandidateOrigin) -> MotionCandidate {
         let mut motion = rest(&plan());
         motion.states.iter_mut().for_each(|s| s.position.x = x_m);

@@ -16,12 +16,12 @@ pub(super) struct Decided {
     pub(super) chosen: usize,
     /// At most as many as the request asks for; never empty.
     pub(super) alternatives: Vec<MotionCandidate>,
-    /// The cause of its change, where it had a motion before.
+    /// Why it changed its motion, if it had one before.
     pub(super) reaction: Option<Reaction>,
-    /// The agent before which it stops and misses its goal.
+    /// The agent in front of which it stops, so that it misses its goal.
     pub(super) blocked_by: Option<AgentId>,
-    /// The reactions of the others if one of `alternatives` is taken in place of the shown one, one entry each: `None`
-    /// where they stay the same. Empty where the window does not look.
+    /// Reactions of the others to each of `alternatives` if it replaced the shown one; `None` where they do
+    /// not differ. Empty if the window does not compute them.
     pub(super) reactions: Vec<Option<Vec<Reacted>>>,
 }
 
@@ -36,7 +36,7 @@ impl Decided {
         &self.shown().motion
     }
 
-    /// The actor stays where it is.
+    /// Whether the actor stays where it is.
     pub(super) fn rests(&self) -> bool {
         self.shown().origin == CandidateOrigin::Rest
     }
@@ -44,8 +44,8 @@ impl Decided {
 
 /// The decisions of a window.
 pub(super) struct Decisions {
-    /// Of the actors. An actor that goes on with a given motion is left out.
+    /// Decisions of the actors; an actor that keeps a given motion is left out.
     pub(super) actors: Vec<Decided>,
-    /// Of the agents that change their motion because of the actors. An agent that keeps it is left out.
+    /// Agents that change their motion because of the actors; an agent that keeps its motion is left out.
     pub(super) reacted: Vec<Reacted>,
 }

@@ -1,9 +1,9 @@
 //! Makes the six modes of an agent six distinguishable futures.
 //!
-//! Modes have different anchors, yet with a goal, before a junction or in a queue they often coincide. The
-//! second of two coinciding modes adds nothing. It is changed to pass a crossing agent in an order that no
-//! other mode has, or else to another pace or lateral offset. The changed mode gets a low probability. Its
-//! change is an offset that the networks do not see, so refinement keeps it.
+//! Modes have different anchors, yet they often coincide with a goal, before a junction or in a queue. The
+//! second of two coinciding modes adds nothing, so it is changed. It passes a crossing agent in an order that
+//! no other mode has, or else gets another pace or lateral offset. The changed mode gets a low probability.
+//! Its change is an offset that the networks do not see, so refinement keeps it.
 
 use super::actor::PlannedActor;
 use super::candidates::middle;
@@ -15,19 +15,19 @@ use crate::tuning::DuplicateTuning;
 use crate::tuning::fixed::duplicate_modes::NO_COPY;
 use scene::judge::{Trace, crossing};
 
-/// Most crossing agents that the best guess considers: those with the smallest time shift.
+/// Number of crossing agents that the best guess considers: those with the smallest time shift.
 const MOST_STREAMS: usize = 3;
-/// Most modes that are not copies but give way to a missing order.
+/// Number of modes that are no copies but are replaced to cover a missing order.
 const MOST_GIVEN_UP: usize = 2;
 
 /// The changes that make the modes of an actor six different futures.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DiverseModes {
-    /// Added to each mode.
+    /// Offset that is added to each mode.
     pub(super) offset: Modes,
-    /// By mode, summing to one.
+    /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes that stay as they are whatever the draw: the best guess, and orders.
+    /// Modes that no draw changes: the best guess, and modes with a given order.
     pub(super) steady: [bool; MODES],
 }
 
@@ -39,7 +39,7 @@ impl DiverseModes {
         Self { offset: [[0.0; RESIDUAL]; MODES], probability: actor.probability, steady }
     }
 
-    /// Of an actor among others. `share` is what counts of the residual of the mode in the middle.
+    /// The changes for an actor among others. `share` is the factor of the middle mode's residual.
     pub(super) fn of(actor: &PlannedActor, others: &[&Trace], share: f32, tuning: &DuplicateTuning) -> Self {
         let views: Vec<DraftView<'_>> = Slot::all()
             .map(|slot| {
@@ -59,7 +59,7 @@ impl DiverseModes {
     }
 }
 
-/// The mode that is the best guess: it is never changed.
+/// The mode that is the best guess; it is never changed.
 pub(super) fn best(actor: &PlannedActor) -> Slot {
     middle(actor).unwrap_or(actor.likeliest())
 }
@@ -73,9 +73,9 @@ struct Diversifying<'a> {
     diverse: DiverseModes,
     actor: &'a PlannedActor,
     near: Vec<&'a Trace>,
-    /// By slot, as they are shown.
+    /// View of each mode, by slot.
     views: Vec<DraftView<'a>>,
-    /// Slots that are no copies.
+    /// Slots that are not copies.
     accepted: Vec<usize>,
     tuning: &'a DuplicateTuning,
 }
@@ -84,7 +84,7 @@ impl<'a> Diversifying<'a> {
     fn run(&mut self) {
         let copy_m = copy_m(self.actor, self.tuning);
         let first = best(self.actor).index();
-        // By slot and not by probability: a slot keeps its idea while a goal is dragged.
+        // By slot and not by probability: a slot keeps its variation while the user drags a goal.
         let order = std::iter::once(first).chain((0..MODES).filter(|i| *i != first));
         let mut copies: Vec<(usize, usize)> = Vec::new();
         for i in order {
@@ -125,7 +125,7 @@ impl<'a> Diversifying<'a> {
         self.share_out(&copies);
     }
 
-    /// Orders (before, after) that no accepted mode has, relative to the agents whose paths the best guess
+    /// Orders (before or after) in which no accepted mode passes the agents whose paths the best guess
     /// crosses.
     fn missing_orders(&self, first: usize) -> Vec<(&'a Trace, bool)> {
         let me = self.views[first].trace();
@@ -143,8 +143,8 @@ impl<'a> Diversifying<'a> {
         wants.filter(|(other, before)| !has(other, if *before { 1 } else { -1 })).collect()
     }
 
-    /// The time at which the last vehicle has passed that the best guess, a walker, would step out before,
-    /// seconds. `None` where an accepted mode waits at the kerb until then.
+    /// For a walker: the time at which the last vehicle has passed that the best guess would step out in
+    /// front of, seconds. `None` if an accepted mode waits at the kerb until then.
     fn waits_until(&self, first: usize) -> Option<f64> {
         let plan = &self.actor.plan;
         let kerb = plan.kerbs[first].as_ref().filter(|_| plan.target.position.is_none())?;
@@ -157,7 +157,7 @@ impl<'a> Diversifying<'a> {
         (!self.accepted.iter().any(waits)).then_some(passed_s)
     }
 
-    /// Gives an idea to a copy, or to an unlikely mode on a path that another one has too.
+    /// Gives a variation to a copy, or to an unlikely mode on a path that another mode has too.
     fn give(
         &mut self,
         made: &dyn Fn(&Self, usize) -> Option<DraftView<'a>>,
@@ -187,11 +187,11 @@ impl<'a> Diversifying<'a> {
         }
     }
 
-    /// Another pace or line for a copy, apart from all that there is.
+    /// Another pace or line for a copy, apart from all present modes.
     fn another(&self, i: usize, copy_m: f64) -> Option<DraftView<'a>> {
         let from = &self.views[i];
         let free_target = self.actor.plan.target.position.is_none();
-        // An agent that waits without a goal has a reason to.
+        // An agent that waits without a goal has a reason to wait.
         let waits = free_target && from.ends_at_rest();
         let tries = pace_steps(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
         tries
@@ -200,7 +200,7 @@ impl<'a> Diversifying<'a> {
             .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
     }
 
-    /// The changed draft meets no agent that the original draft does not meet.
+    /// Whether the changed draft meets no agent that the original draft does not meet.
     fn is_free(&self, from: &DraftView<'_>, made: &DraftView<'_>) -> bool {
         self.near.iter().all(|other| !made.trace().meets(other) || from.trace().meets(other))
     }
@@ -212,7 +212,8 @@ impl<'a> Diversifying<'a> {
         self.accepted.push(i);
     }
 
-    /// A copy's probability is that of the mode it is a copy of; what was made of it is unlikely.
+    /// Moves the probability of a changed copy to the mode that it copied. Every changed mode gets the tuned
+    /// low probability.
     fn share_out(&mut self, copies: &[(usize, usize)]) {
         let made = |i: usize| self.diverse.offset[i] != [0.0; RESIDUAL];
         let mut probability = self.diverse.probability;
@@ -246,13 +247,13 @@ mod tests {
             car_on_a_street(speed_mps, Goal { position, ..Goal::default() }),
             None,
         );
-        // All do what the first does.
+        // All modes do what the first does.
         let first = actor.plan.anchors[0].clone();
         actor.plan.anchors.iter_mut().for_each(|anchor| *anchor = first.clone());
         actor
     }
 
-    /// Over the street at x = 40, there after so many seconds.
+    /// Crosses the street at x = 40 after this many seconds.
     fn crossing_at(passes_s: f64) -> Trace {
         let size = Size::default_for(AgentType::Vehicle, Subtype::Car);
         let at = |step: usize| {

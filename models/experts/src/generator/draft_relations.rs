@@ -1,4 +1,4 @@
-//! The relations of first drafts to other agents, and their manoeuvres: what a person reads while drafts are refined.
+//! Relations of first drafts to other agents, and their manoeuvres, which the editor shows during refinement.
 
 use super::candidates::{CandidateOrigin, MotionCandidate};
 use super::draft_traces::trace_of_mode;
@@ -8,16 +8,16 @@ use scene::AgentType;
 use scene::judge::{About, Manoeuvre, Trace, manoeuvre, relations};
 use std::collections::BTreeMap;
 
-/// With more regenerated agents drafts have no relations; the answer has them.
+/// Above this number of regenerated agents, drafts have no relations; the answer has them.
 const MOST_NAMED: usize = 8;
 
-/// The relations and manoeuvres of first drafts, by actor and slot. Refinement changes a draft by little, so later drafts keep it until
-/// the answer works it out again.
+/// Relations and manoeuvres of first drafts, by actor and slot. Refinement changes a draft by little, so
+/// later drafts keep them until the answer computes them again.
 #[derive(Default)]
 pub(super) struct DraftRelations(BTreeMap<(usize, Slot), About>);
 
 impl DraftRelations {
-    /// Of the drafts that are shown, one list an actor.
+    /// For the shown drafts, one list per actor.
     pub(super) fn of(drafts: &JointDrafts<'_>, shown: &[Vec<MotionCandidate>]) -> Self {
         let actors = drafts.actors;
         let asked = actors.iter().filter(|a| a.kept.is_none()).count();
@@ -37,7 +37,7 @@ impl DraftRelations {
         relations
     }
 
-    /// Of one draft of an actor.
+    /// Relations and manoeuvre of one draft of an actor.
     pub(super) fn about(&self, actor: usize, draft: &MotionCandidate) -> About {
         if draft.origin == CandidateOrigin::Rest {
             return About { manoeuvre: Some(Manoeuvre::Stays), ..About::default() };

@@ -1,4 +1,4 @@
-//! Drafts as motions that relations are read from, before they are fitted to the limits.
+//! Traces of drafts, for relations, before drafts are fitted to the motion limits.
 
 use super::actor::PlannedActor;
 use super::slot::Slot;
@@ -7,7 +7,7 @@ use crate::planning::{INSTANTS, Modes, PER_INSTANT};
 use scene::judge::Trace;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
 
-/// The trace of a draft: straight from instant to instant.
+/// The trace of a draft, straight between instants.
 pub(super) fn trace_of(actor: &PlannedActor, places: &[(Vec2, f64); INSTANTS]) -> Trace {
     let present = &actor.plan.present;
     let knot = |i: usize| match i {
@@ -25,7 +25,7 @@ pub(super) fn trace_of(actor: &PlannedActor, places: &[(Vec2, f64); INSTANTS]) -
     Trace::new(&actor.id, present.agent_type, &present.size, HORIZON_STEPS, at)
 }
 
-/// The trace of one mode of an actor; of its start where it rests.
+/// The trace of one mode of an actor; that of its start if it rests.
 pub(super) fn trace_of_mode(actor: &PlannedActor, slot: Slot, modes: &Modes) -> Trace {
     let start = &actor.plan.present.start;
     if actor.rests {

@@ -21,7 +21,7 @@ use crate::tuning::fixed::drafting::STAYS_ABOVE;
 use crate::weights::EXPERTS;
 use scene::{AgentId, AgentType};
 
-/// Fewest agents of a type in one network call, so that cutting them over threads pays.
+/// Fewest agents of a type in one network call for which splitting over threads pays.
 const FEWEST_IN_BATCH: usize = 4;
 
 /// Actors of one expert that run in one network call.
@@ -38,7 +38,7 @@ impl From<NetError> for GenerateError {
     }
 }
 
-/// Runs encoder and initializer on actors; `first` is the number of the first of them in the window.
+/// Runs encoder and initializer on actors. `first` is the window's index of the first of them.
 pub(super) fn encode(
     setting: &WindowSetting<'_>,
     actors: &mut [PlannedActor],
@@ -100,7 +100,8 @@ fn initialize(
     Ok(())
 }
 
-/// Fresh drafts for a sample, one entry an actor: the modes with the draw's noise. `diverse` has an entry an actor.
+/// Fresh drafts for a sample, one entry per actor: the modes plus the draw's noise. `diverse` has one entry
+/// per actor.
 pub(super) fn first_drafts(
     setting: &WindowSetting<'_>,
     actors: &[PlannedActor],
@@ -124,7 +125,7 @@ pub(super) fn first_drafts(
     if let Some(&(level, _)) = levels(request).first() {
         for batch in batches {
             let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].modes).collect();
-            // Refinement takes the draw's noise out again but for a trace.
+            // Refinement removes nearly all of the draw's noise again.
             let noise = |i: &usize| NoiseKey { agent: &actors[*i].id, ..key }.normals(request.diversity);
             let noise: Vec<Modes> = batch.actors.iter().map(noise).collect();
             let expert = setting.resources.expert(batch.agent_type)?;
@@ -161,7 +162,7 @@ pub(super) fn refine(
     let stages = &setting.request.stages;
     let levels = levels(&setting.request);
     let Some(&level) = levels.get(step - 1) else { return Ok(drafts) };
-    // The choice and guidance clear the first sample that is chosen, and its user waits.
+    // For the first chosen sample, choice and guidance resolve overlaps, and its user is waiting.
     let drawn = sample > 0 || stages.shown != Shown::Chosen;
     let resolves = drawn && stages.refining.resolve_overlaps && step == levels.len();
     let energy = of.energy();
@@ -189,7 +190,7 @@ pub(super) fn refine(
     Ok(drafts)
 }
 
-/// The types whose experts attend to encounters.
+/// The agent types whose experts attend to encounters.
 fn attending(setting: &WindowSetting<'_>, batches: &[Batch]) -> Result<Vec<AgentType>, GenerateError> {
     let mut found = Vec::new();
     for batch in batches {
@@ -200,17 +201,18 @@ fn attending(setting: &WindowSetting<'_>, batches: &[Batch]) -> Result<Vec<Agent
     Ok(found)
 }
 
-/// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.
+/// Noise levels of the refinement steps: from the leapfrog start, or from as high as the number of steps
+/// needs.
 fn levels(request: &Request) -> Vec<(usize, usize)> {
     schedule::ddim(request.stages.refining.start.max(request.steps), request.steps)
 }
 
-/// Refinement steps of a call.
+/// Number of refinement steps of a call.
 pub(super) fn steps(request: &Request) -> usize {
     levels(request).len()
 }
 
-/// Probabilities, the flatter the higher the temperature.
+/// Probabilities from log probabilities; a higher temperature makes them flatter.
 fn softmax(log_prob: &[f32; MODES], temperature: f64) -> [f64; MODES] {
     let values = log_prob.map(|l| (f64::from(l) / temperature).exp());
     let sum: f64 = values.iter().sum();

@@ -8,13 +8,13 @@ use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 #[derive(Clone)]
 pub(super) struct Drafts {
     pub(super) modes: Modes,
-    /// The part of them that the networks do not see: what diversity adds, and the draw.
+    /// The part of the drafts that the networks do not see: diversity and the draw.
     pub(super) offset: Modes,
-    /// By mode, summing to one.
+    /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes by falling probability.
+    /// Modes in order of falling probability.
     pub(super) order: [Slot; MODES],
-    /// The mode that the others see of this actor while they refine.
+    /// The mode of this actor that the others see during refinement.
     pub(super) leading: Slot,
     /// The leading draft after overlaps were resolved, if that moved it.
     pub(super) settled: Option<Residual>,
@@ -28,7 +28,7 @@ impl Drafts {
         Self { modes, offset, probability, order, leading, settled: None }
     }
 
-    /// Adds what the networks do not see.
+    /// Adds an offset that the networks do not see.
     pub(super) fn add(&mut self, offset: &Modes) {
         for (mode, more) in [&mut self.modes, &mut self.offset].into_iter().map(|m| (m, offset)) {
             for (value, more) in mode.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
@@ -37,7 +37,7 @@ impl Drafts {
         }
     }
 
-    /// The modes as the networks know them.
+    /// The modes as the networks see them.
     pub(super) fn plain(&self) -> Modes {
         let mut plain = self.modes;
         for (value, offset) in plain.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {
@@ -46,7 +46,7 @@ impl Drafts {
         plain
     }
 
-    /// Takes up the modes as the networks left them.
+    /// Takes over the modes that the networks refined.
     pub(super) fn refined(&mut self, plain: Modes) {
         self.modes = plain;
         for (value, offset) in self.modes.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {

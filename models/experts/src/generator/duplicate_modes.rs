@@ -1,4 +1,4 @@
-//! Six modes that are six futures.
+//! Replaces duplicate modes, so that six modes are six futures.
 //!
 //! Modes have different anchors, yet before a junction or in a queue they often coincide on every route. The
 //! second of two coinciding modes adds nothing, while no mode covers an unlikely start or stop. The less
@@ -22,11 +22,11 @@ use std::sync::LazyLock;
 struct Rule {
     /// Mean distance below which two modes coincide, metres.
     same_m: f64,
-    /// Mean distance that the changed one keeps from all others, metres.
+    /// Mean distance that the changed mode keeps from all others, metres.
     apart_m: f64,
-    /// How fast it changes its pace, m/s2.
+    /// Rate at which it changes its speed, m/s2.
     rate_mps2: f64,
-    /// The pace of one that goes, where caps allow, m/s.
+    /// Target speed of a mode that starts, where caps allow, m/s.
     going_mps: f64,
 }
 
@@ -109,13 +109,13 @@ fn apart(a: &[Vec2; INSTANTS], b: &[Vec2; INSTANTS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).norm()).sum::<f64>() / INSTANTS as f64
 }
 
-/// Along knots that take an anchor's base to an even change of pace.
+/// Longitudinal knots that turn an anchor's base into a constant change of speed.
 fn pace(plan: &AgentPlan, slot: Slot, rule: &Rule, speed_mps: f64) -> [f32; KNOTS] {
-    /// Metres at the instants to knots, by least squares.
+    /// Maps metres at the instants to knots, by least squares.
     static SOLVE: LazyLock<SMatrix<f64, KNOTS, INSTANTS>> = LazyLock::new(|| {
         let rows = BASIS.along;
         let basis = SMatrix::<f64, INSTANTS, KNOTS>::from_fn(|i, k| f64::from(ALONG_SCALE * rows[i][k]));
-        // A little ridge keeps the last knots, which hardly move anything, small.
+        // A small ridge keeps the last knots, which move almost nothing, small.
         let normal = basis.tr_mul(&basis) + SMatrix::identity() * RIDGE;
         normal.cholesky().map_or_else(SMatrix::zeros, |c| c.solve(&basis.transpose()))
     });
@@ -125,7 +125,7 @@ fn pace(plan: &AgentPlan, slot: Slot, rule: &Rule, speed_mps: f64) -> [f32; KNOT
         MotionKind::Walk => Caps::new(&[0.0], &[f64::INFINITY]),
     };
     let v0 = plan.model.start_speed_mps();
-    // A road user that is faster than the pace of going keeps its own speed.
+    // A road user that is faster than this pace keeps its own speed.
     let speed_mps = if speed_mps > 0.0 { speed_mps.max(v0) } else { 0.0 };
     let wanted = approaching(v0, speed_mps, rule.rate_mps2, &caps);
     let change = SVector::<f64, INSTANTS>::from_fn(|i, _| {
@@ -180,7 +180,7 @@ mod tests {
     fn goals_and_futures_of_their_own_are_left_alone() {
         let asked = planned(Goal { speed_mps: Some(10.0), ..Goal::default() });
         let free = planned(Goal::default());
-        // The anchors' own timings are all apart.
+        // The anchors' own timings are all distinct.
         for (planned, modes) in [(&asked, alike(&asked, 10.0)), (&free, [[0.0; RESIDUAL]; MODES])] {
             let (mut residual, mut probability) = (modes, SHARES);
             replace(planned, &mut residual, &mut probability, &SHIPPED.duplicates);

@@ -1,19 +1,19 @@
-//! Tracks of road users that keep their motion, made as long as a call of several windows needs.
+//! Extends the tracks of road users that keep their motion to the end of a call of several windows.
 
 use scene::{Agent, STANDING_MPS, STEP_S, Scene, State, Track};
 
 /// The step from which a kept motion is extrapolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Guessed {
-    /// First scene step of which neither future nor log speaks.
+    /// First scene step that neither a future nor the log covers.
     pub(super) step: usize,
-    /// It goes straight on; otherwise it stands where it was.
+    /// The agent goes straight on; otherwise it stands at its last place.
     pub(super) moving: bool,
 }
 
 /// A road user's track as others plan against it, up to scene step `last`. It is the pinned or chosen future
-/// after `start`, else the log, else straight on from the last known state. Also the first step that is
-/// extrapolated, if it comes before `last`. An agent that left before the recording ends stays away.
+/// after `start`, else the log, else straight on from the last known state. Also returns the first
+/// extrapolated step, if it comes before `last`. An agent that left before the recording ends stays away.
 pub(super) fn extrapolated(
     scene: &Scene,
     agent: &Agent,
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use scene::{AgentType, LaneMap, Subtype};
 
-    /// Seen for 11 steps of a recording of so many.
+    /// Observed for 11 steps of a recording of `steps` steps.
     fn track(speed_mps: f64, steps: usize) -> (Track, Option<Guessed>) {
         let at = |i: usize| State { x_m: speed_mps * 0.1 * i as f64, vx_mps: speed_mps, ..State::default() };
         let agent =

@@ -1,4 +1,4 @@
-//! Guidance: drafts of a chosen scene that conflict, led out of each other's way.
+//! Guidance: moves conflicting drafts of a chosen scene out of each other's way.
 
 use super::actor::PlannedActor;
 use super::candidates::{CandidateOrigin, MotionCandidate};
@@ -8,7 +8,7 @@ use super::trajectory::{Rollout, places, to_trajectory};
 use crate::planning::{Modes, Residual};
 use crate::tuning::GuidanceTuning;
 
-/// A further candidate for each mode of an actor that something repels, with the others where they are chosen.
+/// A further candidate per mode of an actor that something repels, with the others at their chosen motions.
 pub(super) fn guided(
     energy: &SceneEnergy<'_>,
     tuning: &GuidanceTuning,
@@ -25,7 +25,7 @@ pub(super) fn guided(
     candidates.iter().filter_map(guide).collect()
 }
 
-/// Where steps downhill lead a draft; `None` when nothing repels it.
+/// The draft after steps down the energy gradient; `None` if nothing repels it.
 fn out_of_the_way(
     energy: &SceneEnergy<'_>,
     tuning: &GuidanceTuning,
@@ -38,7 +38,7 @@ fn out_of_the_way(
     let mut moved = *residual;
     let mut repelled = false;
     for _ in 0..tuning.steps as usize {
-        // Out of the boxes' way is far enough; on the way there the road counts too.
+        // The result only has to clear the boxes; the steps towards it also weigh the road.
         let places = places(&actor.plan, slot, &moved);
         if energy.at(actor, &places, others, Terms::Boxes).0 == 0.0 {
             break;

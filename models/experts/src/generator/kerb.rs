@@ -7,8 +7,8 @@ use scene::score::Drivable;
 use scene::{Size, Vec2};
 
 /// Energy of a box whose centre and heading at the instants are `places`, and its gradient with respect to
-/// the centre, headings held. Each corner costs `weight` times the square of its distance off the road in
-/// metres. Zero where the map has no road bounds.
+/// the centre for fixed headings. Each corner costs `weight` times the square of its distance off the road in
+/// metres. Zero if the map has no road bounds.
 pub(super) fn kerb(
     ground: &Drivable,
     size: &Size,
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn a_wheel_past_the_edge_is_pulled_back() {
-        // Both right corners are half a metre past it.
+        // Both right corners are 0.5 m past the edge.
         let found = kerb(&street(0.0), &CAR, &beside(-3.5, 0.0), WEIGHT);
         assert!((found.energy - INSTANTS as f32 * 2.0 * WEIGHT * 0.25).abs() < 1e-3, "{}", found.energy);
         for gradient in found.gradient {

@@ -1,4 +1,4 @@
-//! The generator: three experts behind their gate, and calls that yield events.
+//! The generator: three experts behind a gate, and calls that yield events.
 
 mod actor;
 mod calibration;
@@ -62,17 +62,17 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use workers::WorkerPool;
 
-/// The three experts with what is known of maps. Cheap to share; calls may run at the same time.
+/// The three experts with the cache of maps. Cheap to share; calls may run at the same time.
 pub struct Generator {
     resources: Resources,
     info: BTreeMap<String, WeightsInfo>,
     maps: Arc<Maps>,
-    /// Of the tuning: it goes into every answer.
+    /// Hash of the tuning; it is part of every answer.
     tuning_hash: String,
 }
 
 impl Generator {
-    /// Of the bytes of weights files, in the order of [`EXPERTS`].
+    /// Builds the generator from the bytes of weights files, in the order of [`EXPERTS`].
     ///
     /// # Errors
     /// When a file is damaged or of another architecture.
@@ -103,22 +103,22 @@ impl Generator {
         })
     }
 
-    /// Random weights, for tests of everything but quality.
+    /// A generator with random weights, for tests of everything but quality.
     ///
     /// # Errors
-    /// When memory for them cannot be had.
+    /// When memory for them cannot be allocated.
     pub fn random(seed: u64) -> Result<Self, WeightsError> {
         Self::new(&Files::random(seed)?.experts, Arc::default())
     }
 
-    /// Cuts whole scenes over so many threads; the answer does not depend on it.
+    /// Splits whole scenes over this many threads; the answer does not depend on the number.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         let workers = WorkerPool::new(threads);
         Self { resources: Resources { workers, ..self.resources }, ..self }
     }
 
-    /// The same experts and maps with threads of their own: calls of the one never wait for those of the other.
+    /// The same experts and maps with separate threads: calls of one never wait for calls of the other.
     #[must_use]
     pub fn beside(&self, threads: usize) -> Self {
         Self {
@@ -133,13 +133,13 @@ impl Generator {
         }
     }
 
-    /// Measures answers' timings by a clock; without one they are zero.
+    /// Measures an answer's timings with a clock; without a clock they are zero.
     #[must_use]
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { resources: Resources { clock, ..self.resources }, ..self }
     }
 
-    /// With other tuned numbers than the shipped ones.
+    /// Replaces the shipped tuned numbers.
     #[must_use]
     pub fn with_tuning(self, tuning: Tuning) -> Self {
         let tuning_hash = tuning.hash().hex();
@@ -151,8 +151,8 @@ impl Generator {
         &self.resources.tuning
     }
 
-    /// Runs each expert once on a small scene so that the first user does not pay for it: fills the heap and
-    /// the caches of the tensor library.
+    /// Runs each expert once on a small scene, so that the first user does not pay for it. This fills the
+    /// heap and the caches of the tensor library.
     pub fn warm_up(&self) {
         let points: Vec<Vec2> = (0..40).map(|i| Vec2::new(5.0 * f64::from(i), 0.0)).collect();
         let agent = |i: usize| {
@@ -172,13 +172,13 @@ impl Generator {
         &self.info
     }
 
-    /// Hashes of all that its answers depend on: the experts' weights by name, and `tuning`.
+    /// Hashes of everything that its answers depend on: the experts' weights by name, and `tuning`.
     pub fn hashes(&self) -> BTreeMap<String, String> {
         let weights = self.info.iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
         weights.chain([("tuning".to_owned(), self.tuning_hash.clone())]).collect()
     }
 
-    /// Licence of what it answers, as far as the weights go: the strictest of theirs.
+    /// Licence of its answers as far as the weights determine it: the strictest of theirs.
     pub fn licence(&self) -> Option<String> {
         scene::licence::strictest(self.info.values().map(|info| info.licence.as_str()))
     }
@@ -191,7 +191,7 @@ impl Generator {
     /// Begins a call. The iterator does the work, one event at a time; dropping it stops the call.
     ///
     /// # Errors
-    /// Faults that are known before any work: unknown ids, missing starts, too many road users.
+    /// Errors that are known before any work: unknown ids, missing starts, too many road users.
     pub fn start(&self, request: Request, cancel: Cancel) -> Result<Generation<'_>, GenerateError> {
         Generation::new(&self.resources, &self.maps, request, cancel)
     }
@@ -204,7 +204,7 @@ impl Generator {
         self.answer_unless(request, Cancel::default())
     }
 
-    /// The same; it ends early once it is cancelled.
+    /// As [`Self::answer`], but ends early once `cancel` is set.
     ///
     /// # Errors
     /// The errors of the call.

@@ -1,5 +1,5 @@
-//! Which vehicles at rest on a lane move off, and when: the light and the agent ahead decide first, then whether
-//! the agent rolls, then what was learned.
+//! Decides which vehicles at rest on a lane move off, and when. The light and the agent ahead decide first,
+//! then whether the vehicle already rolls, then the learned decision.
 
 use super::actor::PlannedActor;
 use super::motion::KeptMotion;
@@ -11,18 +11,18 @@ use crate::tuning::fixed::moving_off::{AT_LINE_M, IN_QUEUE_M, ROLLS_MPS};
 use scene::routes::speed::leader;
 use scene::{AgentType, STANDING_MPS, State};
 
-/// Steps from the start of the agent ahead to the next one's: two seconds, as drivers at lights take.
+/// Steps from the start of the agent ahead to that of the next: two seconds, as drivers at lights take.
 const NEXT_STEPS: usize = 20;
 
-/// What an agent at rest does.
+/// Decision for an agent at rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Departure {
     Stays,
-    /// At this step.
+    /// Moves off at this step.
     Moves(usize),
 }
 
-/// Decides again for each of these actors whether it stays at rest. An agent is decided after the one ahead of it.
+/// Decides again whether each of these actors stays at rest. An agent is decided after the one ahead of it.
 pub(super) fn decide_departures(setting: &WindowSetting<'_>, actors: &mut [PlannedActor]) {
     let mut known: Vec<Option<Departure>> = vec![None; actors.len()];
     for i in 0..actors.len() {
@@ -43,7 +43,7 @@ pub(super) fn decide_departures(setting: &WindowSetting<'_>, actors: &mut [Plann
     }
 }
 
-/// A vehicle at rest on a lane, with neither a goal nor a via point.
+/// Whether it is a vehicle at rest on a lane with neither a goal nor a via point.
 fn may_move_off(actor: &PlannedActor) -> bool {
     let plan = &actor.plan;
     plan.present.agent_type == AgentType::Vehicle
@@ -64,7 +64,7 @@ fn departure(
     }
     let actor = &actors[i];
     let learned = if actor.rests { Departure::Stays } else { Departure::Moves(0) };
-    // Agents in a circle have no first: what was learned decides.
+    // A circle of agents has no first one: the learned decision stands.
     known[i] = Some(learned);
     let decided =
         if may_move_off(actor) { by_the_road(world, actors, i, known).unwrap_or(learned) } else { learned };
@@ -72,7 +72,7 @@ fn departure(
     decided
 }
 
-/// What light, agent ahead and own speed say, in this order.
+/// The decision by light, agent ahead and own speed, in this order.
 fn by_the_road(
     world: &World<'_>,
     actors: &[PlannedActor],
@@ -80,7 +80,7 @@ fn by_the_road(
     known: &mut Vec<Option<Departure>>,
 ) -> Option<Departure> {
     let (actor, plan) = (&actors[i], &actors[i].plan);
-    // The wait at a red line that turns green has its own delay in a queue.
+    // A red light that turns green has its own delay for a queue.
     if plan.sets_off() {
         return Some(Departure::Moves(0));
     }
@@ -111,7 +111,7 @@ fn by_the_road(
     rolls.then_some(Departure::Moves(0))
 }
 
-/// What an agent does that keeps its motion.
+/// The decision for an agent that keeps its motion.
 fn as_kept(world: &World<'_>, who: &AgentAtStart) -> Departure {
     let left = |state: &State| (state.position() - who.start.position()).norm() > STAYS_WITHIN_M;
     KeptMotion::states(world, who).iter().position(left).map_or(Departure::Stays, Departure::Moves)

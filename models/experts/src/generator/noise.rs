@@ -1,9 +1,9 @@
-//! Noise of drafts, by what it is for.
+//! Random streams of drafts, keyed by their purpose.
 
 use crate::planning::{MODES, RESIDUAL};
 use scene::random;
 
-/// The purpose of a stream of numbers.
+/// Purpose of a random stream.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoiseKey<'a> {
     pub(super) seed: u64,
@@ -21,7 +21,7 @@ impl NoiseKey<'_> {
         key.text(self.agent).stream()
     }
 
-    /// One number, even over 0 .. 1.
+    /// One uniform number in 0 .. 1.
     pub(super) fn unit(&self) -> f64 {
         self.stream().unit()
     }

@@ -1,4 +1,4 @@
-//! Overlaps of drawn drafts, resolved without the networks.
+//! Resolves overlaps of drawn drafts without the networks.
 
 use super::actor::PlannedActor;
 use super::drafts::Drafts;
@@ -9,9 +9,9 @@ use super::trajectory::places;
 use crate::planning::Residual;
 use crate::tuning::fixed::overlaps::STEP_SHARES;
 
-/// Plain steps downhill from the leading drafts, one actor after the other, so that of two in each other's way the
-/// second sees where the first has gone. A step that does not lower the energy is not taken. The drafts stay as
-/// they are: where the steps lead is one more thing that each actor could do, [`Drafts::settled`].
+/// Gradient steps from the leading drafts, one actor after the other, so that of two conflicting actors the
+/// second sees the first one's move. A step that does not lower the energy is not taken. The drafts do not
+/// change: the result is one more candidate per actor, [`Drafts::settled`].
 pub(super) fn resolve_overlaps(
     energy: &SceneEnergy<'_>,
     actors: &[PlannedActor],
@@ -19,10 +19,10 @@ pub(super) fn resolve_overlaps(
     background: &[Outline],
 ) {
     let mut outlines = leading_outlines(actors, drafts, energy.tuning);
-    // The order of road users in the scene must not show.
+    // The result must not depend on the order of road users in the scene.
     let mut order: Vec<usize> = (0..actors.len()).collect();
     order.sort_by(|a, b| actors[*a].id.cmp(&actors[*b].id));
-    // An actor without an improving change looks again only after a nearby actor has moved.
+    // An actor that found no improving step tries again only after a nearby actor has moved.
     let may_look: Vec<bool> = actors.iter().map(|actor| !actor.keeps_still()).collect();
     let mut looks = may_look.clone();
     for _ in 0..energy.tuning.rounds as usize {
@@ -49,7 +49,7 @@ pub(super) fn resolve_overlaps(
     }
 }
 
-/// A step downhill from a draft, the longest of a few that lowers the energy.
+/// A gradient step from a draft: the longest of a few that lowers the energy.
 fn step_downhill(
     energy: &SceneEnergy<'_>,
     actor: &PlannedActor,

@@ -1,6 +1,7 @@
-//! Replanning a motion that still meets another agent, or leaves the road on its way to a goal on it. The same motion is
-//! tried beside its path and earlier or later on it: the cheapest row of shifts, one an instant, by dynamic programming.
-//! It starts and meets its goal as before. Where that does not help either, it stops before what is in the way.
+//! Replans a motion that still meets another agent, or leaves the road on its way to a goal on it. The same
+//! motion is tried beside its path and earlier or later on it: the cheapest sequence of shifts, one per
+//! instant, by dynamic programming. It starts and meets its goal as before. If that does not help either, it
+//! stops before the obstacle.
 
 use super::motion::Sweep;
 use super::slot::Slot;
@@ -19,25 +20,25 @@ use scene::score::CLOSE_M;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Shifts to each side and their distance, metres.
+/// Number of shifts to each side, and their spacing, metres.
 const ASIDES: i32 = 6;
 const ASIDE_M: f64 = 0.6;
-/// Shifts along the path each way and their distance, metres.
+/// Number of shifts along the path each way, and their spacing, metres.
 const AHEADS: i32 = 7;
 const AHEAD_M: f64 = 1.0;
-/// All shifts of an instant.
+/// Number of shifts to the side at an instant.
 const ACROSS: usize = (2 * ASIDES + 1) as usize;
 const ALONG: usize = (2 * AHEADS + 1) as usize;
 const SHIFTS: usize = ACROSS * ALONG;
-/// Most shifts that are changed at once, aside and ahead.
+/// Largest change of a shift between two instants, in units to the side and along.
 const MOST_ASIDE: i32 = 2;
 const MOST_AHEAD: i32 = 1;
 /// Steps around an instant at which boxes are checked.
 const ABOUT: [isize; 3] = [-2, 0, 2];
-/// Goes on beyond the last place, metres.
+/// Length of the path beyond the last place, metres.
 const TAIL_M: f64 = 20.0;
 
-/// Some shift: along the path and to the left, metres.
+/// A shift: along the path and to the left.
 #[derive(Clone, Copy, PartialEq)]
 struct Shift {
     ahead: i32,
@@ -72,7 +73,7 @@ impl Shift {
 #[derive(Clone, Copy)]
 pub(super) struct ReplanField<'a> {
     pub(super) graph: &'a LaneGraph,
-    /// How far from every lane a place is off the lanes, metres.
+    /// Distance from every lane beyond which a place is off the lanes, metres.
     pub(super) off_lanes_m: f64,
     pub(super) weights: &'a ReplanTuning,
     /// The motions of the other agents.
@@ -91,13 +92,13 @@ struct ReplanMoment<'a> {
 struct Unshifted {
     position: Vec2,
     left: Vec2,
-    /// An agent in `met` counts as met, in `close` as close.
+    /// `met` is the box itself; `close` is the box with a margin.
     met: OrientedBox,
     close: OrientedBox,
 }
 
 impl ReplanMoment<'_> {
-    /// Another agent is in one of the boxes of a shift.
+    /// Whether another agent is in a box of a shift.
     fn is_in(&self, shift: Shift, of: impl Fn(&Unshifted) -> &OrientedBox) -> bool {
         let on = &self.unshifted[(shift.ahead + AHEADS) as usize];
         let outline = of(on).about(on.position + on.left * shift.aside_m());
@@ -105,20 +106,20 @@ impl ReplanMoment<'_> {
     }
 }
 
-/// Two boxes overlap.
+/// Whether two boxes overlap.
 fn meets(b: &OrientedBox, outline: &OrientedBox) -> bool {
     let reach = b.radius_m() + outline.radius_m();
     (b.center() - outline.center()).norm_squared() < reach * reach && overlaps(outline, b, 0.0)
 }
 
-/// How far a shift leads at most, metres.
+/// Largest distance that a shift moves a box, metres.
 const SHIFTED_M: f64 = AHEADS as f64 * AHEAD_M + ASIDES as f64 * ASIDE_M;
 
 /// A motion to be shifted.
 struct ShiftSearch<'a> {
     plan: &'a AgentPlan,
     field: ReplanField<'a>,
-    /// Vehicles that start on a lane keep near lanes.
+    /// The vehicle starts on a lane, so it stays near lanes.
     keeps_to_lanes: bool,
     path: Polyline,
     /// Metres along it, one a step.
@@ -127,7 +128,7 @@ struct ShiftSearch<'a> {
     near: Vec<&'a Sweep>,
 }
 
-/// The motion on the path of `slot` that avoids all other agents: to the side, earlier or later. `None` where
+/// The motion on the path of `slot` that avoids all other agents: to the side, earlier or later. `None` if
 /// shifting does not lower the cost.
 pub(super) fn swerve(
     plan: &AgentPlan,
@@ -142,13 +143,13 @@ pub(super) fn swerve(
     Some(along_places(plan, slot, &centres))
 }
 
-/// The motion on the same path that stops before the agent it would meet; `None` where no braking suffices.
-/// It misses its goal, if it has one.
+/// The motion on the same path that stops before the agent it would meet; `None` if no braking suffices. It
+/// misses its goal, if it has one.
 pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Trajectory) -> Option<Rollout> {
     let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
-        // The later the stop, the farther the motion gets.
+        // A later stop gets farther.
         let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
         let along_m = halts
             .map(|from| search.halting(from, share * plan.model.limits.brake_mps2))
@@ -169,7 +170,7 @@ pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Tra
 }
 
 impl<'a> ShiftSearch<'a> {
-    /// `None` for what rolls backwards or hardly goes anywhere.
+    /// `None` for a motion that rolls backwards or hardly moves.
     fn new(plan: &'a AgentPlan, field: ReplanField<'a>, motion: &Trajectory) -> Option<Self> {
         let mut along_m = Vec::with_capacity(motion.len());
         let mut way_m = 0.0;
@@ -250,7 +251,7 @@ impl<'a> ShiftSearch<'a> {
         costs
     }
 
-    /// The boxes that may be met at a step; `None` where none is near.
+    /// The boxes that may be met at a step; `None` if none is near.
     fn moment(&self, step: usize) -> Option<ReplanMoment<'a>> {
         let own = self.outline(self.pose(step, Shift::NONE));
         let reach_m = SHIFTED_M + own.grown(CLOSE_M + SPARE_M).radius_m();
@@ -270,7 +271,7 @@ impl<'a> ShiftSearch<'a> {
         Some(ReplanMoment { near, unshifted: (-AHEADS..=AHEADS).map(unshifted).collect() })
     }
 
-    /// Cost of the ground so far aside.
+    /// Cost of the ground at this lateral shift.
     fn on_ground(&self, step: usize, aside: i32) -> f64 {
         let pose = self.pose(step, Shift { ahead: 0, aside });
         let away = self.keeps_to_lanes && self.is_off_lanes(pose.position);
@@ -286,7 +287,7 @@ impl<'a> ShiftSearch<'a> {
         self.plan.is_off_lanes(self.field.graph, place, self.field.off_lanes_m)
     }
 
-    /// Metres along the path at each step for one that brakes from a step on until it stands.
+    /// Metres along the path at each step of an agent that brakes from a step on until it stands.
     fn halting(&self, from: usize, brake_mps2: f64) -> Vec<f64> {
         let mut along_m = self.along_m[..=from].to_vec();
         let last = |along_m: &Vec<f64>| along_m[along_m.len() - 1];
@@ -302,7 +303,7 @@ impl<'a> ShiftSearch<'a> {
         along_m
     }
 
-    /// No box is met at this progress.
+    /// Whether no box is met at this progress.
     fn is_free(&self, along_m: &[f64]) -> bool {
         (1..along_m.len()).step_by(2).all(|step| {
             let size = &self.plan.present.size;
@@ -321,7 +322,7 @@ impl<'a> ShiftSearch<'a> {
         self.near.iter().filter_map(|o| o.at(step)).any(|b| meets(b, outline))
     }
 
-    /// The cheapest shifts, one an instant; `None` where none at all are.
+    /// The cheapest shifts, one per instant; `None` if no sequence is possible or worth it.
     fn least(&self) -> Option<[Shift; INSTANTS]> {
         let weights = self.field.weights;
         let mut total = vec![f64::INFINITY; SHIFTS];
@@ -357,7 +358,7 @@ impl<'a> ShiftSearch<'a> {
             before.push(from);
         }
         let mut at = (0..SHIFTS).min_by(|a, b| total[*a].total_cmp(&total[*b]))?;
-        // The saving must be worth another motion.
+        // A change must save at least this much.
         if !total[at].is_finite() || total[at] > unshifted - 0.5 * weights.off_road {
             return None;
         }
@@ -369,7 +370,7 @@ impl<'a> ShiftSearch<'a> {
         Some(shifts)
     }
 
-    /// Progress never falls, and wheels go aside only as they roll.
+    /// Progress never falls, and wheeled agents move sideways only while they roll.
     fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
         let way_m = way_m + f64::from(ahead) * AHEAD_M;
         let rolls = self.plan.model.kind == MotionKind::Drive;

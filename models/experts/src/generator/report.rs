@@ -1,4 +1,4 @@
-//! The report of a call beside its futures: the value and origin of each field, the verdict on the goal, warnings.
+//! The report of a call beside its futures: value and source of each field, verdict on the goal, warnings.
 
 use super::actor::PlannedActor;
 use super::trajectory::Rollout;
@@ -28,26 +28,26 @@ impl From<&MotionState> for NearestState {
 
 /// The outcome of one agent over all windows.
 pub(super) struct AgentOutcome<'a> {
-    /// At the start of the call.
+    /// The agent at the start of the call.
     pub(super) present: &'a AgentAtStart,
-    /// As the user fixed them.
+    /// Its conditions as the user fixed them.
     pub(super) conditions: &'a Conditions,
     /// Scene step at which the goal is due.
     pub(super) due_step: usize,
-    /// State of its shown future then (or at the end, for a goal later than that).
+    /// State of its shown future at that step, or at the end for a later goal.
     pub(super) end: State,
     /// All states of its shown future, the start first.
     pub(super) states: Vec<State>,
     /// Verdict of the last window before the goal was due.
     pub(super) reach: ReachReport,
-    /// Where earlier windows were sent.
+    /// Subgoals of the earlier windows.
     pub(super) intermediate: Vec<Intermediate>,
-    /// Why its goal, which is relative to another agent, could not be worked out.
+    /// Why its goal, which is relative to another agent, could not be resolved.
     pub(super) unrelated: Option<&'a Message>,
 }
 
 impl AgentOutcome<'_> {
-    /// The verdict on a goal that could not be worked out, or that of the last window.
+    /// The verdict on a goal that could not be resolved, or that of the last window.
     fn verdict(&self) -> ReachReport {
         let Some(message) = self.unrelated else { return self.reach.clone() };
         ReachReport::Unreachable {
@@ -66,7 +66,7 @@ impl AgentOutcome<'_> {
     }
 }
 
-/// Fields and verdict of one road user; `world` is that of the first window.
+/// Fields and verdict of one road user. `world` is that of the first window.
 pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved {
     let reach = outcome.verdict();
     let AgentOutcome { present, conditions, due_step, end, states, intermediate, .. } = outcome;
@@ -84,7 +84,7 @@ pub(super) fn resolved(world: &World<'_>, outcome: AgentOutcome<'_>) -> Resolved
         |value: f64, fixed: bool| Field { value, from: if fixed { Source::User } else { Source::Log } };
     let relation = conditions.relation.as_ref().map(|relation| relation.place);
     let passing = matches!(relation, Some(RelativePlace::After(_)));
-    // A passing gives the time, any other relation the rest.
+    // A passing relation gives the time, any other relation gives the rest.
     let fixed_by = if relation.is_some() && !passing { Source::Relation } else { Source::User };
     let goal = |value: f64, fixed: bool| Field { value, from: if fixed { fixed_by } else { Source::Model } };
     let (s, c, asked) = (&present.start, &conditions.start, &conditions.goal);
@@ -135,8 +135,8 @@ fn vias(vias: &[Via], step: usize, states: &[State]) -> Vec<ResolvedVia> {
     vias.iter().zip(&passed).map(report).collect()
 }
 
-/// Verdict of one window on its target. `since_s` is the scene time at the start of a later window: the reason then
-/// holds from there on. `blocked_by` is the agent before which the motion stops.
+/// Verdict of one window on its target. `since_s` is the scene time at the start of a later window, from
+/// which the reason then holds. `blocked_by` is the agent before which the motion stops.
 pub(super) fn reach_report(
     actor: &PlannedActor,
     motion: &Rollout,
@@ -199,7 +199,7 @@ fn reason(
         (Limiting::Braking, None) => sentences::goal_too_slow(time_s, need("m/s²")),
         (Limiting::Lateral, _) => sentences::goal_too_tight(need("m/s² sideways")),
         (Limiting::Curvature, _) => sentences::goal_turn_too_tight(kind),
-        // A goal without its relation is free, and never comes here.
+        // A goal without its relation is free and never gets here.
         (Limiting::Traffic | Limiting::Relation, _) => {
             let short_m = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
             match blocked_by {
@@ -211,7 +211,7 @@ fn reason(
 }
 
 /// Warnings about unlikely starts and goals, which are generated nevertheless. `world` is that of the first
-/// window; `asked` returns an agent's conditions and the number of steps until its goal is due.
+/// window. `asked` returns an agent's conditions and the number of steps until its goal is due.
 pub(super) fn warnings<'a>(
     world: &World<'_>,
     actors: &[PlannedActor],

@@ -1,5 +1,5 @@
-//! The scene's energy (boxes too close, now or soon, and corners past a kerb) and what repels a draft: the way
-//! downhill in it.
+//! The scene's energy (boxes that are or soon will be too close, and corners past a kerb), and its descent
+//! direction, which repels a draft.
 
 use super::actor::PlannedActor;
 use super::drafts::Drafts;
@@ -19,19 +19,19 @@ use scene::geometry::overlap_energy::{
 };
 use scene::{AgentType, Size, Vec2};
 
-/// Boxes farther apart than this do not matter to each other, metres.
+/// Boxes farther apart than this do not affect each other, metres.
 const NEAR_M: f32 = 1.0;
 
 /// An agent as an obstacle.
 pub(super) struct Outline {
     now: PoseTrack,
-    /// Where it would be soon.
+    /// Its predicted poses a little later.
     soon: PoseTrack,
     /// Half length and half width, metres.
     half: [f32; 2],
 }
 
-/// Poses at the instants, and the rectangle about them.
+/// Poses at the instants, and their bounding rectangle.
 struct PoseTrack {
     poses: Poses<INSTANTS>,
     bounds: Bounds,
@@ -44,14 +44,14 @@ impl PoseTrack {
 }
 
 impl Outline {
-    /// Of a box along these places.
+    /// The obstacle of a box along these places.
     pub(super) fn new(places: &Places, size: &Size, tuning: &OverlapTuning) -> Self {
         let poses = poses_of(places);
         let soon = carried_on(&poses, tuning.soon_intervals as f32);
         Self { now: PoseTrack::new(poses), soon: PoseTrack::new(soon), half: half_of(size) }
     }
 
-    /// Whether two come near each other, now or soon.
+    /// Whether two obstacles come near each other, now or soon.
     pub(super) fn near(&self, other: &Self) -> bool {
         let reach = NEAR_M + self.half[0] + self.half[1] + other.half[0] + other.half[1];
         let close = |a: &PoseTrack, b: &PoseTrack| {
@@ -72,9 +72,9 @@ pub(super) fn outlines<'a>(sweeps: impl Iterator<Item = &'a Sweep>, tuning: &Ove
 /// Which terms of the scene's energy count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Terms {
-    /// Boxes that are too close: what the networks were trained with.
+    /// Boxes that are too close: the energy of the networks' training.
     Boxes,
-    /// Also boxes that soon will be, and corners past the road's edge.
+    /// Also boxes that soon will be too close, and corners past the road's edge.
     All,
 }
 
@@ -86,7 +86,7 @@ pub(super) struct SceneEnergy<'a> {
 }
 
 impl SceneEnergy<'_> {
-    /// The energy at a draft, and the way downhill in its knots; `None` where the energy is zero.
+    /// The energy at a draft, and its descent direction in the knots; `None` if the energy is zero.
     pub(super) fn downhill(
         &self,
         actor: &PlannedActor,
@@ -109,7 +109,7 @@ impl SceneEnergy<'_> {
         Some((energy, self.pullback.downhill(&route, &actor.plan.features.tangent)))
     }
 
-    /// The energy of a draft's places and its gradient to the box centres.
+    /// The energy of a draft's places and its gradient with respect to the box centres.
     pub(super) fn at(
         &self,
         actor: &PlannedActor,
@@ -141,7 +141,7 @@ impl SceneEnergy<'_> {
     }
 }
 
-/// The energy of the overlaps with those agents that come near.
+/// The energy of the overlaps with the agents that come near.
 fn energy_among(
     own: &Poses<INSTANTS>,
     half: [f32; 2],
@@ -154,16 +154,16 @@ fn energy_among(
     overlap_energy(own, half, obstacles, Growth::Square)
 }
 
-/// What the refiner sees of the others beside an actor's modes.
+/// The refiner's inputs about the others, besides an actor's modes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surroundings {
-    /// The way downhill in the energy of overlapping boxes.
+    /// Descent direction of the overlap energy, by mode.
     pub(super) repulsion: Modes,
-    /// Those that each mode meets.
+    /// The agents that each mode encounters.
     pub(super) encounters: Encounters,
 }
 
-/// The surroundings of every actor's modes, where all others move along their leading drafts. Only actors of the
+/// The surroundings of every actor's modes, with all others on their leading drafts. Only actors of the
 /// `attending` types have encounters.
 pub(super) fn surroundings(
     energy: &SceneEnergy<'_>,
@@ -202,7 +202,7 @@ pub(super) fn surroundings(
     })
 }
 
-/// Every actor along its leading draft.
+/// Every actor as an obstacle along its leading draft.
 pub(super) fn leading_outlines(
     actors: &[PlannedActor],
     drafts: &[Drafts],
@@ -227,7 +227,7 @@ fn half_of(size: &Size) -> [f32; 2] {
     [0.5 * size.length_m as f32, 0.5 * size.width_m as f32]
 }
 
-/// Places as the energy reads them: an absent agent has no direction.
+/// Places as the energy reads them: an absent agent has direction zero.
 fn poses_of(places: &Places) -> Poses<INSTANTS> {
     let pose = |(position, heading_rad): (Vec2, f64)| {
         let ahead = direction(heading_rad);

@@ -1,4 +1,4 @@
-//! The rules of the road that a vehicle's motion keeps or breaks.
+//! Road rules that a vehicle's motion keeps or breaks.
 
 use super::actor::PlannedActor;
 use super::trajectory::Rollout;
@@ -19,13 +19,13 @@ pub(super) fn starts_on_the_road(actor: &PlannedActor, tuning: &ChoiceTuning) ->
         && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
-/// A vehicle moves against the traffic of the lane that it is in.
+/// Whether a vehicle moves against the traffic of its lane.
 pub(super) fn drives_against(ground: &Drivable, state: &MotionState) -> bool {
     let moves = state.speed_mps() > STANDING_MPS;
     moves && ground.is_wrong_way(state.position, direction(state.heading_rad)) == Some(true)
 }
 
-/// A vehicle on the road leaves it although its goal, if it has one, lies on it.
+/// Whether a vehicle on the road leaves it although its goal, if any, lies on it.
 pub(super) fn leaves_the_road(actor: &PlannedActor, motion: &Rollout) -> bool {
     let Some(ground) = &actor.plan.ground else { return false };
     let is_off = |state: &MotionState| {
@@ -36,7 +36,7 @@ pub(super) fn leaves_the_road(actor: &PlannedActor, motion: &Rollout) -> bool {
     !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
 }
 
-/// A vehicle on the road drives against the traffic.
+/// Whether a vehicle on the road drives against the traffic.
 pub(super) fn is_against_traffic(actor: &PlannedActor, motion: &Rollout) -> bool {
     let ground = actor.plan.ground.as_deref();
     ground.is_some_and(|ground| {

@@ -1,11 +1,11 @@
-//! Rounds with feedback: a wide draw, out of which the next cards are taken.
+//! Rounds with feedback: the next cards are selected from a wide draw.
 
 use crate::request::{Answer, React, Request};
 use scene::preference::{Candidate, Feedback, choose as next_cards};
 use scene::{AgentFutures, Sample};
 
-/// Keeps the next cards of a wide draw. With one regenerated agent and no reactions a card is a future, else
-/// a sample.
+/// Selects the next cards from a wide draw. With one regenerated agent and no reactions a card is a future,
+/// otherwise a sample.
 pub(super) fn choose(request: &Request, feedback: &Feedback, answer: &mut Answer) {
     let alone = request.agents.as_ref().filter(|agents| agents.len() == 1 && request.react == React::Nobody);
     let only = alone.and_then(|agents| agents.first());

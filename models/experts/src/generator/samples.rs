@@ -1,4 +1,4 @@
-//! Plans for tests of the generator's parts.
+//! Sample plans for tests of the generator's parts.
 
 use crate::features::agent::{AgentPlan, plan};
 use crate::planning::world::World;

@@ -1,4 +1,5 @@
-//! Diversity: drafts that are drawn wider about what they do, and of those the ones that diverse most.
+//! Diversity by sampling: drafts are drawn with a wider spread of manoeuvres, and those that differ most are
+//! kept.
 
 use super::actor::PlannedActor;
 use super::diversity::{DiverseModes, best};
@@ -10,11 +11,11 @@ use crate::tuning::DiversityTuning;
 use crate::tuning::fixed::sampling::{FULL_DRIVING_M, FULL_ON_FOOT_M, FULL_RIDING_M, MORE_HURRY, SHARES};
 use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
 
-/// Draws of each mode; the one farthest from the others is taken.
+/// Draws per mode; the one farthest from the others is taken.
 const DRAWS: usize = 4;
-/// Steps of the key that are no refinement steps.
+/// First step number of the keys that are not refinement steps.
 const FIRST_KEY: u64 = 1 << 32;
-/// Waves of a drawn pace, and of a drawn line.
+/// Number of waves in a drawn pace, and in a drawn line.
 const WAVES: usize = 3;
 
 /// The offsets that a draw adds to the modes of an actor, and their probabilities after it.
@@ -61,20 +62,20 @@ pub(super) fn widen(
     (added, probability.map(|p| p / sum.max(1e-12)))
 }
 
-/// How far a draw reaches, mean metres in a window.
+/// Spread of a draw: mean metres over a window.
 struct DrawSpread {
     along_m: f64,
     across_m: f64,
     /// Length of motion at which the full spread applies, metres; shorter motions spread less.
     way_m: f64,
-    /// How far over the caps of its path it may be.
+    /// Share by which it may exceed the caps of its path.
     hurry: f64,
 }
 
 impl DrawSpread {
     fn of(actor: &PlannedActor, share: f64, t: &DiversityTuning) -> Self {
         let goal = actor.plan.target.position.is_some();
-        // A small setting stays near what is likely; the ends part with its square.
+        // A small setting stays near likely motions; the spread grows with its square.
         let along = share * share;
         let (along_m, across_m, way_m) = match actor.plan.present.agent_type {
             AgentType::Pedestrian => {
@@ -98,7 +99,7 @@ impl DrawSpread {
         }
     }
 
-    /// A drawn offset that keeps the goal, and how far it goes of what it may.
+    /// A drawn offset that keeps the goal, and its size relative to the allowed spread.
     fn offset<'a>(
         &self,
         actor: &PlannedActor,
@@ -118,7 +119,7 @@ impl DrawSpread {
         }
         let shape = tangent(&actor.plan, &waves);
         let (along, across) = moves_m(&shape);
-        // Between half of the spread and one and a half of it.
+        // Between 0.5 and 1.5 times the spread.
         let far = |z: f32| 0.5 + 1.0 / (1.0 + f64::from(-z).exp());
         let far_along = far(normals[2 * WAVES]);
         let scale = [
@@ -181,7 +182,7 @@ mod tests {
             let apart = [0.5, 1.0, 2.0].map(|d| moved(&of(d, 1), &of(d, 2)));
             assert!(0.0 < apart[0] && apart[0] < apart[1] && apart[1] < apart[2], "{apart:?}");
             let mean = |d: f64| (0..8).map(|seed| spread_m(&of(d, seed))).sum::<f64>();
-            // Without a goal the paces of one road spread from standing to its limit anyway.
+            // Without a goal, the paces of one road range from standing to its limit anyway.
             if goal_m.is_some() {
                 assert!(mean(2.0) > 1.15 * mean(0.5), "{} {}", mean(2.0), mean(0.5));
             }

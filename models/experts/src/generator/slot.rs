@@ -1,22 +1,23 @@
-//! The places of an actor's modes.
+//! Slots of an actor's modes.
 
 use crate::planning::{MODES, Modes, Residual};
 
-/// A mode by its place among an actor's anchors and drafts.
+/// A mode, by its index among an actor's anchors and drafts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Slot(u8);
 
 impl Slot {
-    /// The first: trained to be the middle of what may happen, where there is a place to go.
+    /// The first slot: for agents with a goal position, its mode is trained to be the middle of the
+    /// distribution.
     pub(super) const FIRST: Self = Self(0);
 
-    /// Of an index below [`MODES`].
+    /// The slot of an index below [`MODES`].
     pub(super) fn new(index: usize) -> Self {
         debug_assert!(index < MODES);
         Self(index as u8)
     }
 
-    /// As the answer names it.
+    /// Its number in the answer.
     pub(super) fn number(self) -> u32 {
         u32::from(self.0)
     }

@@ -1,11 +1,11 @@
-//! Walkers that step out before a fast vehicle.
+//! Walkers that step out in front of a fast vehicle.
 
 use crate::tuning::fixed::stepping_out::{AFTER_S, FAST_MPS, HARD_MPS2};
 use scene::AgentType;
 use scene::judge::{Trace, crossing};
 
-/// When a vehicle has passed that a walker meets, or that must brake hard for it, seconds; `None` where the walker
-/// is over before it comes, lets it pass, or leaves it room to stop.
+/// Time at which a vehicle has passed, seconds, if the walker would meet it or make it brake hard. `None` if
+/// the walker crosses before the vehicle arrives, lets it pass, or leaves it room to stop.
 pub(super) fn steps_out(walker: &Trace, other: &Trace) -> Option<f64> {
     if other.agent_type() != AgentType::Vehicle {
         return None;
@@ -28,7 +28,7 @@ mod tests {
     use scene::{Size, State, Subtype};
     use std::f64::consts::FRAC_PI_2;
 
-    /// Straight on from a place, 9 s.
+    /// Straight on from a place for 9 s.
     fn going(agent_type: AgentType, from: (f64, f64), heading_rad: f64, speed_mps: f64) -> Trace {
         let size = Size::default_for(agent_type, Subtype::Unknown);
         let v = direction(heading_rad) * speed_mps;
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn before_a_fast_car_that_is_near_and_no_other() {
-        // Over a lane at y = 0, on it from 2 to 4.5 s.
+        // Crosses a lane at y = 0 and is on it from 2 to 4.5 s.
         let walker = going(AgentType::Pedestrian, (0.0, -4.5), FRAC_PI_2, 1.4);
         let car = |from_m: f64, speed_mps: f64| going(AgentType::Vehicle, (from_m, 0.0), 0.0, speed_mps);
         let passed_s = steps_out(&walker, &car(-38.0, 12.0)).unwrap();

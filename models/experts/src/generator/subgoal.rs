@@ -6,15 +6,15 @@ use scene::motion::{MotionKind, MotionModel};
 use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};
 use scene::{Goal, HORIZON_STEPS, STEP_S, Vec2, Via};
 
-/// A later window needs so many steps to turn into a heading that no place goes with.
+/// Steps that a later window needs to turn to a heading, for a goal without a position.
 const TURN_STEPS: usize = 30;
-/// Closer than this to its goal, what stands is there, metres.
+/// A standing agent closer to its goal than this has arrived, metres.
 const THERE_M: f64 = 0.05;
 
 /// The state at the window's end on the way to a goal that is due `left` steps after the window's start,
-/// more than a window has. The way is the lanes' where they lead to the goal, else a straight line; the
-/// acceleration along it is constant (or changes evenly where the goal fixes the speed too). It leads through the via
-/// points; how many of them lie before that state comes with it.
+/// later than the window's end. The path follows the lanes if they lead to the goal, else a straight line.
+/// The acceleration along it is constant, or linear in time if the goal also fixes the speed. The path leads
+/// through the via points; their number before that state is returned too.
 pub(super) fn subgoal(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -33,7 +33,7 @@ pub(super) fn subgoal(
     (on_the_way(world, who, &model, goal, position, left), 0)
 }
 
-/// The same on the way through via points. Those with a time after the window are what there is to be in time for.
+/// The same through via points. Those with a time after the window determine the timing.
 fn through(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -59,7 +59,7 @@ fn through(
     }
     let path = Polyline::new(points);
     let step = |via: &Via| via.time_s.map(|t| ((t / STEP_S).round() as usize).saturating_sub(world.step));
-    // The first thing to be in time for that lies beyond the window, and the last that lies in it.
+    // The first timed point beyond the window, and the last one within it.
     let timed = || vias.iter().zip(&at_m).filter_map(|(via, at)| Some((step(via)?, *at)));
     let next = timed().find(|(step, _)| *step > HORIZON_STEPS);
     let passed_m = timed().rfind(|(step, _)| *step <= HORIZON_STEPS).map_or(0.0, |(_, at)| at);
@@ -72,13 +72,13 @@ fn through(
     let pose = path.sample(along_m);
     let state =
         NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps };
-    // One that is all but reached is passed in this window.
+    // A via point that is almost reached is passed in this window.
     let on_the_way =
         vias.iter().zip(&at_m).filter(|(via, at)| **at <= along_m + 0.5 * via.tolerance_m).count();
     (state, on_the_way)
 }
 
-/// The same without any.
+/// The same without via points.
 fn on_the_way(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -103,12 +103,12 @@ fn on_the_way(
     NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps }
 }
 
-/// The goal of a window that ends in a state on the way: without a place to go to, where it goes
-/// stays free, and its heading too while there is time to turn later.
+/// The goal of a window that ends in a subgoal. If the final goal has no position, the position stays free,
+/// and so does the heading while there is time to turn later.
 pub(super) fn as_goal(state: &NearestState, kind: MotionKind, goal: &Goal, left: usize, time_s: f64) -> Goal {
     let placed = goal.position.is_some();
     let turns = goal.heading_rad.is_some() && left < HORIZON_STEPS + TURN_STEPS;
-    // Feet turn where they walk; wheels have to be led onto the way.
+    // Walkers turn as they walk; wheeled agents have to be led onto the path.
     let led = if placed { kind == MotionKind::Drive } else { turns };
     Goal {
         position: placed.then(|| state.position()),
@@ -118,7 +118,7 @@ pub(super) fn as_goal(state: &NearestState, kind: MotionKind, goal: &Goal, left:
     }
 }
 
-/// A goal that fixes no place: its speed is approached evenly, its heading held in view.
+/// For a goal without a position: a linear share of the change of speed, and the goal's heading.
 fn changing(who: &AgentAtStart, v0: f64, goal: &Goal, left: usize) -> NearestState {
     let share = HORIZON_STEPS as f64 / left as f64;
     let speed_mps = goal.speed_mps.map_or(v0, |v| v0 + (v - v0) * share);
@@ -154,7 +154,7 @@ fn path_to(
     }
 }
 
-/// Metres along the way and speed after one window, for a way of `length_m` that takes `left` steps.
+/// Metres along the path and speed after one window, for a path of `length_m` that takes `left` steps.
 /// Progress never falls, and the speed stays below the limit of the agent type.
 fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left: usize) -> (f64, f64) {
     let seconds = left as f64 * STEP_S;
@@ -169,7 +169,7 @@ fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left
     let after = |shape: f64, steps: usize| -> f64 {
         (0..steps).map(|i| speed(shape, (i as f64 + 0.5) * STEP_S) * STEP_S).sum()
     };
-    // The distance rises with the shape; 40 halvings of this span leave less than a micrometre.
+    // The distance rises with the shape; 40 bisections of this range leave less than a micrometre.
     let (mut low, mut high) = (-30.0, 30.0);
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
@@ -211,7 +211,8 @@ mod tests {
     #[test]
     fn both_ends_of_the_speed_are_kept() {
         let (along, speed) = travelled(10.0, &car(10.0), 120.0, Some(2.0), 180);
-        // Mean of 10 and 2 over 18 s is 108 m; the other 12 m are a parabola's, half of it by half time.
+        // The mean of 10 and 2 m/s over 18 s is 108 m. The other 12 m come from a parabola, half of them by
+        // half time.
         assert!((along - (0.5 * (10.0 + 6.0) * 9.0 + 6.0)).abs() < 1e-2, "{along}");
         assert!((speed - (6.0 + 12.0 * 6.0 / (18.0 * 18.0 * 18.0) * 81.0)).abs() < 1e-2, "{speed}");
     }

@@ -37,7 +37,7 @@ impl Rollout {
         std::array::from_fn(|i| self.states.get((i + 1) * PER_INSTANT).map(place))
     }
 
-    /// A missed goal is reported with the reason for which another motion misses it.
+    /// Replaces the reason of a missed goal by that of another motion that misses it.
     pub(super) fn with_reason_of(mut self, other: Reach) -> Self {
         if let (
             Reach::Unreachable { limiting, needs, .. },
@@ -80,8 +80,8 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
     at_lights(plan, slot, steer_to_vias(plan, slot, out))
 }
 
-/// Progress and offset at the instants, waiting at red lights. A waiting agent keeps the offset that it would have had
-/// at that progress.
+/// Progress and offset at the instants, with waits at red lights. A waiting agent keeps the offset that it
+/// would have had at that progress.
 fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
     let gates = &plan.lights[slot.index()];
     let kerb = plan.kerbs[slot.index()].as_ref().filter(|_| plan.target.position.is_some());
@@ -108,14 +108,14 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
         easy_mps2: plan.easy_mps2,
     };
     let held = waiting.obeying(&progress);
-    // One mode may still not see the green.
+    // One mode may overlook the green light.
     let leaves = plan.is_free() && slot != Slot::FIRST;
     let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
     let Some(held) = left.or(held) else { return wanted };
     beside_at(&wanted, &held)
 }
 
-/// Places at another progress than was wanted, each beside the path where it would have been at that progress.
+/// Places at another progress than wanted, each with the offset of the wanted motion at that progress.
 fn beside_at(wanted: &[(f64, f64); INSTANTS], held: &Progress) -> [(f64, f64); INSTANTS] {
     let before = |i: usize| if i == 0 { (0.0, 0.0) } else { wanted[i - 1] };
     std::array::from_fn(|i| {
@@ -127,13 +127,13 @@ fn beside_at(wanted: &[(f64, f64); INSTANTS], held: &Progress) -> [(f64, f64); I
     })
 }
 
-/// Box centres and headings of a draft at the instants, before any motion model has its say.
+/// Box centres and headings of a draft at the instants, before any motion model is applied.
 pub(super) fn places(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(Vec2, f64); INSTANTS] {
     let anchor = &plan.anchors[slot.index()];
     route_coordinates(plan, slot, residual).map(|(along, across)| anchor.place(along, across))
 }
 
-/// The motion of a draft: fitted to its places and projected onto goal and limits.
+/// The motion of a draft: fitted to its places, and projected onto goal and limits.
 pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
@@ -141,8 +141,8 @@ pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -
     waiting(plan, slot, route_coordinates(plan, slot, residual))
 }
 
-/// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
-/// path of the first of them, `path`.
+/// The mean motion of drafts on one path: their mean progress and offset, weighted by probability. They lie
+/// on the path of the first of them, `path`.
 pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot, &Residual)]) -> Rollout {
     let total: f64 = drafts.iter().map(|d| d.0).sum::<f64>().max(1e-12);
     let mut mean = [(0.0, 0.0); INSTANTS];
@@ -156,8 +156,8 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
     waiting(plan, path, mean)
 }
 
-/// The motion at these progresses and offsets. Ten knots cannot follow every halt: where one that waits at a red
-/// light would roll over the line, it halts earlier.
+/// The motion at these progresses and offsets. Ten knots cannot follow every halt: an agent that would roll
+/// over a red light's line halts earlier.
 fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let motion = on_the_road(plan, slot, coordinates);
     let anchor = &plan.anchors[slot.index()];
@@ -180,8 +180,8 @@ fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) ->
     if earlier == coordinates { motion } else { on_the_road(plan, slot, earlier) }
 }
 
-/// The motion at these progresses and offsets. Where an offset takes a corner beyond the road's edge and the path
-/// itself stays within, the offset shrinks.
+/// The motion at these progresses and offsets. If an offset takes a corner beyond the road's edge and the
+/// path itself stays within, the offset shrinks.
 fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let anchor = &plan.anchors[slot.index()];
     let size = &plan.present.size;
@@ -201,7 +201,7 @@ fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]
     through(plan, slot, places)
 }
 
-/// The motion that passes near these box centres at the instants, facing where it goes.
+/// The motion that passes near these box centres at the instants, facing its direction of motion.
 pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
@@ -209,8 +209,8 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The motion that was driven past these box centres, driven again in the manner that stays nearest to them: hurried
-/// or as possible, along the lane at the goal or not.
+/// The motion that was driven past these box centres, fitted again in the manner that stays nearest to them:
+/// with hurried or physical limits, and with or without the lane's heading at the goal.
 pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
@@ -241,8 +241,8 @@ pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     }
 }
 
-/// The same for an agent that stops before its goal, or at it, because another is in the way. The places are as wished
-/// for, or as they were driven.
+/// The same for an agent that stops at or before its goal because another agent is in the way. The places are
+/// those wished for, or those driven.
 pub(super) fn short_along(
     plan: &AgentPlan,
     centres: &[Vec2; INSTANTS],
@@ -274,7 +274,7 @@ fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INST
         last = (centre, heading_rad);
         last
     });
-    // A chord has the heading half way along it.
+    // A chord has the heading of its midpoint.
     let mut places = facing;
     for i in 0..INSTANTS - 1 {
         places[i].1 += 0.5 * wrap_angle(facing[i + 1].1 - facing[i].1);
@@ -282,7 +282,7 @@ fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INST
     places
 }
 
-/// Shorter chords have no heading, metres.
+/// Chords shorter than this have no heading, metres.
 const LEAST_CHORD_M: f64 = 0.2;
 
 /// The target that motions are projected onto: the goal, or a free target that only enforces the limits.
@@ -307,7 +307,7 @@ fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     samples
 }
 
-/// Places of a motion that was driven, as samples of it.
+/// Places of a driven motion, as samples of it.
 fn as_driven(places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     let sample = |(i, &(position, heading_rad)): (usize, &(Vec2, f64))| Sampled {
         step: (i + 1) * PER_INSTANT,
@@ -317,8 +317,9 @@ fn as_driven(places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     places.iter().enumerate().map(sample).collect()
 }
 
-/// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
-/// this slot: within the hurried manner where that meets the goal, else within what is possible.
+/// The motion that passes near these places (box centres and the path's headings) at the instants, on the
+/// path of this slot. It stays within the hurried limits if that meets the goal, else within the physical
+/// ones.
 fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rollout {
     let samples = samples(plan, &places);
     let hurried = plan.model.hurried();
@@ -329,7 +330,7 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Rol
     as_possible(plan, through_within(plan, &plan.model, slot, &places, &samples))
 }
 
-/// A motion within what is possible; backwards where only that comes nearer to the goal.
+/// A motion within the physical limits; it reverses only if that comes nearer to the goal.
 fn as_possible(plan: &AgentPlan, motion: Projection) -> Rollout {
     if motion.reach.is_reached() {
         return motion.into();
@@ -366,7 +367,7 @@ fn through_within(
     if motion.reach.is_reached() { on_after(plan, model, motion, samples, Smoothing::WISHED) } else { motion }
 }
 
-/// The same motion to the goal, and from there on past the places after it.
+/// The same motion up to the goal, and past the remaining places after it.
 fn on_after(
     plan: &AgentPlan,
     model: &MotionModel,
@@ -383,19 +384,19 @@ fn on_after(
         return motion;
     }
     let trajectory = model.rollout(&knots);
-    // One that was found with another gear is not of this model.
+    // A motion that was found with another gear does not belong to this model.
     let same = (trajectory[step].position - motion.trajectory[step].position).norm() < 1e-9;
     if same { Projection { knots, trajectory, ..motion } } else { motion }
 }
 
-/// A vehicle that rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window never
-/// changes the gear of a vehicle in motion.
+/// A vehicle that already rolls backwards (from an earlier window) continues to its goal or comes to rest: a
+/// window never changes the gear of a moving vehicle.
 fn backing(plan: &AgentPlan) -> Rollout {
     let braking = Knots { first: [-BACKING_BRAKE_MPS2; KNOTS], ..Knots::default() };
     project(&plan.model, &braking, &projected_onto(plan), None).into()
 }
 
-/// A goal behind a standing vehicle may be met backwards.
+/// A motion that reverses to a goal behind a standing vehicle.
 fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Rollout> {
     let goal = plan.target.position?;
     let local = plan.model.to_local(goal);
@@ -438,8 +439,8 @@ pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
     Rollout { reach: Reach::Reached(TargetError::of(&due, &plan.target)), states }
 }
 
-/// Replaces creeping by rest: a free road user that stands and moves less than [`STAYS_WITHIN_M`] in the
-/// whole window stays.
+/// Replaces creeping by rest: a road user without a goal that stands and moves less than [`STAYS_WITHIN_M`]
+/// in the whole window stays.
 pub(super) fn without_creep(plan: &AgentPlan, moves: bool, motion: Rollout) -> Rollout {
     let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
@@ -447,8 +448,8 @@ pub(super) fn without_creep(plan: &AgentPlan, moves: bool, motion: Rollout) -> R
     if rests { rest(plan) } else { motion }
 }
 
-/// The agent stands at the start, and rest meets its goal. A recording that shows it standing may creep by its jitter;
-/// where a plan moves it already, that must have brought it to rest.
+/// Whether the agent stands at the start and rest meets its goal. In a recording, jitter counts as standing;
+/// if a plan already moves the agent, the plan must have brought it to rest.
 pub(super) fn may_rest(plan: &AgentPlan, moves: bool) -> bool {
     let standing_mps = if moves { RESTING_MPS.1 } else { RESTING_MPS.0 };
     plan.vias.is_empty()
@@ -464,7 +465,7 @@ mod tests {
 
     #[test]
     fn who_stands_goes_or_stays_to_the_last_bit() {
-        // To the front at an even pace, this far in all.
+        // Forwards at a constant pace, this far in all.
         let crept = |plan: &AgentPlan, metres: f64| {
             let mut motion = rest(plan);
             for (step, state) in motion.states.iter_mut().enumerate() {
@@ -485,7 +486,7 @@ mod tests {
         let goal =
             Goal { position: Some(Vec2::new(48.0, 0.0)), heading_rad: Some(0.0), time_s, ..Goal::default() };
         let plan = car_on_a_street(12.0, goal);
-        // Two metres aside all the time but at the goal.
+        // Two metres aside all the time except at the goal.
         let mut residual = [0.0; crate::planning::RESIDUAL];
         for (k, across) in residual[KNOTS..].iter_mut().enumerate().skip(1) {
             *across = if k == 4 { 0.0 } else { -2.0 };

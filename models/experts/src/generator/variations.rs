@@ -1,5 +1,5 @@
-//! Variations of a draft on its own path: another pace, another line, another order where paths cross. The goal is
-//! kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
+//! Variations of a draft on its own path: another pace, another line, or another order at a crossing. The
+//! goal is kept, because goals are linear in the knots (see [`crate::planning::coordinates`]).
 
 use super::actor::PlannedActor;
 use super::draft_traces::trace_of;
@@ -24,10 +24,11 @@ use std::cell::OnceCell;
 
 /// The end of a window, seconds.
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
-/// Times at which a draft that waits is where it should be, seconds, and how far over the kerb it may lean, metres.
+/// Times at which the position of a waiting draft is checked, seconds, and how far it may lean over the kerb,
+/// metres.
 const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
 
-/// A draft with its progress, as ideas are made from and measured.
+/// A draft with its progress: the input from which variations are made and measured.
 pub(super) struct DraftView<'a> {
     actor: &'a PlannedActor,
     pub(super) slot: Slot,
@@ -46,13 +47,13 @@ impl<'a> DraftView<'a> {
         Self { actor, slot, residual: *residual, route, places, trace: OnceCell::new() }
     }
 
-    /// The same draft with something added.
+    /// The same draft with an offset added.
     pub(super) fn with(&self, offset: &Residual) -> Self {
         let residual = std::array::from_fn(|k| self.residual[k] + offset[k]);
         Self::of(self.actor, self.slot, &residual)
     }
 
-    /// As others see it.
+    /// The draft as others see it.
     pub(super) fn trace(&self) -> &Trace {
         self.trace.get_or_init(|| trace_of(self.actor, &self.places))
     }
@@ -63,12 +64,12 @@ impl<'a> DraftView<'a> {
         each.map(|(a, b)| (a.0 - b.0).norm()).sum::<f64>() / INSTANTS as f64
     }
 
-    /// Way in the window, metres.
+    /// Distance travelled in the window, metres.
     pub(super) fn way_m(&self) -> f64 {
         self.route[INSTANTS - 1].0
     }
 
-    /// It has come to rest by the window's end.
+    /// Whether it has come to rest by the window's end.
     pub(super) fn ends_at_rest(&self) -> bool {
         self.route[INSTANTS - 1].0 - self.route[INSTANTS - 2].0 < scene::STANDING_MPS * INSTANT_S
     }
@@ -88,8 +89,8 @@ impl<'a> DraftView<'a> {
         })
     }
 
-    /// Braking, speeding up and pace stay usual, or as they are in `from`; `hurry` is how far over the caps of its path
-    /// it may be.
+    /// Whether braking, acceleration and pace stay usual, or no worse than in `from`. `hurry` is the share by
+    /// which it may exceed the caps of its path.
     pub(super) fn is_usual(&self, from: &Self, hurry: f64) -> bool {
         self.is_within(from, hurry, usual_rates(self.actor.plan.present.agent_type))
     }
@@ -106,7 +107,7 @@ impl<'a> DraftView<'a> {
         let (mine, theirs) = (self.speeds(), from.speeds());
         let fastest = theirs.iter().copied().fold(v0, f64::max);
         let rates = |v: &[f64; INSTANTS]| -> [f64; INSTANTS] {
-            // The first speed is that of the middle of the first interval.
+            // The first difference is the speed in the middle of the first interval.
             std::array::from_fn(|i| {
                 if i == 0 { (v[0] - v0) / (0.5 * INSTANT_S) } else { (v[i] - v[i - 1]) / INSTANT_S }
             })
@@ -121,8 +122,8 @@ impl<'a> DraftView<'a> {
         })
     }
 
-    /// Like another draft on this path, but waiting at the kerb until `passed_s`; `None` where there is none, or it
-    /// cannot be stopped at in time.
+    /// The draft `like` on this path, waiting at the kerb until `passed_s`. `None` if there is no kerb, or it
+    /// cannot stop there in time.
     pub(super) fn waiting_at_kerb(&self, like: &Self, passed_s: f64) -> Option<Self> {
         let plan = &self.actor.plan;
         let kerb = plan.kerbs[self.slot.index()].as_ref()?;
@@ -136,8 +137,8 @@ impl<'a> DraftView<'a> {
         stays.then_some(made)
     }
 
-    /// Going before or after another where their paths cross, as a change of pace; `None` where there is no such
-    /// crossing or no usual way to do it.
+    /// A change of pace that passes before or after another agent where their paths cross. `None` if they do
+    /// not cross or no usual change of pace does it.
     pub(super) fn ordered(&self, other: &Trace, before: bool) -> Option<Self> {
         let ground = crossing(self.trace(), other)?;
         let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
@@ -171,8 +172,8 @@ fn usual_rates(agent_type: AgentType) -> (f64, f64) {
     }
 }
 
-/// Along knots of the gentlest change of pace that is ahead by so many metres at these times, with the goal kept.
-/// `None` where the goal leaves no room for it.
+/// Longitudinal knots of the gentlest change of pace that is ahead by these metres at these times and keeps
+/// the goal. `None` if the goal leaves no room for it.
 pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let row = |f: fn(usize, f64) -> f64, t: f64| -> [f64; KNOTS] { std::array::from_fn(|k| f(k, t)) };
@@ -183,7 +184,7 @@ pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> 
             return None;
         }
     }
-    // A change after the goal leaves the arrival as it is.
+    // A change after the goal does not change the arrival.
     let after_goal = plan.target.position.is_some() && shifts.iter().any(|(t, _)| *t > goal_s);
     if plan.target.speed_mps.is_some() || after_goal {
         rows.push((row(integrated_hat, goal_s), 0.0));
@@ -200,7 +201,7 @@ pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> 
     offset.iter().all(|v| v.is_finite()).then_some(offset)
 }
 
-/// Across knots of a line that is this far aside half way to the goal, or at the end where there is none.
+/// Lateral knots of a line that is this far aside half way to the goal, or at the end if there is no goal.
 pub(super) fn line(plan: &AgentPlan, aside_m: f64) -> Residual {
     let goal_s = plan.target.step as f64 * STEP_S;
     let share = |t: f64| match plan.target.position {
@@ -215,7 +216,7 @@ pub(super) fn line(plan: &AgentPlan, aside_m: f64) -> Residual {
     tangent(plan, &offset)
 }
 
-/// An offset with what would change the goal taken out.
+/// An offset without the part that would change the goal.
 pub(super) fn tangent(plan: &AgentPlan, offset: &Residual) -> Residual {
     let mut out = [0.0; RESIDUAL];
     for (half, projection) in plan.features.tangent.iter().enumerate() {
@@ -241,7 +242,7 @@ pub(super) fn moves_m(offset: &Residual) -> (f64, f64) {
     (f64::from(ALONG_SCALE) * along / count, f64::from(ACROSS_SCALE) * across / count)
 }
 
-/// Other paces and lines to try, the most telling first: metres ahead, when, and metres aside.
+/// Other paces and lines to try, the most distinct first: metres ahead, when, and metres aside.
 pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let agent_type = plan.present.agent_type;
@@ -273,7 +274,7 @@ pub(super) fn pace_steps(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
             .into_iter()
             .filter_map(|(a, b)| both(a * sign * small, b * aside_m)),
     );
-    // On from a goal that is met early: slower or faster.
+    // For a goal that is met early: slower or faster after it.
     if plan.target.position.is_some() && goal_s < END_S - LEFT_S {
         let later = AFTER_GOAL_M.map(|metres| pace(plan, &[(END_S, sign * metres)]));
         out.extend(later.into_iter().flatten());

@@ -8,11 +8,11 @@ use scene::motion::Trajectory;
 use scene::score::Actor;
 use scene::{Agent, Future, HORIZON_STEPS, State, Vec2};
 
-/// An agent farther than this from a motion can meet none of it, metres: half a long vehicle, and as much for the
-/// near miss.
+/// An agent farther than this from a motion has no fault with it, metres: half a long vehicle, plus as much
+/// for a near miss.
 const AWAY_M: f64 = 25.0;
 
-/// The judge of motions of a window, by the usual thresholds: those of a call change no motion.
+/// The judge of motions in a window, with the default thresholds: a call's own thresholds change no motion.
 pub(super) fn window_judge<'a>(setting: &'a WindowSetting<'_>) -> Judge<'a> {
     let world = &setting.world;
     let steps = world.step..world.step + HORIZON_STEPS + 1;
@@ -24,7 +24,7 @@ pub(super) struct ChangedAgent {
     /// Index into the scene's agents.
     pub(super) agent: usize,
     pub(super) future: Future,
-    /// The judged motion is the cause.
+    /// Whether the judged motion is the cause.
     pub(super) is_caused: bool,
 }
 
@@ -43,7 +43,7 @@ impl<'a> JudgedMotion<'a> {
         Self { setting, agent, future }
     }
 
-    /// What the recording does later must not show in what is chosen.
+    /// Recorded states after the start must not influence the choice.
     fn actor(&self) -> Actor<'_> {
         let agent = &self.setting.request.scene.agents[self.agent];
         Actor { log: None, reference: None, ..Actor::of_future(agent, &self.future, &[]) }
@@ -54,7 +54,7 @@ impl<'a> JudgedMotion<'a> {
         judge.alone(&self.actor())
     }
 
-    /// The faults that involve another agent; `changed` are those that do not keep their motions.
+    /// The faults that involve another agent. `changed` are the agents that do not keep their motions.
     pub(super) fn among(&self, judge: &Judge<'_>, changed: &[ChangedAgent]) -> Vec<Fault> {
         let (actor, request) = (self.actor(), &*self.setting.request);
         let agents = &request.scene.agents;
@@ -73,7 +73,7 @@ impl<'a> JudgedMotion<'a> {
     }
 }
 
-/// A road user with a new motion; without one with the future that the scene keeps, or its log.
+/// A road user with a new motion, else with the future that the scene keeps, else with its log.
 pub(super) fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&'a Future>) -> Actor<'a> {
     let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
     match new.or_else(kept) {
@@ -82,21 +82,21 @@ pub(super) fn as_taken<'a>(request: &'a Request, agent: &'a Agent, new: Option<&
     }
 }
 
-/// A road user with the motion that another causes, and without it.
+/// A road user with the motion that another one causes, and without it.
 pub(super) fn change<'a>(request: &'a Request, agent: &'a Agent, now: &'a Future) -> Change<'a> {
     Change { now: as_taken(request, agent, Some(now)), before: as_taken(request, agent, None) }
 }
 
-/// Upright rectangle about motions, with room for the agents that can meet them.
+/// Upright rectangle around motions, with room for the agents that can meet them.
 pub(super) struct MotionExtent(Extent);
 
 impl MotionExtent {
-    /// About these places.
+    /// The rectangle around these places.
     pub(super) fn about(places: impl Iterator<Item = Vec2>) -> Self {
         Self(Extent::of(places))
     }
 
-    /// An agent at this place may meet one of the motions.
+    /// Whether an agent at this place may meet one of the motions.
     pub(super) fn holds(&self, place: Vec2) -> bool {
         self.0.outside_m(place) <= AWAY_M
     }

@@ -1,5 +1,5 @@
-//! Via points on the way from a draft to its motion: the draft is led to them, and what ten knots and the limits
-//! make of it is projected through them.
+//! Via points between a draft and its motion: the draft is steered to them, and after the fit to ten knots
+//! and the limits the motion is projected through them.
 
 use super::slot::Slot;
 use crate::features::agent::AgentPlan;
@@ -9,11 +9,11 @@ use scene::motion::{Knots, MotionModel, Pass, Projection, Target, TargetError, p
 use scene::via::passings;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2, Via};
 
-/// Most projections onto the via points. Each moves the passing places, so they are searched again.
+/// Most projections onto the via points. Each one moves the passing places, so they are searched again.
 const ROUNDS: usize = 4;
 
 /// Progress and offset at the instants, steered to the via points. At a fixed time the progress is that of
-/// the place; beside each the offset stays within its tolerance.
+/// the place. Near each via point the offset stays within its tolerance.
 pub(super) fn steer_to_vias(
     plan: &AgentPlan,
     slot: Slot,
@@ -25,7 +25,7 @@ pub(super) fn steer_to_vias(
     }
     in_time(plan, &anchor.passes_m, &mut coordinates);
     if let (None, Some(last_m)) = (plan.target.position, anchor.passes_m.last()) {
-        // As much of the base is added as it takes to get there.
+        // Adds as much of the base as it takes to get there.
         let end_m = anchor.base[HORIZON_STEPS];
         let short_m = (last_m + PAST_M).min(end_m) - coordinates[INSTANTS - 1].0;
         if short_m > 0.0 && end_m > 0.0 {
@@ -43,7 +43,8 @@ pub(super) fn steer_to_vias(
     coordinates
 }
 
-/// Shifts a progress so that it is at the via points with a time at that time; the shift changes evenly between.
+/// Shifts a progress so that it is at each timed via point at its time; between them the shift changes
+/// linearly.
 fn in_time(plan: &AgentPlan, passes_m: &[f64], coordinates: &mut [(f64, f64); INSTANTS]) {
     let wanted = coordinates.map(|place| place.0);
     let along_at = |step: usize| {
@@ -83,8 +84,8 @@ pub(super) fn vias_missed(plan: &AgentPlan, states: &[scene::motion::MotionState
     vias.iter().zip(&passed).filter(|(via, passing)| !via.is_passed(passing)).count()
 }
 
-/// The motion nearest to these knots that meets the target and passes the plan's via points, as far as the limits
-/// allow.
+/// The motion nearest to these knots that meets the target and passes the plan's via points, as far as the
+/// limits allow.
 pub(super) fn projected(plan: &AgentPlan, model: &MotionModel, knots: &Knots, target: &Target) -> Projection {
     let first = project(model, knots, target, None);
     if plan.vias.is_empty() || !plan.projected {
@@ -112,9 +113,9 @@ pub(super) fn projected(plan: &AgentPlan, model: &MotionModel, knots: &Knots, ta
 /// A motion, how it passes the via points, and the constraints of the next projection.
 struct Tried {
     motion: Projection,
-    /// All are passed well within their tolerance.
+    /// All via points are passed well within their tolerance.
     sure: bool,
-    /// Metres beyond tolerances, and much more for a goal that is missed.
+    /// Metres beyond tolerances, with a large penalty for a missed goal.
     cost: f64,
     passes: Vec<Pass>,
 }
@@ -138,7 +139,7 @@ impl Tried {
             let step = waypoint.step.unwrap_or(nearest).clamp(1, last.max(1));
             let state = &motion.trajectory[step];
             let ahead = Vec2::new(state.heading_rad.cos(), state.heading_rad.sin());
-            // A motion that comes to the via point may pass it at any time; another one is brought there.
+            // A motion that reaches the via point may pass it at any time; any other motion is brought there.
             let comes = (via.position - passing.place).dot(&ahead).abs() < KEEPS * via.tolerance_m;
             let free = waypoint.step.is_none() && comes;
             let here = if free { passing.place } else { state.position };

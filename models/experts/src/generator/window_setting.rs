@@ -18,13 +18,13 @@ pub(super) struct WindowSetting<'g> {
     pub(super) map: Arc<KnownMap>,
     /// The scene at the window's start, and the conditions of its agents in this window.
     pub(super) world: World<'g>,
-    /// From 0.
+    /// Number of the window, from 0.
     pub(super) number: usize,
     pub(super) pullback: Pullback,
 }
 
 impl<'g> WindowSetting<'g> {
-    /// The threads that the work is cut over.
+    /// The threads that share the work.
     pub(super) fn workers(&self) -> &'g WorkerPool {
         &self.resources.workers
     }

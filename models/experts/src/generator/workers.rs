@@ -1,38 +1,39 @@
-//! Work cut over a few threads, results in the order of the items.
+//! Parallel work over a few threads, with results in the order of the items.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::OnceLock;
 
-/// A fixed number of threads of a generator's own, started when they are first needed.
+/// A fixed number of threads that belong to one generator, started on first use.
 pub(super) struct WorkerPool {
     threads: usize,
-    /// `None` where threads cannot be had: the caller's does the work then, and the answer is the same.
+    /// `None` if threads cannot be started: the caller's thread does the work then, and the answer is the
+    /// same.
     pool: OnceLock<Option<ThreadPool>>,
 }
 
 impl WorkerPool {
-    /// So many threads, at least one.
+    /// A pool of this many threads, at least one.
     pub(super) fn new(threads: usize) -> Self {
         Self { threads: threads.max(1), pool: OnceLock::new() }
     }
 
-    /// As many threads as the machine runs at a time.
+    /// A pool with as many threads as the machine runs at a time.
     pub(super) fn of_machine() -> Self {
         Self::new(std::thread::available_parallelism().map_or(1, usize::from))
     }
 
-    /// How many there are.
+    /// Number of threads.
     pub(super) fn threads(&self) -> usize {
         self.threads
     }
 
-    /// `f` of each item. With one thread, or one item, the caller's thread does it all.
+    /// Applies `f` to each item. With one thread or one item, the caller's thread does all the work.
     pub(super) fn map<T: Sync, R: Send>(&self, items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
         self.map_many(2, items, f)
     }
 
-    /// The same for small work: fewer items than `many` are sooner done than handed over.
+    /// The same for small work: fewer than `many` items are done sooner than they are handed over.
     pub(super) fn map_many<T: Sync, R: Send>(
         &self,
         many: usize,
@@ -56,8 +57,8 @@ impl WorkerPool {
     }
 }
 
-/// The caller's thread belongs to another pool. While it waited for this one it would begin more of its own pool's
-/// work, call in call, until its stack overflows; and that pool keeps the cores busy already.
+/// Whether the caller's thread belongs to another pool. While it waited for this pool it would start more
+/// work of its own pool, call within call, until its stack overflows. That pool keeps the cores busy already.
 fn is_in_another(pool: &ThreadPool) -> bool {
     rayon::current_thread_index().is_some() && pool.current_thread_index().is_none()
 }
@@ -86,7 +87,7 @@ mod tests {
         };
         let foreign = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
         assert!(foreign.install(|| (0..50).into_par_iter().map(of_caller).all(|is| is)));
-        // Work within work of the same pool is still cut up: no thread waits for itself.
+        // Nested work in the same pool is still split: no thread waits for itself.
         assert_eq!(ours.map(&[2, 3], |n| ours.map(&vec![1; *n], |i| i * 2).len()), [2, 3]);
     }
 

@@ -11,14 +11,14 @@ use crate::planning::MODES;
 /// Tokens of a context: neighbours, anchors.
 pub const TOKENS: usize = NEIGHBOURS + MODES;
 
-/// Generation of the networks' arithmetic. What they see is named by the hash of its tables.
+/// Version of the networks' arithmetic. The hash of the tables identifies their inputs.
 const VERSION: u32 = 6;
 
-/// Everything that decides the shapes of an expert's tensors and what they mean.
+/// Everything that determines the shapes of an expert's tensors and their meaning.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Architecture {
-    /// Generation of the networks' code; another number means other arithmetic.
+    /// Version of the networks' code; another number means other arithmetic.
     pub version: u32,
     /// Width of tokens and of the context vector.
     pub width: usize,
@@ -26,7 +26,8 @@ pub struct Architecture {
     pub gating_blocks: usize,
     /// MLP blocks of a refiner without attention.
     pub refiner_blocks: usize,
-    /// Pairs of attention in their place: to what a draft meets, then to the context. 0 in the shipped weights.
+    /// Pairs of attention blocks instead: to a draft's encounters, then to the context. 0 in the shipped
+    /// weights.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub refiner_attention: usize,
     /// Heads of every attention.
@@ -57,13 +58,13 @@ impl Default for Architecture {
 }
 
 impl Architecture {
-    /// For road users of a type: what is a shade of driving is a stagger on foot.
+    /// The architecture for a type; noise that is small for a vehicle would be a stagger on foot.
     pub fn of(agent_type: AgentType) -> Self {
         let noise_percent = if agent_type == AgentType::Pedestrian { 30 } else { 100 };
         Self { noise_percent, ..Self::default() }
     }
 
-    /// Whether this program can run it.
+    /// Checks that this program can run it.
     ///
     /// # Errors
     /// When the version, the features or the sizes do not fit.

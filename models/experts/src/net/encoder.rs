@@ -1,5 +1,5 @@
-//! What a road user sees, as one vector and a set of tokens (multi-context gating: Varadarajan et al.,
-//! "MultiPath++", 2021, section 3.2).
+//! Encodes the inputs of a road user as one vector and a set of tokens (multi-context gating: Varadarajan et
+//! al., "MultiPath++", 2021, section 3.2).
 
 use candle_core::{Result, Tensor};
 
@@ -43,7 +43,7 @@ struct GatingBlock {
     pooled: Linear,
 }
 
-/// Multi-context gating: tokens gated by a context, which takes in the maximum over each kind of token.
+/// Multi-context gating: tokens gated by a context, which is updated by the maximum over each kind of token.
 #[derive(Clone, Debug)]
 pub struct Gating {
     blocks: Vec<GatingBlock>,
@@ -51,10 +51,10 @@ pub struct Gating {
 }
 
 impl Gating {
-    /// Blocks of a width for tokens of some kinds, so many of each, under the name `name.blocks`.
+    /// Gating blocks of a width for tokens of several kinds, with their counts, under the name `name.blocks`.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(
         p: &mut Params,
         name: &str,
@@ -107,10 +107,10 @@ pub struct ContextEncoder {
 }
 
 impl ContextEncoder {
-    /// Puts the encoder together.
+    /// Builds the encoder.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
         let kinds = [NEIGHBOURS, MODES];

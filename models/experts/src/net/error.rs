@@ -1,12 +1,12 @@
-//! What can go wrong with weights and networks.
+//! Errors of weights and networks.
 
 /// Why weights cannot be used or a network failed.
 #[derive(Debug, thiserror::Error)]
 pub enum NetError {
-    /// The file is no safetensors file.
+    /// The file is not a safetensors file.
     #[error("not a safetensors file: {0}")]
     Format(String),
-    /// The header lacks something or says something else than this program can run.
+    /// The header lacks a member, or has a value that this program cannot run.
     #[error("header member \"{member}\": {reason}")]
     Header {
         /// Member of the metadata header.

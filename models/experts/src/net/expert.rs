@@ -1,4 +1,4 @@
-//! One expert: three networks and what their file says about them.
+//! One expert: three networks and the metadata of their file.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -16,23 +16,23 @@ use crate::features::AgentFeatures;
 use crate::features::encounters::Encounters;
 use crate::planning::{MODES, RESIDUAL};
 
-/// The one member of the file's metadata. One, because the order of several would be by chance and the
-/// file's hash is its name.
+/// The only member of the file's metadata. Several members would have a random order, and the file is
+/// identified by its hash.
 const HEADER: &str = "dragtraffic";
 
-/// What the file says about the weights.
+/// Metadata of the weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// Which expert: vehicle, pedestrian or cyclist.
+    /// Name of the expert: vehicle, pedestrian or cyclist.
     pub expert: String,
     /// Licence of the weights.
     pub licence: String,
-    /// What data they were trained on.
+    /// Data that they were trained on.
     pub trained_on: String,
     /// Random weights, for tests.
     pub untrained: bool,
-    /// Anything else: hash of the records, steps, figures.
+    /// Other facts: hash of the records, steps, figures.
     #[serde(default)]
     pub notes: BTreeMap<String, String>,
 }
@@ -44,7 +44,7 @@ struct WeightsHeader {
     card: Card,
 }
 
-/// A batch's first futures as plain numbers, one entry a road user.
+/// The first futures of a batch as plain numbers, one entry per road user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InitialOutput {
     /// Normalised residuals, tangent to the goal.
@@ -53,22 +53,22 @@ pub struct InitialOutput {
     pub scale: Vec<[[f32; RESIDUAL]; MODES]>,
     /// Logarithms of the modes' probabilities.
     pub log_prob: Vec<[f32; MODES]>,
-    /// Probability that the road user keeps its place.
+    /// Probability that the road user stands still.
     pub stays: Vec<f32>,
 }
 
 /// The networks of one expert. Cheap to share between threads.
 #[derive(Clone, Debug)]
 pub struct Expert {
-    /// Sizes.
+    /// Its sizes.
     pub architecture: Architecture,
-    /// What the file says.
+    /// Metadata of its file.
     pub card: Card,
-    /// What a road user sees to a context.
+    /// Inputs to a context.
     pub context: ContextEncoder,
     /// Context to first futures.
     pub initializer: Initializer,
-    /// Drafts to better drafts.
+    /// Drafts to refined drafts.
     pub refiner: Refiner,
     device: Device,
     tensors: BTreeMap<String, Tensor>,
@@ -79,7 +79,7 @@ impl Expert {
     /// Random weights from a seed, as plain tensors, for tests.
     ///
     /// # Errors
-    /// When memory for them cannot be had.
+    /// When memory for them cannot be allocated.
     pub fn random(seed: u64) -> Result<Self, NetError> {
         let card = Card {
             expert: "random".into(),
@@ -107,7 +107,7 @@ impl Expert {
     /// Reads a weights file as plain tensors, which record no graph.
     ///
     /// # Errors
-    /// When the bytes are no such file or of another architecture.
+    /// When the bytes are not such a file, or have another architecture.
     pub fn load(bytes: &[u8]) -> Result<Self, NetError> {
         Self::read(bytes, false, &Device::Cpu)
     }
@@ -169,7 +169,7 @@ impl Expert {
             .map_err(|error| NetError::Format(error.to_string()))
     }
 
-    /// Whether its refiner looks at what drafts meet.
+    /// Whether its refiner attends to encounters.
     pub fn attends(&self) -> bool {
         self.architecture.refiner_attention > 0
     }
@@ -189,7 +189,7 @@ impl Expert {
         &self.vars
     }
 
-    /// Where the weights are.
+    /// Device of the weights.
     pub fn device(&self) -> &Device {
         &self.device
     }
@@ -226,7 +226,7 @@ impl Expert {
         })
     }
 
-    /// What does not change between steps, for any number of [`Expert::refine_step`] calls.
+    /// Values that are constant over the steps, for any number of [`Expert::refine_step`] calls.
     ///
     /// # Errors
     /// When the tensor library fails.
@@ -251,10 +251,11 @@ impl Expert {
         Ok(blocks(&noisy.flatten_all()?.to_vec1::<f32>()?))
     }
 
-    /// One refinement step from level `t` to `t_next`, levels as given by [`super::schedule::ddim`].
-    /// `push` is made by [`Pullback::downhill`](crate::planning::pullback::Pullback::downhill) at the drafts, `encounters` by
-    /// [`encounters`](crate::features::encounters::encounters) (read by an expert that attends); `noise` are standard normal numbers, or nothing for a
-    /// step without chance. One entry an agent in each.
+    /// One refinement step from level `t` to `t_next`, as given by [`super::schedule::ddim`]. `push` is the
+    /// result of [`Pullback::downhill`](crate::planning::pullback::Pullback::downhill) at the drafts,
+    /// `encounters` that of [`encounters`](crate::features::encounters::encounters), which only an attending
+    /// expert reads. `noise` holds standard normal numbers, or nothing for a deterministic step. Each has one
+    /// entry per agent.
     ///
     /// # Errors
     /// When the counts differ from the batch's.
@@ -281,7 +282,7 @@ impl Expert {
     }
 }
 
-/// Tensors where a file can be written from, wherever they were.
+/// Copies tensors from any device to memory, from which a file can be written.
 ///
 /// # Errors
 /// When a tensor cannot be read back.

@@ -11,7 +11,7 @@ use super::params::{Init, Params};
 use super::smooth;
 use crate::planning::{MODES, RESIDUAL};
 
-/// Spread of a residual when the last layer says 1.
+/// Spread of a residual for an output of 1 of the last layer.
 const SPREAD: f64 = 1.5;
 
 /// The initializer's tensors.
@@ -23,7 +23,7 @@ pub struct Initial {
     pub log_scale: Tensor,
     /// Scores of the modes [batch, MODES]; their softmax is the probability.
     pub score: Tensor,
-    /// Score that the road user keeps its place [batch]; its sigmoid is the probability.
+    /// Score of standing still [batch]; its sigmoid is the probability.
     pub stays: Tensor,
 }
 
@@ -31,7 +31,7 @@ impl Initial {
     /// Logarithms of the modes' probabilities [batch, MODES].
     ///
     /// # Errors
-    /// When memory cannot be had.
+    /// When memory cannot be allocated.
     pub fn log_prob(&self) -> Result<Tensor> {
         candle_nn::ops::log_softmax(&self.score, D::Minus1)
     }
@@ -54,10 +54,10 @@ pub struct Initializer {
 }
 
 impl Initializer {
-    /// Puts the initializer together.
+    /// Builds the initializer.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
         let queries = p.get("initializer.queries", &[MODES, d], Init::Normal(0.5))?;

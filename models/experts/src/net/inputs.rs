@@ -7,7 +7,7 @@ use crate::features::encounters::{ENCOUNTER, ENCOUNTERS, Encounters};
 use crate::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
 use crate::planning::{MODES, RESIDUAL};
 
-/// Added to the scores and maxima of padding.
+/// Value added to the scores and maxima of padding.
 pub const NO: f32 = -1e4;
 
 /// Road users as tensors.
@@ -28,7 +28,7 @@ impl InputTensors {
     /// Stacks road users.
     ///
     /// # Errors
-    /// When memory for them cannot be had.
+    /// When memory for them cannot be allocated.
     pub fn stack(agents: &[&AgentFeatures], device: &Device) -> Result<Self> {
         let batch = agents.len();
         let (mut own, mut anchors) =
@@ -58,7 +58,7 @@ impl InputTensors {
 
 /// Encounters of the drafts of a batch as tensors.
 pub struct EncounterTensors {
-    /// [batch * MODES, 1 + ENCOUNTERS, ENCOUNTER]; the first of each row is nobody, all zeros.
+    /// [batch * MODES, 1 + ENCOUNTERS, ENCOUNTER]; the first of each row is empty, all zeros.
     pub numbers: Tensor,
     /// [batch * MODES, 1 + ENCOUNTERS], 0 or -1e4 at padding.
     pub mask: Tensor,
@@ -68,7 +68,7 @@ impl EncounterTensors {
     /// Stacks the encounters of each agent's drafts.
     ///
     /// # Errors
-    /// When memory for them cannot be had.
+    /// When memory for them cannot be allocated.
     pub fn stack(agents: &[&Encounters], device: &Device) -> Result<Self> {
         const TOKENS: usize = 1 + ENCOUNTERS;
         let rows = agents.len() * MODES;

@@ -15,10 +15,10 @@ pub struct Linear {
 }
 
 impl Linear {
-    /// A layer; `gain` scales the first weights' deviation `gain / sqrt(inputs)`.
+    /// A layer; `gain` scales the initial weights' deviation `gain / sqrt(inputs)`.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(
         p: &mut Params,
         name: &str,
@@ -37,7 +37,7 @@ impl Linear {
         })
     }
 
-    /// The same layer with a rectifier behind it.
+    /// The same layer followed by a rectifier.
     #[must_use]
     pub fn relu(mut self) -> Self {
         self.relu = true;
@@ -67,7 +67,7 @@ impl Mlp {
     /// `sizes` are inputs, hidden and outputs; `gain` is the last layer's.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(
         p: &mut Params,
         name: &str,
@@ -107,7 +107,7 @@ impl Norm {
     /// A norm over `width` numbers.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(p: &mut Params, name: &str, width: usize) -> std::result::Result<Self, NetError> {
         Ok(Self {
             scale: p.get(&format!("{name}.scale"), &[width], Init::Constant(1.0))?,
@@ -124,7 +124,7 @@ impl Norm {
     }
 }
 
-/// An MLP added to its input (pre-norm), place by place.
+/// An MLP added to its input (pre-norm), separately for each token.
 #[derive(Clone, Debug)]
 pub struct MlpBlock {
     norm: Norm,
@@ -135,7 +135,7 @@ impl MlpBlock {
     /// A block of a width.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(p: &mut Params, name: &str, width: usize) -> std::result::Result<Self, NetError> {
         Ok(Self {
             norm: Norm::new(p, &format!("{name}_norm"), width)?,
@@ -167,7 +167,7 @@ impl CrossBlock {
     /// A block of a width.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(
         p: &mut Params,
         name: &str,

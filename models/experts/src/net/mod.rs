@@ -5,8 +5,8 @@
 //!                                                       -> Refiner, five steps -> six better ones
 //! ```
 //!
-//! Each call runs on the thread that makes it; the environment variables `CANDLE_NUM_THREADS` and
-//! `RAYON_NUM_THREADS` should be 1, and cut the work over threads outside.
+//! Each call runs on the calling thread. The environment variables `CANDLE_NUM_THREADS` and
+//! `RAYON_NUM_THREADS` should be 1, and callers split the work over threads.
 
 mod architecture;
 mod encoder;

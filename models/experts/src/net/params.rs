@@ -1,4 +1,4 @@
-//! Where a network's numbers come from: seeded random draws or a file.
+//! Sources of a network's parameters: seeded random draws or a file.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use scene::random::{Key, Stream};
 
 use super::error::NetError;
 
-/// First value of a parameter.
+/// Initial value of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub enum Init {
     /// All the same.
@@ -22,10 +22,10 @@ enum ParamSource {
     Given(BTreeMap<String, Tensor>),
 }
 
-/// Parameters by name, and their variables where they are trainable.
+/// Parameters by name, and their variables if they are trainable.
 pub type Finished = (BTreeMap<String, Tensor>, BTreeMap<String, Var>);
 
-/// Hands out parameters by name while a network is put together.
+/// Provides parameters by name while a network is built.
 pub struct Params {
     source: ParamSource,
     device: Device,
@@ -35,7 +35,7 @@ pub struct Params {
 }
 
 impl Params {
-    /// Parameters drawn from a seed, the same on every machine.
+    /// Parameters drawn from a seed, equal on every machine.
     pub fn random(seed: u64, trainable: bool, device: &Device) -> Self {
         Self::new(
             ParamSource::Random(Key::default().text("weights").number(seed).stream()),
@@ -93,12 +93,12 @@ impl Params {
         Ok(tensor)
     }
 
-    /// Where the parameters live.
+    /// Device of the parameters.
     pub fn device(&self) -> &Device {
         &self.device
     }
 
-    /// All parameters handed out, and their variables where they are trainable.
+    /// All provided parameters, and their variables if they are trainable.
     ///
     /// # Errors
     /// When a file has tensors that no part of the network uses.

@@ -1,9 +1,10 @@
 //! The conditional diffusion model that makes drafts coherent (the paper, section III-C).
 //!
-//! Each step sees, besides the draft itself, the way downhill in the overlap energy at that draft, and takes a
-//! learned share of it. Where the architecture has pairs of attention, it also attends to the drafts of the agents
-//! that the draft meets (its encounters), as they are at that step, and to the context's tokens, which hold the
-//! conditions of the agent and of its neighbours. The shipped weights have none: see their card.
+//! Besides the draft itself, each step sees the descent direction of the overlap energy at that draft, and
+//! applies a learned share of it. If the architecture has pairs of attention, it also attends to the draft's
+//! encounters: the drafts, at that step, of agents that it meets. It then attends to the context's tokens,
+//! which hold the conditions of the agent and of its neighbours. The shipped weights have none: see their
+//! card.
 
 use candle_core::{Result, Tensor};
 
@@ -17,12 +18,12 @@ use super::{ops, schedule, smooth};
 use crate::features::encounters::ENCOUNTER;
 use crate::planning::{MODES, RESIDUAL};
 
-/// Numbers that say the noise level.
+/// Numbers that encode the noise level.
 const LEVEL: usize = 8;
-/// Spread of a correction when the last layer says 1.
+/// Spread of a correction for an output of 1 of the last layer.
 const SPREAD: f64 = 1.5;
 
-/// What a call needs at every step, made once.
+/// Values that every step of a call needs, computed once.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// Anchors and context, [batch, MODES, width].
@@ -34,30 +35,31 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The same numbers without their history, so that nothing flows back through them.
+    /// The same values without their graph, so that no gradient flows back through them.
     pub fn detach(&self) -> Self {
         let (base, tokens) = (self.base.detach(), self.tokens.detach());
         Self { base, tokens, tangent: self.tangent.clone(), mask: self.mask.clone() }
     }
 }
 
-/// A pair of attention: of each draft to what it meets, then of all drafts of an agent to its context.
+/// A pair of attention blocks: of each draft to its encounters, then of all drafts of an agent to its
+/// context.
 #[derive(Clone, Debug)]
 struct AttentionPair {
     encounters: CrossBlock,
     context: CrossBlock,
 }
 
-/// What a refiner is told about drafts at a step.
+/// A refiner's inputs about drafts at a step.
 pub struct DraftInputs<'a> {
-    /// The way downhill in the overlap energy, [batch, MODES, RESIDUAL], from
+    /// The descent direction of the overlap energy, [batch, MODES, RESIDUAL], from
     /// [`Pullback::downhill`](crate::planning::pullback::Pullback::downhill).
     pub push: &'a Tensor,
-    /// What the drafts meet, needed by a refiner that attends.
+    /// Encounters of the drafts, for a refiner with attention.
     pub encounters: Option<&'a EncounterTensors>,
 }
 
-/// Denoises residuals given what the drafts meet, their anchors and the context.
+/// Denoises residuals, given their encounters, their anchors and the context.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     draft: Linear,
@@ -66,7 +68,7 @@ pub struct Refiner {
     /// Absent without pairs of attention.
     encounter: Option<Mlp>,
     pairs: Vec<AttentionPair>,
-    /// None beside pairs of attention.
+    /// Empty with pairs of attention.
     blocks: Vec<MlpBlock>,
     norm: Norm,
     head: Mlp,
@@ -75,10 +77,10 @@ pub struct Refiner {
 }
 
 impl Refiner {
-    /// Puts the refiner together.
+    /// Builds the refiner.
     ///
     /// # Errors
-    /// When the parameters cannot be had.
+    /// When the parameters cannot be created.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
         let plain_blocks = if a.refiner_attention == 0 { a.refiner_blocks } else { 0 };
@@ -113,7 +115,7 @@ impl Refiner {
         })
     }
 
-    /// What does not change between steps.
+    /// Values that are constant over the steps.
     ///
     /// # Errors
     /// When the shapes do not fit.
@@ -128,7 +130,7 @@ impl Refiner {
         })
     }
 
-    /// Residuals [batch, MODES, RESIDUAL] with noise of `levels`, one a road user. `noise` are standard
+    /// Residuals [batch, MODES, RESIDUAL] with noise of `levels`, one per road user. `noise` holds standard
     /// normal numbers of the same shape; they are smoothed and made tangent to the goal here.
     ///
     /// # Errors
@@ -156,7 +158,7 @@ impl Refiner {
     }
 
     /// The denoised residual (x0 form) [batch, MODES, RESIDUAL]. `residual`, of the same shape, has noise of
-    /// `levels` (one an agent); `inputs` are those at it.
+    /// `levels` (one per agent); `inputs` belong to it.
     ///
     /// # Errors
     /// When the shapes do not fit.
@@ -199,7 +201,7 @@ impl Refiner {
         ops::project(&((kept + correction)? + taken)?, &prepared.tangent)
     }
 
-    /// One DDIM step from level `t` to `t_next`; `noise` (standard normal) makes it a random one.
+    /// One DDIM step from level `t` to `t_next`; with `noise` (standard normal) it is random.
     ///
     /// # Errors
     /// When the shapes do not fit.
@@ -221,8 +223,8 @@ impl Refiner {
     }
 }
 
-/// Power of the way past the network. Without noise a draft comes out as it went in, so that what nothing
-/// pushes is not worn down step by step; towards pure noise less and less of it counts.
+/// Power of the skip connection. Without noise a draft passes unchanged, so that steps without a push do not
+/// wear it down; towards pure noise it counts less and less.
 fn skip(level: usize) -> f64 {
     let signal = schedule::signal(level);
     signal / signal.max(0.5).powi(2)

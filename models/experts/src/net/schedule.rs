@@ -1,6 +1,6 @@
 //! Noise levels of the diffusion model: 100 steps on a cosine (Nichol and Dhariwal, "Improved denoising
-//! diffusion probabilistic models", 2021), walked by DDIM steps (Song et al., 2021) from a leapfrog
-//! start (Mao et al., "Leapfrog diffusion", 2023).
+//! diffusion probabilistic models", 2021), traversed by DDIM steps (Song et al., 2021) from a leapfrog start
+//! (Mao et al., "Leapfrog diffusion", 2023).
 
 /// Number of noise levels; level 0 has no noise.
 pub const LEVELS: usize = 100;
@@ -15,8 +15,8 @@ pub fn signal(level: usize) -> f64 {
     angle.cos().powi(2)
 }
 
-/// Level pairs (from, to) of `steps` DDIM steps from a start level down to 0, as even as whole levels
-/// allow. More steps than levels are cut to the levels; a start at 0 gives that many steps at 0.
+/// Level pairs (from, to) of `steps` DDIM steps from a start level down to 0, as even as whole levels allow.
+/// More steps than levels are reduced to the levels; a start at 0 gives that many steps at 0.
 pub fn ddim(start: usize, steps: usize) -> Vec<(usize, usize)> {
     let start = start.min(LEVELS);
     let steps = if start == 0 { steps } else { steps.min(start) };
@@ -24,18 +24,18 @@ pub fn ddim(start: usize, steps: usize) -> Vec<(usize, usize)> {
     (0..steps).map(|step| (level(step), level(step + 1))).collect()
 }
 
-/// What a DDIM step multiplies: `r' = denoised * x0 + drawn * r + fresh * noise`.
+/// Factors of a DDIM step: `r' = denoised * x0 + residual * r + noise * e`, with fresh noise `e`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DenoisingStep {
-    /// Of the denoised residual.
+    /// Factor of the denoised residual.
     pub denoised: f64,
-    /// Of the residual before the step.
+    /// Factor of the residual before the step.
     pub residual: f64,
-    /// Of new noise.
+    /// Factor of fresh noise.
     pub noise: f64,
 }
 
-/// The step between two levels; with `eta` 0 it is deterministic, with 1 it draws as the full chain.
+/// The step between two levels: deterministic for `eta` 0, drawn like the full chain for `eta` 1.
 pub fn step(from: usize, to: usize, eta: f64) -> DenoisingStep {
     let (a, b) = (signal(from), signal(to));
     if from == 0 || to == 0 {

@@ -1,4 +1,4 @@
-//! The networks as a whole: gradients, files, and equal bits for one road user and for a batch.
+//! Tests of whole networks: gradients, files, and bit-equal results for one road user and for a batch.
 
 use candle_core::{DType, Device, Tensor};
 use scene::random::Key;
@@ -35,14 +35,14 @@ fn drafts(batch: usize, seed: u64) -> Vec<[[f32; RESIDUAL]; MODES]> {
     (0..batch).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| rng.normal() as f32))).collect()
 }
 
-/// Encounters that depend on the drafts alone: none beside the first mode, one more beside each other.
+/// Encounters that depend only on the drafts: none beside the first mode, one more beside each next one.
 fn encounters_of(draft: &[[f32; RESIDUAL]; MODES]) -> Encounters {
     std::array::from_fn(|mode| {
         (0..mode).map(|k| std::array::from_fn(|i| draft[mode][(i + k) % RESIDUAL])).collect()
     })
 }
 
-/// All that inference gives, for some of the road users.
+/// All outputs of inference, for some of the road users.
 fn answers(
     expert: &Expert,
     agents: &[&AgentFeatures],
@@ -147,7 +147,7 @@ fn wrong_files_are_refused_with_the_reason() {
     assert!(reason(&alone(Some(&header))).contains("version 9"));
 }
 
-/// A scalar that depends on everything an expert says.
+/// A scalar that depends on every output of an expert.
 fn probe(expert: &Expert, agents: &[&AgentFeatures]) -> Tensor {
     let context = expert.encode(agents).unwrap();
     let initial = expert.initializer.forward(&context).unwrap();
@@ -213,7 +213,7 @@ fn every_variable_has_a_gradient_that_matches_differences() {
         let grad = grads.get(var.as_tensor()).unwrap_or_else(|| panic!("{name} has no gradient"));
         let norm = grad.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
         assert!(norm > 0.0 && norm.is_finite(), "{name} has gradient norm {norm}");
-        // Along the gradient and a random direction: the slope must be the inner product.
+        // Along the gradient and a random direction, the slope must be the inner product.
         let before = var.as_tensor().copy().unwrap();
         let random: Vec<f32> = (0..before.elem_count()).map(|_| rng.normal() as f32).collect();
         let random = Tensor::from_vec(random, before.shape(), &Device::Cpu).unwrap();

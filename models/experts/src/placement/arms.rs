@@ -1,5 +1,5 @@
-//! Arms: where roads come into a map, or into a drawn part of it. Their lanes are grouped by heading and
-//! nearness, so that a road is one arm whatever it is called in the file.
+//! Arms: where roads enter a map, or a drawn region of it. Lanes are grouped by heading and distance, so that
+//! a road is one arm whatever its name in the file.
 
 use super::driving::{SpeedRange, allowed_mps};
 use super::region::Region;
@@ -14,10 +14,10 @@ use scene::{AgentType, Vec2, wrap_angle};
 use std::collections::HashSet;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// Distance between the places at which a lane is tested for entering a region, metres.
+/// Distance between the samples at which a lane is tested for entering a region, metres.
 const LOOK_STEP_M: f64 = 2.0;
 const MOST_LEGS: usize = 200;
-/// Distance between the places at which travel times are computed, metres.
+/// Distance between the samples of travel time, metres.
 const TIME_STEP_M: f64 = 2.0;
 
 /// A lane by which an arm leads in.
@@ -27,20 +27,20 @@ pub struct ArmLane {
     pub lane: usize,
     /// Arc length at which it comes in, metres.
     pub s_m: f64,
-    /// The map begins there: later arrivals appear at this place.
+    /// The map begins there, so later arrivals appear at this place.
     pub at_map_edge: bool,
 }
 
-/// Where a road comes in.
+/// A place where a road enters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
-    /// The compass point that it comes from, in words, with a number where several do: `north-east-2`.
+    /// The compass point from which it comes, with a number if several arms share it: `north-east-2`.
     pub id: String,
-    /// Middle of its lanes where they come in, metres.
+    /// Middle of its lanes at the entry, metres.
     pub position: Vec2,
     /// Direction in which it leads, radians.
     pub heading_rad: f64,
-    /// From right to left.
+    /// Its lanes, from right to left.
     pub lanes: Vec<ArmLane>,
 }
 
@@ -48,7 +48,7 @@ fn drives(lane: &GraphLane) -> bool {
     lane.carries(AgentType::Vehicle) && lane.path.length_m() > 0.5
 }
 
-/// All arms of a map, or of a region of it, in the order of their names.
+/// All arms of a map, or of a region of it, sorted by name.
 pub fn arms(graph: &LaneGraph, region: &Region) -> Vec<Arm> {
     let mut entries: Vec<(ArmLane, Pose)> = Vec::new();
     for (index, lane) in graph.lanes().iter().enumerate().filter(|(_, l)| drives(l) && !l.interpolating) {
@@ -56,7 +56,7 @@ pub fn arms(graph: &LaneGraph, region: &Region) -> Vec<Arm> {
             entries.push((ArmLane { lane: index, s_m, at_map_edge }, lane.path.sample(s_m)));
         }
     }
-    // Only buses use a bus lane; it counts where a road has no other lane.
+    // Only buses use a bus lane; it counts if a road has no other lane.
     let groups = grouped(&entries).into_iter().map(|group| {
         let common = |at: &&usize| graph.lanes()[entries[**at].0.lane].lane_type != LaneType::BusLane;
         let kept: Vec<usize> = group.iter().filter(common).copied().collect();
@@ -86,7 +86,7 @@ fn compass(heading_rad: f64) -> usize {
     ((wrap_angle(heading_rad + PI) / FRAC_PI_4).round() as i64).rem_euclid(8) as usize
 }
 
-/// Places at which a lane comes in, and whether the map begins there.
+/// Places at which a lane enters the region, and whether the map begins there.
 fn comes_in(graph: &LaneGraph, index: usize, region: &Region) -> Vec<(f64, bool)> {
     let lane = &graph.lanes()[index];
     let length_m = lane.path.length_m();
@@ -99,7 +99,7 @@ fn comes_in(graph: &LaneGraph, index: usize, region: &Region) -> Vec<(f64, bool)
                 found.push((0.0, true));
             }
         } else if before.all(|l| l.interpolating && !region.contains(l.path.position_at(0.0))) {
-            // The region cuts through the junction that this lane leads out of.
+            // The region cuts through the junction that precedes this lane.
             found.push((0.0, false));
         }
     }
@@ -127,7 +127,8 @@ fn comes_in(graph: &LaneGraph, index: usize, region: &Region) -> Vec<(f64, bool)
     found
 }
 
-/// A turning lane and the like: it begins beside a lane of its own road that comes from farther back.
+/// Whether a lane, such as a turning lane, begins beside another lane of its road that comes from farther
+/// back.
 fn opens_beside(graph: &LaneGraph, index: usize) -> bool {
     let lane = &graph.lanes()[index];
     let start = lane.path.sample(0.0);
@@ -143,7 +144,7 @@ fn opens_beside(graph: &LaneGraph, index: usize) -> bool {
     })
 }
 
-/// Entries of one road each, by their indices; those near each other, one after the other.
+/// Entries grouped by road, as indices. Neighbouring entries are joined one after the other.
 fn grouped(entries: &[(ArmLane, Pose)]) -> Vec<Vec<usize>> {
     let together = |a: &Pose, b: &Pose| {
         let (apart, way) = (b.position - a.position, a.direction());
@@ -179,23 +180,23 @@ fn arm(entries: &[(ArmLane, Pose)], mut group: Vec<usize>) -> Arm {
     Arm { id: String::new(), position, heading_rad: way.y.atan2(way.x), lanes }
 }
 
-/// A stretch of lane that a way leads along.
+/// A stretch of lane that belongs to a way.
 #[derive(Clone, Copy, Debug)]
 struct ArmLeg {
     lane: usize,
     from_m: f64,
-    /// Arc length of the way at which it begins, metres.
+    /// Arc length of the way at which the stretch begins, metres.
     at_m: f64,
 }
 
-/// The way in by one lane of an arm, up to its line: the first junction, or where the road leaves the map or
-/// joins another.
+/// The way in by one lane of an arm, up to its end line: the first junction, or the place where the road
+/// leaves the map or joins another.
 pub(super) struct ArmPath {
     legs: Vec<ArmLeg>,
     pub(super) path: Polyline,
-    /// Seconds of free travel from its beginning, every [`TIME_STEP_M`].
+    /// Seconds of free travel from the beginning of the way, every [`TIME_STEP_M`].
     times_s: Vec<f64>,
-    /// Speeds there, m/s.
+    /// Speeds at these places, m/s.
     speeds_mps: Vec<f64>,
 }
 
@@ -248,29 +249,29 @@ impl ArmPath {
         }
     }
 
-    /// The slowest place of free traffic, m/s.
+    /// Lowest speed of free traffic, m/s.
     pub(super) fn slowest_mps(&self) -> f64 {
         self.speeds_mps.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// The lane at a place of the way, and the arc length there, metres.
+    /// The lane at a place of the way, and the arc length on it, metres.
     pub(super) fn lane_at(&self, at_m: f64) -> (usize, f64) {
         let after = self.legs.partition_point(|leg| leg.at_m <= at_m);
         let leg = &self.legs[after.saturating_sub(1)];
         (leg.lane, leg.from_m + (at_m - leg.at_m).max(0.0))
     }
 
-    /// Lanes that it leads along, each with the arc length at which the lane itself would begin, metres.
+    /// Lanes of the way, each with the way's arc length at which the lane itself would begin, metres.
     pub(super) fn legs(&self) -> impl Iterator<Item = (usize, f64)> {
         self.legs.iter().map(|leg| (leg.lane, leg.at_m - leg.from_m))
     }
 
-    /// Lanes that it leads along.
+    /// Lanes of the way.
     pub(super) fn lanes(&self) -> impl Iterator<Item = usize> {
         self.legs.iter().map(|leg| leg.lane)
     }
 
-    /// The last of them.
+    /// Last lane of the way.
     pub(super) fn last_lane(&self) -> usize {
         self.legs[self.legs.len() - 1].lane
     }
@@ -279,14 +280,14 @@ impl ArmPath {
         self.path.length_m()
     }
 
-    /// Free travel from its beginning to its line, seconds.
+    /// Duration of free travel from the beginning to the end line, seconds.
     pub(super) fn seconds(&self) -> f64 {
         let full_m = TIME_STEP_M * (self.times_s.len() - 1) as f64;
         let over_m = full_m - self.length_m();
         self.times_s[self.times_s.len() - 1] - over_m / self.speeds_mps[self.speeds_mps.len() - 1]
     }
 
-    /// Where free traffic is so many seconds after it came in, metres.
+    /// Place of free traffic this many seconds after it entered, metres.
     pub(super) fn after_s(&self, seconds: f64) -> f64 {
         let i = self.times_s.partition_point(|t| *t <= seconds).clamp(1, self.times_s.len()) - 1;
         let over_s = seconds - self.times_s[i];
@@ -300,7 +301,8 @@ impl ArmPath {
     }
 }
 
-/// The road goes on from one lane to the next without anything to stop for, and nothing joins it there.
+/// Whether the road continues from one lane to the next without anything to stop for, and nothing joins it
+/// there.
 fn goes_on(graph: &LaneGraph, lights: &ShownLights, at: usize, next: usize) -> bool {
     let (lane, then) = (&graph.lanes()[at], &graph.lanes()[next]);
     let junction = lane.successors.iter().any(|s| graph.lanes()[*s].interpolating || lights.rules(*s));
@@ -385,7 +387,7 @@ mod tests {
         let slow = Some(SpeedRange { min_mps: 0.0, max_mps: 4.0 });
         let way = ArmPath::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, slow);
         assert!((way.seconds() - 20.0).abs() < 1e-6);
-        // A light in the middle of a road is a line too.
+        // A light in the middle of a road is an end line too.
         let mut lit = scene.clone();
         lit.signals =
             vec![Signal { lane: "out".into(), stop: None, stop_z_m: None, runs: vec![(0, SignalState::Go)] }];

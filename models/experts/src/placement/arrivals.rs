@@ -1,10 +1,11 @@
 //! Traffic by arms: a flow in vehicles per hour enters by each arm, before the scene begins and throughout
 //! it.
 //!
-//! Headways on a lane are a least headway plus an exponential rest (Cowan 1975, "Useful headway models",
-//! Transportation Research 9, the model M2). The renewal process begins in its steady state, so that on
-//! average exactly rate times duration pass any place of an arm. A vehicle that entered before the scene
-//! begins stands where free traffic would be by then. A later one has a motion from the map's edge on.
+//! Headways on a lane are a minimum headway plus an exponential remainder (Cowan 1975, "Useful headway
+//! models", Transportation Research 9, the model M2). The renewal process begins in its steady state, so the
+//! expected number of vehicles that pass any place of an arm is exactly rate times duration. A vehicle that
+//! entered before the scene begins is placed where free traffic would be by then. A later one has a motion
+//! from the map's edge on.
 
 use super::arms::{Arm, ArmLane, ArmPath, arms};
 use super::cells::CellKind;
@@ -34,12 +35,12 @@ const BACK_TRIES: usize = 16;
 
 /// A vehicle of an arm's lane.
 struct Arrival {
-    /// When it came in or will, seconds after the start.
+    /// Time of entry, seconds after the start; negative if it has entered already.
     enters_s: f64,
     size: Size,
     subtype: Subtype,
     share: f64,
-    /// Index among the placed, for vehicles that are there at the start.
+    /// Index among the placed agents, for a vehicle that is present at the start.
     placed: Option<usize>,
 }
 
@@ -52,7 +53,7 @@ struct FreeStretch {
     all: Vec<Arrival>,
 }
 
-/// The vehicles made for all arms so far, and those still to enter.
+/// The vehicles made for all arms so far, and those that are still to enter.
 pub(super) struct TrafficByArms {
     pub(super) arms: Vec<ArmTraffic>,
     stretches: Vec<FreeStretch>,
@@ -62,7 +63,7 @@ pub(super) struct TrafficByArms {
     pub(super) reasons: Vec<String>,
 }
 
-/// Times at which vehicles come in at a rate, from `from_s` to `to_s`, in their order; `least_s` apart.
+/// Entry times at a rate, from `from_s` to `to_s`, in order and at least `least_s` apart.
 fn times(per_s: f64, least_s: f64, (from_s, to_s): (f64, f64), stream: &mut Stream) -> Vec<f64> {
     if per_s <= 0.0 || to_s <= from_s {
         return Vec::new();
@@ -85,12 +86,13 @@ fn times(per_s: f64, least_s: f64, (from_s, to_s): (f64, f64), stream: &mut Stre
 }
 
 impl Sampler<'_> {
-    /// Seconds of the scene after the start.
+    /// Duration of the scene after the start, seconds.
     fn duration_s(&self) -> f64 {
         self.request.scene.time.steps.saturating_sub(self.request.step + 1) as f64 * STEP_S
     }
 
-    /// Puts the vehicles of all arms that are there at the start in their places. `free` is what the scene holds.
+    /// Places the vehicles of all arms that are present at the start. `free` is the number of agents that the
+    /// scene can still hold.
     pub(super) fn place_arrivals(
         &mut self,
         free: &mut usize,
@@ -171,7 +173,7 @@ impl Sampler<'_> {
         lost.round() as usize
     }
 
-    /// Bars all other drivers from these lanes, so that only the arms supply their traffic.
+    /// Bars all other drivers from these lanes, so that only arms supply their traffic.
     fn keep_off(&mut self, lanes: &HashSet<usize>) {
         if lanes.is_empty() {
             return;
@@ -185,13 +187,13 @@ impl Sampler<'_> {
         }
     }
 
-    /// Puts vehicles that entered before the start where they are by then. Without room there a vehicle
+    /// Places vehicles that entered before the start where they are by then. A vehicle without room there
     /// stands farther back, enters later, or stays unplaced.
     fn stand_all(&mut self, traffic: &mut TrafficByArms, free: &mut usize) {
         let (mut crowded, mut full, mut outside) = (0, 0, 0);
         for stretch in &mut traffic.stretches {
             let way = &stretch.way;
-            // How far the one in front has come, to its tail.
+            // Room up to the tail of the vehicle ahead.
             let mut room_m = way.length_m();
             let leaves = self.cells.graph.lanes()[way.last_lane()].successors.is_empty();
             let mut all = Vec::with_capacity(stretch.all.len());
@@ -201,7 +203,7 @@ impl Sampler<'_> {
                     // No vehicle overhangs the edge of the map.
                     let least_m = if stretch.entry.at_map_edge { half_m } else { ENTRY_M };
                     if leaves && way.after_s(-arrival.enters_s) > way.length_m() - half_m - END_M {
-                        // It has left the map, or is about to.
+                        // The vehicle has left the map or is about to.
                         continue;
                     }
                     let most_m = room_m - half_m;
@@ -221,7 +223,7 @@ impl Sampler<'_> {
                             all.push(arrival);
                             continue;
                         }
-                        // It has not come in yet.
+                        // The vehicle has not entered yet.
                         None if at_m < least_m + BACK_M => arrival.enters_s = 1e-3,
                         None => crowded += 1,
                     }
@@ -275,7 +277,7 @@ impl Sampler<'_> {
         }
     }
 
-    /// Vehicles that enter later, with their motion; `speeds` are those of the placed.
+    /// Vehicles that enter later, with their motion. `speeds` are those of the placed agents.
     pub(super) fn late_comers(
         &self,
         traffic: &mut TrafficByArms,
@@ -323,7 +325,7 @@ impl Sampler<'_> {
         self.request.scene.time.steps.saturating_sub(1).max(self.request.step)
     }
 
-    /// A vehicle at its first place; `None` where it found no way in, or was taken out again.
+    /// A vehicle at its first place; `None` if it found no way in or was removed again.
     fn driver(
         &self,
         stretch: &FreeStretch,
@@ -373,7 +375,7 @@ impl Sampler<'_> {
         None
     }
 
-    /// No agent of the scene occupies the place at which a vehicle would enter at a step.
+    /// Whether no agent of the scene occupies the place at which a vehicle would enter at a step.
     fn is_clear(&self, path: &Polyline, arrival: &Arrival, kept: &[&Agent], step: usize) -> bool {
         let place = path.sample(0.5 * arrival.size.length_m);
         let size = Size { length_m: arrival.size.length_m + 2.0 * ENTRY_GAP_M, ..arrival.size };
@@ -383,7 +385,7 @@ impl Sampler<'_> {
             let state = agent.state_at(step)?;
             Some(outline(state.position(), state.heading_rad, agent.size))
         });
-        // Parked cars and the like: where they are is where they stay.
+        // Parked cars and other agents off the lanes do not move.
         let stands = self.placed.iter().filter(|p| p.lane.is_none()).map(PlacedAgent::outline);
         !logged.chain(stands).any(|other| touches(&other))
     }
@@ -393,7 +395,7 @@ fn outline(position: Vec2, heading_rad: f64, size: Size) -> OrientedBox {
     OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading_rad)
 }
 
-/// A vehicle with its motion from where it comes in on.
+/// A vehicle with its motion from its entry on.
 fn arriving(id: AgentId, arrival: &Arrival, own: &FollowingDriver) -> Agent {
     let state = |(s_m, speed_mps): &(f64, f64)| {
         let place = own.course.path.sample(*s_m);
@@ -419,7 +421,7 @@ fn arriving(id: AgentId, arrival: &Arrival, own: &FollowingDriver) -> Agent {
     }
 }
 
-/// The arms that there are, in words.
+/// The names of the available arms, for a sentence.
 fn known(found: &[Arm]) -> String {
     let shown: Vec<&str> = found.iter().take(16).map(|arm| arm.id.as_str()).collect();
     match shown.as_slice() {
@@ -460,7 +462,7 @@ mod tests {
         assert_eq!(times(1.0 / 1.5, 1.5, (0.0, 60.0), &mut stream).len(), 40);
     }
 
-    /// Two lanes of 200 m from the west to a light, and on for 60 m.
+    /// Two lanes of 200 m from the west to a light, and 60 m beyond it.
     fn road(steps: usize) -> Scene {
         let lane = |id: &str, from_m: f64, to_m: f64, y_m: f64| {
             let at = |i: u32| Vec2::new(from_m + (to_m - from_m) * f64::from(i) / 40.0, y_m);
@@ -527,7 +529,7 @@ mod tests {
                 let behind = near.filter(|b| (a.center().y - b.center().y).abs() < 1.0).count();
                 assert_eq!(behind, 0, "seed {seed}: two are less than 2 m apart on a lane");
             }
-            // Later arrivals keep apart for as long as their motion is known.
+            // Later arrivals keep their distance for as long as their motion is known.
             let late: Vec<Agent> =
                 placement.agents.iter().filter(|a| a.track.first_step > 0).cloned().collect();
             for step in (0..301).step_by(5) {

@@ -8,7 +8,7 @@ use crate::tuning::placing::assign::{
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{Agent, AgentType, State, Vec2, wrap_angle};
 
-/// The lane that an agent drives on: near its middle and along it.
+/// The lane that an agent drives on: it is near the lane's middle and along it.
 pub(super) fn driven_lane(graph: &LaneGraph, agent_type: AgentType, state: &State) -> Option<LaneHit> {
     let turn = |hit: &LaneHit| wrap_angle(state.heading_rad - hit.heading_rad).abs();
     let on = |hit: &LaneHit| {
@@ -84,7 +84,7 @@ fn walk_at(cells: &Cells<'_>, position: Vec2) -> Option<usize> {
     })
 }
 
-/// The cell of least cost among the wanted ones near a point.
+/// The cheapest of the wanted cells near a point.
 fn nearest(
     cells: &Cells<'_>,
     position: Vec2,

@@ -15,20 +15,20 @@ use std::ops::Range;
 
 /// Length of a cell, metres, on maps that are not huge.
 const CELL_M: f64 = 5.0;
-/// Most cells; larger maps get longer ones.
+/// Most cells of a map; larger maps get longer cells.
 const MAX_CELLS: f64 = 40_000.0;
 /// Most features of a cell.
 pub(super) const FEATURES: usize = 6;
-/// Index of the gap to the leader among a lane cell's features.
+/// Index of the distance to the leader among a lane cell's features.
 pub(super) const LEADER_GAP: usize = 5;
 
-/// Sort of cell.
+/// Kind of cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CellKind {
     /// On a lane, driving or waiting.
     Lane,
-    /// Parked between a lane and the kerb, or beside a lane without one.
+    /// Parked between a lane and the kerb, or beside a lane without a kerb.
     Kerb,
     /// On a crosswalk.
     Crosswalk,
@@ -49,10 +49,10 @@ pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
 }
 
 impl CellKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 5] = [Self::Lane, Self::Kerb, Self::Crosswalk, Self::Pavement, Self::Driveway];
 
-    /// The situation that speeds off the lanes are learned by; `None` for drivers and parked vehicles.
+    /// The situation by which speeds off the lanes are learned; `None` for drivers and parked vehicles.
     pub(super) fn speed_context(self) -> Option<SpeedContext> {
         match self {
             Self::Crosswalk => Some(SpeedContext::Crosswalk),
@@ -61,7 +61,7 @@ impl CellKind {
         }
     }
 
-    /// How many classes each feature has.
+    /// Number of classes of each feature.
     pub fn feature_classes(self) -> &'static [usize] {
         match self {
             Self::Lane => const { &[8, 7, LineAhead::CLASSES, 5, 9, 2 * (LEADER_M.len() + 1)] },
@@ -77,23 +77,23 @@ impl CellKind {
 #[derive(Clone, Debug)]
 pub(super) struct MapCell {
     pub(super) kind: CellKind,
-    /// Graph lane; of a pavement without lane the road edge; of a driveway its index.
+    /// Index of the graph lane; of the road edge for a pavement without a lane; of the driveway.
     pub(super) line: usize,
-    /// A pavement that is a sidewalk lane.
+    /// The pavement is a sidewalk lane.
     pub(super) on_lane: bool,
     pub(super) from_m: f64,
     pub(super) to_m: f64,
     pub(super) center: Vec2,
-    /// Kerbs: +1 left of the lane, -1 right. Pavements along an edge: the side away from the road.
+    /// For kerbs: +1 left of the lane, -1 right. For pavements along an edge: the side away from the road.
     pub(super) side: f64,
-    /// Kerbs: from the lane's border to the kerb, metres; infinite without one.
+    /// For kerbs: distance from the lane's border to the kerb, metres; infinite without a kerb.
     pub(super) free_m: f64,
     pub(super) features: [u8; FEATURES],
     pub(super) ahead: LineAhead,
 }
 
 impl MapCell {
-    /// What its rate is multiplied by: metres, or one for a driveway.
+    /// Factor of its rate: metres, or one for a driveway.
     pub(super) fn extent(&self) -> f64 {
         if self.kind == CellKind::Driveway { 1.0 } else { self.to_m - self.from_m }
     }
@@ -107,16 +107,16 @@ pub(super) struct Cells<'a> {
     /// Road edges as lines.
     pub(super) edges: Vec<Polyline>,
     pub(super) all: Vec<MapCell>,
-    /// By graph lane: the cells of kind lane, of which the first may not be the lane's own first.
+    /// The cells of kind lane, by graph lane. The first of them need not be the lane's first cell.
     by_lane: HashMap<usize, LaneCells>,
 }
 
 struct LaneCells {
     /// Indices into the scene's cells.
     held: Range<usize>,
-    /// Number along the lane of the first one held.
+    /// Number along the lane of the first cell in `held`.
     first: usize,
-    /// Cells of the whole lane.
+    /// Number of cells of the whole lane.
     count: usize,
 }
 
@@ -143,13 +143,13 @@ impl<'a> Cells<'a> {
         cells
     }
 
-    /// A type may occupy such a cell.
+    /// Whether a type may occupy the cell.
     pub(super) fn may_hold(&self, cell: &MapCell, agent_type: AgentType) -> bool {
         let lane_fits = || self.graph.lanes().get(cell.line).is_some_and(|l| l.carries(agent_type));
         cell_kinds(agent_type).contains(&cell.kind) && (cell.kind != CellKind::Lane || lane_fits())
     }
 
-    /// The line a cell lies on; `None` for driveways.
+    /// The line of a cell; `None` for driveways.
     pub(super) fn path(&self, cell: &MapCell) -> Option<&Polyline> {
         match cell.kind {
             CellKind::Driveway => None,
@@ -169,7 +169,7 @@ impl<'a> Cells<'a> {
 
     /// Kilometres of lane for motor vehicles in the region, junctions left out.
     pub(super) fn lane_km(&self, region: &Region) -> f64 {
-        // A map may have kerbs and no lane at all.
+        // A map may have kerbs but no lane.
         let counts = |lane: &GraphLane| lane.carries(AgentType::Vehicle) && !lane.interpolating;
         let counted = self.all.iter().filter(|s| {
             s.kind == CellKind::Lane
@@ -192,7 +192,7 @@ impl<'a> Cells<'a> {
                 for at in of_lane.held.clone().rev() {
                     let cell = &self.all[at];
                     let gap_m = travelled_m + s_m - 0.5 * (cell.from_m + cell.to_m);
-                    // The own cell is not behind.
+                    // The agent's own cell is not behind it.
                     if cell.to_m <= s_m && (0.0..LEADER_REACH_M).contains(&gap_m) {
                         found(at, gap_m);
                     }
@@ -217,7 +217,8 @@ impl<'a> Cells<'a> {
     }
 }
 
-/// Class of a cell's distance to the leader; twice as many, for queues apart from flowing traffic.
+/// Class of a cell's distance to the leader. With `queues` the classes are doubled, to separate queues from
+/// flowing traffic.
 pub(super) fn leader_class(gap_m: f64, queues: bool) -> u8 {
     let gap = if gap_m.is_finite() { class(gap_m, &LEADER_M) } else { LEADER_M.len() as u8 };
     gap + (LEADER_M.len() as u8 + 1) * u8::from(queues)

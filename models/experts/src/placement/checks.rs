@@ -1,4 +1,4 @@
-//! Constraints on a drawn pose: it touches no other agent, and its type may be there.
+//! Constraints on a drawn pose: it touches no other agent, and its type is allowed there.
 
 use super::cells::{CellKind, Cells};
 use super::placed::PlacedAgent;
@@ -15,29 +15,30 @@ use scene::routes::{GraphLane, LaneGraph};
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_4;
 
-/// Type of a road user that is there, with its lane and how far along it stands, metres.
+/// Type of a present road user, with its lane and its arc length on it, metres.
 pub(super) type KindOnLane = (AgentType, Option<(usize, f64)>);
 
-/// The boxes that a new one keeps clear of.
+/// The boxes from which a new road user keeps clear.
 #[derive(Default)]
 pub(super) struct Neighbours {
     /// Kept road users, then placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
-    /// Type, and lane and arc length of each that drives.
+    /// Type of each; lane and arc length of each driver.
     pub(super) kinds: Vec<KindOnLane>,
-    /// Where kept road users are in the next moments.
+    /// Boxes of kept road users in the next moments.
     pub(super) next: Vec<OrientedBox>,
 }
 
 impl Neighbours {
-    /// Adds one.
+    /// Adds a road user.
     pub(super) fn push(&mut self, obstacle: Obstacle, agent_type: AgentType, lane: Option<(usize, f64)>) {
         self.obstacles.push(obstacle);
         self.kinds.push((agent_type, lane));
     }
 
-    /// No obstacle is too near; `min_gap_m` is the room along the lane between drivers of the same direction. Drivers
-    /// that pass or cross each other keep a gap, and nobody is on foot right before a driver.
+    /// Whether no obstacle is too near. `min_gap_m` is the room along the lane between drivers of the same
+    /// direction. Drivers that pass or cross each other keep a gap, and nobody on foot is right in front of a
+    /// driver.
     pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
         let outline = placed.outline();
         let near = outline.grown(MARGIN_M);
@@ -78,7 +79,7 @@ impl Neighbours {
     }
 }
 
-/// Where nobody is on foot: a driver's box, what is beside it, and its next metres.
+/// Where nobody may be on foot: a driver's box, the strip beside it, and its next metres.
 fn before(driver: &OrientedBox) -> OrientedBox {
     let center = driver.center() + driver.forward() * (0.5 * BEFORE_M);
     let (half_length_m, half_width_m) =
@@ -110,7 +111,8 @@ pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     }
 }
 
-/// The vehicle does not overhang the edge of the road or of the map, and a long one does not stand across lanes.
+/// Whether the vehicle does not overhang the edge of the road or of the map, and a long one does not stand
+/// across lanes.
 fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     let Some(index) = placed.lane else { return true };
     let lane = &graph.lanes()[index];
@@ -119,7 +121,7 @@ fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     let long_enough = lane.path.length_m() > 2.0 * (half_m + END_M);
     let leaves = long_enough && lane.successors.is_empty() && after_m < half_m + END_M;
     let hangs = long_enough && lane.predecessors.is_empty() && before_m < half_m;
-    // Drivers have left a lane that ends before its last metres.
+    // Drivers leave a lane that ends before its last metres.
     let should_have_changed =
         graph.leaves_before_m(index, placed.agent_type).is_some_and(|last_m| placed.pose.s_m > last_m);
     if leaves || hangs || should_have_changed {
@@ -135,7 +137,7 @@ fn is_on_the_road(placed: &PlacedAgent, graph: &LaneGraph) -> bool {
     placed.size.length_m < LONG_M || ends.iter().all(|p| is_along(*p, outline.heading_rad(), graph))
 }
 
-/// The point lies on the band of a lane that leads about this way.
+/// Whether the point lies on the band of a lane with about this heading.
 fn is_along(point: Vec2, heading_rad: f64, graph: &LaneGraph) -> bool {
     let hits = graph.nearest_lanes(point, LANE_REACH_M, |_, lane| lane.carries(AgentType::Vehicle));
     hits.iter().any(|hit| {
@@ -150,7 +152,7 @@ pub(super) fn around(outline: &OrientedBox) -> impl Iterator<Item = Vec2> {
     outline.corners().into_iter().chain([outline.center() + left, outline.center() - left])
 }
 
-/// The point lies on the band that traffic of some lane uses.
+/// Whether the point lies on the used band of some lane.
 pub(super) fn on_lane(point: Vec2, graph: &LaneGraph) -> bool {
     let drives = |_: usize, l: &GraphLane| l.carries(AgentType::Vehicle) || l.carries(AgentType::Cyclist);
     let hits = graph.nearest_lanes(point, LANE_REACH_M, drives);

@@ -1,10 +1,10 @@
-//! The situations that learned distributions are kept by: of speeds, and of poses. Their names are the
-//! keys of the weights file.
+//! The situations by which learned distributions of speeds and poses are kept. Their names are the keys of
+//! the weights file.
 
 use crate::tuning::placing::context::{LEADER_WITHIN_M, PACES_MPS};
 use serde::{Deserialize, Serialize};
 
-/// What a driver has to stop for, in the classes that speeds are learned by.
+/// What a driver has to stop for, in the classes by which speeds are learned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RoadAhead {
     /// Nothing near enough to matter.
@@ -27,7 +27,7 @@ pub enum RoadAhead {
     RedWithin50M,
 }
 
-/// Room to the leader, metres.
+/// Gap to the leader, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs, reason = "the names say it")]
 pub enum LeaderGap {
@@ -55,7 +55,7 @@ pub enum LeaderPace {
 pub enum SpeedContext {
     /// A driver, by the road ahead and the leader, if one is near.
     Driver(RoadAhead, Option<(LeaderGap, LeaderPace)>),
-    /// A driver by the road ahead, whatever the leader does: in place of a situation that was too rare.
+    /// A driver by the road ahead, with any leader: replaces a situation that was too rare.
     DriverAnyLeader(RoadAhead),
     /// All drivers together.
     AnyDriver,
@@ -75,9 +75,9 @@ pub enum PoseContext {
     JunctionLane,
     /// On a bicycle lane.
     BikeLane,
-    /// At a kerb with less than 3.5 m beside the lane: the offset is measured from the kerb.
+    /// At a kerb with less than 3.5 m beside the lane; the offset is measured from the kerb.
     NarrowKerb,
-    /// At a kerb with more room: the offset is measured from the lane's border.
+    /// At a kerb with more room; the offset is measured from the lane's border.
     WideKerb,
     /// Beside a lane without a kerb.
     NoKerb,
@@ -115,7 +115,8 @@ const PAVEMENT: &str = "pavement";
 const NO_LEADER: &str = "no_leader";
 
 impl SpeedContext {
-    /// Of a driver; the leader by its gap in metres and its speed in m/s. One 40 m ahead is none.
+    /// The situation of a driver. The leader is given by its gap in metres and its speed in m/s; one 40 m or
+    /// more ahead does not count.
     pub(super) fn driver(ahead: RoadAhead, leader: Option<(f64, f64)>) -> Self {
         let near = leader.and_then(|(gap_m, speed_mps)| {
             let (gap, ..) = GAPS.iter().find(|(_, _, below_m)| gap_m < *below_m)?;
@@ -129,7 +130,7 @@ impl SpeedContext {
         Self::Driver(ahead, near)
     }
 
-    /// The next more general situation, which stands in for one that is unknown.
+    /// The next more general situation, which replaces an unknown one.
     pub fn broader(self) -> Option<Self> {
         match self {
             Self::Driver(ahead, _) => Some(Self::DriverAnyLeader(ahead)),

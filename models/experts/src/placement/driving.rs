@@ -1,4 +1,4 @@
-//! Speed limits of a place, and the leader of a driver there.
+//! Speed limits at a place, and the leader of a driver there.
 
 use super::model::{SPEED_CLASSES, SPEED_STEP};
 use super::stop_lines::straightest;
@@ -20,14 +20,14 @@ pub struct SpeedRange {
     pub max_mps: f64,
 }
 
-/// Speed that limit and bends allow at a place of a lane, m/s.
+/// Speed that the limit and bends allow at a place of a lane, m/s.
 pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: AgentType) -> f64 {
     let most = if agent_type == AgentType::Cyclist { CYCLIST_MPS } else { f64::INFINITY };
     let limit_mps = graph.lanes()[lane].speed_limit_mps;
     limit_mps.min(bend_mps(graph, lane, s_m)).min(most).max(1.0)
 }
 
-/// Places ahead at which the bend is looked up.
+/// Number of places ahead at which the bend is looked up.
 const BEND_LOOKS: i32 = 5;
 
 /// Speed that the bends of a lane allow at a place of it, m/s.
@@ -45,12 +45,12 @@ pub(super) fn bend_mps(graph: &LaneGraph, lane: usize, s_m: f64) -> f64 {
     allowed
 }
 
-/// Speed that is usual off the lanes, m/s.
+/// Usual speed off the lanes, m/s.
 pub(super) fn usual_mps(agent_type: AgentType) -> f64 {
     if agent_type == AgentType::Cyclist { RIDING_MPS } else { WALKING_MPS }
 }
 
-/// The nearest road user in front of a place on a lane, straight on where ways part.
+/// The nearest road user in front of a place on a lane; at a fork, straight on.
 pub(super) fn leader_ahead(
     graph: &LaneGraph,
     lane: usize,
@@ -78,7 +78,7 @@ pub(super) fn leader_ahead(
     Some(Leader { index: index[found.index], ..found })
 }
 
-/// Class of a speed in units of what is allowed.
+/// Class of a speed, in units of the allowed speed.
 pub fn speed_class(speed_mps: f64, unit_mps: f64) -> usize {
     if speed_mps < STANDING_MPS {
         return 0;

@@ -15,7 +15,7 @@ use scene::routes::{LaneGraph, Polyline};
 use scene::{Agent, AgentType, STEP_S, Scene, Vec2};
 use std::collections::HashSet;
 
-/// Speeds along a course are known at this distance, metres.
+/// Spacing of the known speeds along a course, metres.
 const SPEED_STEP_M: f64 = 2.0;
 
 /// The course of one vehicle: in by its arm, then on through the map.
@@ -23,14 +23,14 @@ pub(super) struct Course {
     pub(super) path: Polyline,
     lanes: Vec<(usize, f64)>,
     speeds_mps: Vec<f64>,
-    /// Stop lines: arc length, and the signal that rules it.
+    /// Stop lines: arc length, and the index of the signal.
     stops: Vec<(f64, usize)>,
-    /// The map goes on where it ends.
+    /// The course ends although the map goes on.
     cut: bool,
 }
 
 impl Course {
-    /// Along a way and on for `reach_m`; where roads part one is drawn.
+    /// Along a way and `reach_m` beyond it; at a fork one branch is drawn.
     pub(super) fn of(
         scene: &Scene,
         graph: &LaneGraph,
@@ -43,7 +43,7 @@ impl Course {
         let mut lanes: Vec<(usize, f64)> = way.legs().collect();
         let mut seen: HashSet<usize> = way.lanes().collect();
         let (mut at, mut length_m) = (way.last_lane(), way.length_m());
-        // The line may be a stop sign in the middle of a lane.
+        // The end line may be a stop sign in the middle of a lane.
         let (_, from_m) = way.lane_at(length_m);
         let rest = &graph.lanes()[at].path;
         if rest.length_m() > from_m + 0.1 {
@@ -98,13 +98,13 @@ impl Course {
         self.speeds_mps = speeds;
     }
 
-    /// Speed that limit and bends allow at a place, m/s.
+    /// Speed that the limit and bends allow at a place, m/s.
     pub(super) fn allowed_mps(&self, at_m: f64) -> f64 {
         let i = (at_m / SPEED_STEP_M).max(0.0) as usize;
         self.speeds_mps[i.min(self.speeds_mps.len() - 1)]
     }
 
-    /// Up to where two courses are the same, metres.
+    /// Distance up to which two courses are the same, metres.
     fn shared_m(&self, other: &Self) -> f64 {
         let same = self.lanes.iter().zip(&other.lanes).take_while(|(a, b)| a.0 == b.0).count();
         self.lanes.get(same).map_or(self.path.length_m(), |(_, from_m)| *from_m)
@@ -119,7 +119,7 @@ pub(super) struct FollowingDriver {
     pub(super) share: f64,
     /// Step of its first place.
     pub(super) first_step: usize,
-    /// Place on the course and speed at each step from then on, m and m/s.
+    /// Place on the course and speed at each step from `first_step` on, m and m/s.
     pub(super) steps: Vec<(f64, f64)>,
 }
 
@@ -164,7 +164,7 @@ pub(super) fn drive(
         let next_mps = (v_mps + a * STEP_S).max(0.0);
         own.steps.push((s_m + 0.5 * (v_mps + next_mps) * STEP_S, next_mps));
     }
-    // A vehicle beyond the map's edge is removed. Where only the course ends, it stays for as long as it is
+    // A vehicle beyond the map's edge is removed. If only its course ends, it stays for as long as it is
     // known.
     let end_m = own.course.path.length_m();
     if !own.course.cut {
@@ -196,7 +196,7 @@ fn others_ahead(
     })
 }
 
-/// Of the model, m/s2.
+/// Acceleration of the model, m/s2.
 fn acceleration(v_mps: f64, wish_mps: f64, leader: Option<(f64, f64)>) -> f64 {
     let free = 1.0 - (v_mps / wish_mps.max(0.5)).powi(4);
     let near = leader.map_or(0.0, |(gap_m, leader_mps)| {

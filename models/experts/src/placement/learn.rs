@@ -1,7 +1,7 @@
 //! Input of training: observations of recorded scenes, and the form of the weights that are fitted to them.
 //!
-//! [`observe`] reads a recorded scene with the same cells, features and situations that placing uses, so
-//! the two cannot drift apart. How the numbers are fitted is the trainer's own affair; it writes them as a
+//! [`observe`] reads a recorded scene with the same cells, features and situations as placement, so the two
+//! cannot diverge. The fit itself belongs to the trainer, which writes a
 //! [`PlacementModel`](super::PlacementModel) in the classes given here.
 
 use super::assign::assign;
@@ -25,13 +25,14 @@ pub use super::pose::{heading_classes, lateral_classes};
 /// keep agents within 60 m.
 pub const SEEN_M: f64 = 60.0;
 
-/// Cells alike: type, kind and features; with their metres (or driveways) and the road users in them.
+/// Groups of equal cells (type, kind and features), with their total metres or driveways and their road
+/// users.
 pub type CellCounts = BTreeMap<(AgentType, CellKind, [u8; FEATURES]), (f64, f64)>;
 
-/// All that one scene teaches at one step.
+/// Everything that one scene teaches at one step.
 #[derive(Clone, Debug, Default)]
 pub struct Observation {
-    /// Cells.
+    /// Counts by group of cells.
     pub cells: CellCounts,
     /// Offsets across the line: type, context, value.
     pub lateral: Vec<(AgentType, PoseContext, f64)>,
@@ -41,7 +42,7 @@ pub struct Observation {
     pub sizes: Vec<(AgentType, CellKind, f64, f64)>,
     /// Speed classes: type, context, class.
     pub speeds: Vec<(AgentType, SpeedContext, usize)>,
-    /// Road users that are in no cell, by type: nothing is learned from them.
+    /// Road users in no cell, by type: nothing is learned from them.
     pub nowhere: BTreeMap<AgentType, usize>,
 }
 
@@ -58,8 +59,8 @@ struct SeenAgent<'a> {
 
 /// Observes a scene at one step. Only cells and road users within [`SEEN_M`] of the ego count.
 ///
-/// The ego itself and its cell are left out: windows are cut about road users, so one is always there, and
-/// the rest is distributed as if it were not (Slivnyak's theorem).
+/// The ego and its cell are left out: windows are cut around road users, so one is always there, and the rest
+/// is distributed as if it were not (Slivnyak's theorem).
 pub fn observe(scene: &Scene, graph: &LaneGraph, step: usize) -> Observation {
     let ego = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego"));
     let center = ego.and_then(|a| a.state_at(scene.time.now_step)).map_or(Vec2::zeros(), |s| s.position());
@@ -100,7 +101,7 @@ pub fn observe(scene: &Scene, graph: &LaneGraph, step: usize) -> Observation {
     out
 }
 
-/// Features about leaders: every lane cell's distance to the nearest road user ahead of it.
+/// Sets the leader feature of every lane cell: its distance to the nearest road user ahead.
 fn set_leader_gaps(cells: &mut Cells<'_>, seen: &[SeenAgent<'_>]) {
     let mut gaps = vec![f64::INFINITY; cells.all.len()];
     for (lane, s_m) in seen.iter().filter_map(|s| s.lane) {

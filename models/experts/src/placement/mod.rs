@@ -1,8 +1,8 @@
-//! Placement G(map): road users where there are none yet (`POST /v1/place`).
+//! Placement G(map): adds road users to a map (`POST /v1/place`).
 //!
-//! Cells of lanes, kerbs, crosswalks, pavements and driveways are drawn one at a time in proportion to
+//! Cells of lanes, kerbs, crosswalks, pavements and driveways are drawn one at a time, in proportion to
 //! learned rates. Each placed agent changes the rates behind it. Pose and box come from learned
-//! distributions, and a pose that touches another agent is redrawn. Speeds are drawn last, nearest to a
+//! distributions; a pose that touches another agent is drawn again. Speeds are drawn last, nearest to a
 //! conflict first, so that each follower knows its leader.
 
 mod arms;

@@ -1,7 +1,7 @@
-//! The learned numbers: occupancy of cells, and pose and speed of their road users.
+//! The learned model: occupancy of cells, and pose and speed of their road users.
 //!
-//! Rates are log-linear: per metre (per driveway) times one factor for each feature of the cell. The rest
-//! are histograms by context. All of it is one JSON file, small enough to read.
+//! Rates are log-linear: a rate per metre (per driveway) times one factor for each feature of the cell.
+//! Everything else is histograms by context. The model is one small, readable JSON file.
 
 use super::cells::{CellKind, FEATURES, MapCell};
 use super::context::{PoseContext, SpeedContext};
@@ -18,10 +18,10 @@ pub const VERSION: u32 = 2;
 const MAX_BYTES: usize = 1 << 20;
 /// Classes of a speed histogram: standing, then shares of the speed that the place allows.
 pub const SPEED_CLASSES: usize = 24;
-/// Width of a speed class after the first, in shares.
+/// Width of the speed classes after the first, as a share of the allowed speed.
 pub const SPEED_STEP: f64 = 0.07;
 
-/// Numbers by class, even inside a class.
+/// A histogram, uniform within a class.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Histogram {
@@ -29,21 +29,21 @@ pub struct Histogram {
     pub low: f64,
     /// Width of a class.
     pub step: f64,
-    /// Share of each class.
+    /// Share of each class; they sum to one.
     pub share: Vec<f64>,
 }
 
-/// How often cells of one kind are taken.
+/// Rate at which cells of one kind are occupied.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
-    /// Road users a metre (a driveway) where all factors are one.
+    /// Road users per metre (per driveway) if all factors are one.
     pub per_m: f64,
-    /// Factor by feature of the cell, then by its class.
+    /// Factors by feature of the cell, then by class of the feature.
     pub factors: Vec<Vec<f64>>,
 }
 
-/// What is known about one type.
+/// What was learned about one type.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TypeModel {
@@ -59,7 +59,7 @@ pub struct TypeModel {
     pub speed: BTreeMap<SpeedContext, Vec<f64>>,
 }
 
-/// The file.
+/// The content of a weights file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlacementModel {
@@ -69,9 +69,9 @@ pub struct PlacementModel {
     pub version: u32,
     /// Licence of the numbers.
     pub licence: String,
-    /// Data they were learned from.
+    /// Data that the numbers were learned from.
     pub trained_on: String,
-    /// Scenes they were learned from.
+    /// Number of scenes that they were learned from.
     pub scenes: u64,
     /// By type.
     pub types: BTreeMap<AgentType, TypeModel>,
@@ -100,7 +100,7 @@ fn shares(values: &[f64]) -> bool {
 }
 
 impl Rate {
-    /// Expected road users in a cell.
+    /// Expected number of road users in a cell.
     pub(super) fn of(&self, cell: &MapCell) -> f64 {
         cell.extent() * self.per_m * self.factor(&cell.features)
     }
@@ -116,7 +116,7 @@ impl PlacementModel {
     /// Reads a weights file.
     ///
     /// # Errors
-    /// When it is of another form, or has numbers that cannot be.
+    /// When it has another form, or contains impossible numbers.
     pub fn load(bytes: &[u8]) -> Result<Self, WeightsError> {
         let wrong = |reason: String| WeightsError { path: PLACEMENT_FILE.to_owned(), reason };
         if bytes.len() > MAX_BYTES {
@@ -169,7 +169,7 @@ impl PlacementModel {
         Ok(bytes)
     }
 
-    /// Facts about it.
+    /// Facts about the model in a weights file.
     pub fn info(&self, bytes: &[u8]) -> PlacementInfo {
         let of_type = |m: &TypeModel| {
             let rates = m.rates.values().map(|r| 1 + r.factors.iter().map(Vec::len).sum::<usize>());

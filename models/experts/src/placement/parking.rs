@@ -1,5 +1,5 @@
-//! Parked cars: along kerbs where there is room beside the lane, and in bays and parking lanes. A place is part of
-//! the street: clear of everything that is driven, walked or ridden on, of junctions, crosswalks and driveways.
+//! Parked cars: along kerbs with room beside the lane, and in bays and parking lanes. A parking place is
+//! clear of everything that is driven, walked or ridden on, and of junctions, crosswalks and driveways.
 
 use super::cells::{CellKind, MapCell};
 use super::checks::{around, on_lane};
@@ -21,18 +21,18 @@ use scene::routes::graph::{GraphLane, LaneSource};
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Draws of a box that fits a place.
+/// Draws of a box for one place.
 const TRIES: usize = 6;
 
 /// A place where a car can park.
 #[derive(Clone, Copy, Debug)]
 struct ParkingPlace {
-    /// Middle of the place; at a kerb of its edge on the kerb's side.
+    /// Middle of the place; for a kerb place, the middle of its kerb side.
     at: Vec2,
     heading_rad: f64,
     length_m: f64,
     width_m: f64,
-    /// Towards the kerb: +1 left of the heading, -1 right; none in a bay.
+    /// Side of the kerb: +1 left of the heading, -1 right; `None` in a bay.
     kerb: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct ParkingResult {
 }
 
 impl Sampler<'_> {
-    /// Parks cars at kerbs and in lots. `free` is what the scene holds.
+    /// Parks cars at kerbs and in lots. `free` is the number of agents that the scene can still hold.
     pub(super) fn park(&mut self, free: &mut usize, cancel: &Cancel) -> Result<ParkingResult, GenerateError> {
         let Some(asked) = self.request.parked else { return Ok(ParkingResult::default()) };
         let places = self.places();
@@ -59,7 +59,7 @@ impl Sampler<'_> {
             let none = "the map has no room for parked cars at its kerbs and no lots".to_owned();
             return Ok(ParkingResult { places: Some(0), unplaced: 0, reason: (share > 0.0).then_some(none) });
         }
-        // Each place has its own draw, so that a larger number of cars keeps those already placed.
+        // Each place has its own draw, so a larger number of cars keeps those already placed.
         let mut order: Vec<(f64, usize)> = (0..places.len())
             .map(|at| (random::stream(self.request.seed, "parked", at).unit(), at))
             .collect();
@@ -87,7 +87,7 @@ impl Sampler<'_> {
         Ok(ParkingResult { places: Some(places.len()), unplaced, reason })
     }
 
-    /// A car parked in a place where it touches no other agent.
+    /// A car in a place where it touches no other agent.
     fn car_in(&self, place: &ParkingPlace, stream: &mut Stream) -> Option<PlacedAgent> {
         for number in 0..TRIES {
             let (size, subtype) = match self.of_type(AgentType::Vehicle) {
@@ -138,7 +138,7 @@ impl Sampler<'_> {
         None
     }
 
-    /// All places of the region, in an order that the seed does not change.
+    /// All places of the region, in an order that does not depend on the seed.
     fn places(&self) -> Vec<ParkingPlace> {
         let mut places = self.bays();
         let mut run: Vec<&MapCell> = Vec::new();
@@ -167,7 +167,7 @@ impl Sampler<'_> {
         places
     }
 
-    /// Bays, and parking lanes in pieces.
+    /// Places in bays, and in parking lanes cut into pieces.
     fn bays(&self) -> Vec<ParkingPlace> {
         let mut places = Vec::new();
         let lanes = self.cells.graph.lanes().iter();
@@ -194,14 +194,14 @@ impl Sampler<'_> {
         places
     }
 
-    /// Cars park along the kerb there.
+    /// Whether cars can park along the kerb of this cell.
     fn has_room(&self, cell: &MapCell) -> bool {
         let lane = &self.cells.graph.lanes()[cell.line];
         let room = (ROOM_M.0..=ROOM_M.1).contains(&cell.free_m);
         room && lane.carries(AgentType::Vehicle) && lane.speed_limit_mps <= FAST_MPS
     }
 
-    /// Places along one kerb, by the cells that have room there one after the other.
+    /// Places along one kerb, from its contiguous cells with room.
     fn along(&self, run: &[&MapCell], places: &mut Vec<ParkingPlace>) {
         let (Some(first), Some(last)) = (run.first(), run.last()) else { return };
         let lane = &self.cells.graph.lanes()[first.line];
@@ -231,7 +231,7 @@ impl Sampler<'_> {
             };
             let centre = kerb - left * (first.side * MIDDLE_M);
             let ends = [-0.5, 0.0, 0.5].map(|part| centre + middle.direction() * (part * PLACE_M));
-            // A lane for parking has its own places.
+            // A parking lane has its own places.
             let parks = |_: usize, lane: &GraphLane| lane.lane_type == LaneType::Parking;
             let told = self.cells.graph.nearest_lanes(centre, LANE_REACH_M, parks);
             if told.iter().any(|hit| hit.distance_m < 0.5 * self.cells.graph.lanes()[hit.lane].width_m) {
@@ -244,13 +244,13 @@ impl Sampler<'_> {
         }
     }
 
-    /// A lane or a crosswalk passes there.
+    /// Whether a lane or a crosswalk covers the point.
     fn is_in_use(&self, point: Vec2) -> bool {
         on_lane(point, self.cells.graph)
             || self.cells.scene.map.crosswalks.iter().any(|area| in_ring(&area.polygon.xy, point))
     }
 
-    /// A crosswalk or a way through a junction is so near that one must see past.
+    /// Whether a crosswalk or a path through a junction is so near that its view must stay clear.
     fn is_kept_clear(&self, point: Vec2) -> bool {
         let crosses = |ring: &[Vec2]| {
             let ends = ring.iter().zip(ring.iter().cycle().skip(1));
@@ -264,7 +264,7 @@ impl Sampler<'_> {
         self.cells.scene.map.crosswalks.iter().any(|area| crosses(&area.polygon.xy))
     }
 
-    /// A driveway opens to a lane at the place that begins at `start_m`.
+    /// Whether a driveway opens to a lane at the place that begins at `start_m`.
     fn is_before_driveway(&self, lane: usize, place: &ParkingPlace, start_m: f64) -> bool {
         let path = &self.cells.graph.lanes()[lane].path;
         let side = place.kerb.unwrap_or(1.0);

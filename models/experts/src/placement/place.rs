@@ -24,26 +24,26 @@ use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Size, Subtype, Vec2};
 use std::collections::{BTreeMap, HashSet};
 use std::f64::consts::PI;
 
-/// Draws of a cell for one road user before it is given up.
+/// Draws of a cell for one road user before placement gives up on it.
 const TRIES: usize = 128;
-/// Draws of a pose in one cell that may fail before the cell counts as full.
+/// Failed draws of a pose after which a cell counts as full.
 const CELL_TRIES: u8 = 4;
 
-/// Steps of a recording after the start in which nobody is put in a kept road user's way.
+/// Steps of a recording after the start in which nobody is placed in a kept road user's way.
 const NEXT_STEPS: usize = 30;
 
-/// Draws cells in proportion to rates that each placed agent changes.
+/// Draws cells in proportion to rates, which each placed agent changes.
 pub(super) struct Sampler<'a> {
     pub(super) request: &'a PlaceRequest,
     model: Option<&'a PlacementModel>,
     pub(super) cells: Cells<'a>,
     /// Distance from each lane cell to the nearest road user ahead, metres.
     gaps: Vec<f64>,
-    /// How likely each cell is drawn, by type.
+    /// Rate of each cell, by type.
     pub(super) rates: BTreeMap<AgentType, WeightTree>,
-    /// Lanes that drivers may only reach by an arm.
+    /// Lanes that drivers can only reach by an arm.
     pub(super) arrival_lanes: HashSet<usize>,
-    /// Failed draws by type and cell.
+    /// Number of failed draws by type and cell.
     failed: BTreeMap<AgentType, Vec<u8>>,
     neighbours: Neighbours,
     /// Number of kept road users among the neighbours.
@@ -164,7 +164,7 @@ impl<'a> Sampler<'a> {
         self.model.and_then(|m| m.types.get(&agent_type))
     }
 
-    /// How likely a cell is drawn for a type.
+    /// Rate of a cell for a type.
     fn rate(&self, agent_type: AgentType, cell: &MapCell) -> f64 {
         let reach_m = 0.5 * cell.extent() + 20.0;
         let fits =
@@ -211,7 +211,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Places up to `count` of a type; how many found a place.
+    /// Places up to `count` road users of a type, and returns how many found a place.
     fn place_type(
         &mut self,
         agent_type: AgentType,
@@ -229,7 +229,7 @@ impl<'a> Sampler<'a> {
         Ok(done)
     }
 
-    /// Settles a placed agent: later agents must keep clear of it, and it leads those behind it.
+    /// Settles a placed agent: later agents keep clear of it, and it leads the agents behind it.
     pub(super) fn settle(&mut self, placed: PlacedAgent) {
         let obstacle = Obstacle { outline: placed.outline(), speed_mps: 0.0 };
         let lane = placed.lane.map(|lane| (lane, placed.pose.s_m));
@@ -262,7 +262,7 @@ impl<'a> Sampler<'a> {
         false
     }
 
-    /// A road user in a cell, if one that fits is drawn.
+    /// A road user in a cell, if a draw fits.
     fn draw(&self, agent_type: AgentType, at: usize, stream: &mut Stream) -> Option<PlacedAgent> {
         let cell = &self.cells.all[at];
         let (size, subtype, mut pose) = match self.of_type(agent_type) {
@@ -293,8 +293,8 @@ impl<'a> Sampler<'a> {
             && (self.model.is_none() || is_sensible(placed, &self.cells))
     }
 
-    /// Speeds of the placed, m/s, in order; `None` where no speed of the wanted range is possible, or where there is no
-    /// room to brake from any: the number of those by type.
+    /// Speeds of the placed agents, m/s, in order. `None` if no speed of the wanted range is possible, or if
+    /// no speed leaves room to brake; the second value counts the latter by type.
     fn speeds(&self) -> (Vec<Option<f64>>, BTreeMap<AgentType, usize>) {
         let obstacles = self.neighbours.obstacles.clone();
         let (seed, model, kept, range) = (self.request.seed, self.model, self.kept, self.request.speeds);
@@ -303,7 +303,7 @@ impl<'a> Sampler<'a> {
             .draw()
     }
 
-    /// The placed as road users of the scene.
+    /// The placed agents as road users of the scene.
     fn agents(&self, speeds: &[Option<f64>], ids: &mut impl Iterator<Item = AgentId>) -> Vec<Agent> {
         let placed = self.placed.iter().zip(speeds).filter_map(|(p, speed)| Some((p, (*speed)?)));
         let steps = self.request.step..self.request.scene.time.steps;
@@ -311,7 +311,7 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// The middle of the line, along it; on pavements a little off the road.
+/// The middle of the line and along it; on pavements slightly away from the road.
 fn even_pose(cells: &Cells<'_>, cell: &MapCell, agent_type: AgentType, stream: &mut Stream) -> Option<Pose> {
     let s_m = stream.between(cell.from_m, cell.to_m);
     let base = cells.path(cell)?.sample(s_m);

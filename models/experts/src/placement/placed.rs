@@ -1,4 +1,4 @@
-//! A road user that was placed, before and after its speed is known.
+//! A placed road user, before and after its speed is known.
 
 use super::cells::CellKind;
 use super::pose::Pose;
@@ -15,15 +15,15 @@ pub(super) struct PlacedAgent {
     pub(super) pose: Pose,
     /// Kind of the cell it was placed in.
     pub(super) kind: CellKind,
-    /// Graph lane of an agent that drives.
+    /// Graph lane, for an agent that drives.
     pub(super) lane: Option<usize>,
-    /// Speed in free traffic, m/s, where it is fixed and not drawn.
+    /// Speed in free traffic, m/s, if it is fixed and not drawn.
     pub(super) free_mps: Option<f64>,
-    /// It is part of the street: it stands for as long as the scene lasts.
+    /// It is part of the street and stands for the whole scene.
     pub(super) parked: bool,
 }
 
-/// Positions, headings and speeds as they are written: rounded, so that what is checked is what is sent.
+/// Rounds positions, headings and speeds to their written form, so that the checks see what is sent.
 pub(super) fn rounded(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }
@@ -35,8 +35,8 @@ impl PlacedAgent {
         OrientedBox::new(self.pose.position, half_length, half_width, self.pose.heading_rad)
     }
 
-    /// The road user as a scene holds it: one state, and the same start as a condition. A parked one has no
-    /// condition and stands at all of `steps`.
+    /// The road user in the form of a scene: one state, and the same start as a condition. A parked one has
+    /// no condition and stands at all of `steps`.
     pub(super) fn agent(&self, id: AgentId, speed_mps: f64, steps: Range<usize>) -> Agent {
         let velocity = direction(self.pose.heading_rad) * speed_mps;
         let state = State {

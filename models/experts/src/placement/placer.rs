@@ -16,10 +16,11 @@ pub struct Placer {
 }
 
 impl Placer {
-    /// Of the bytes of a weights file; without one, road users are placed evenly along lanes.
+    /// Builds a placer from the bytes of a weights file; without one, road users are placed evenly along
+    /// lanes.
     ///
     /// # Errors
-    /// When the file is of another form, or has numbers that cannot be.
+    /// When the file has another form, or contains impossible numbers.
     pub fn new(weights: Option<&[u8]>, maps: Arc<Maps>) -> Result<Self, WeightsError> {
         let read = |bytes| {
             let model = PlacementModel::load(bytes)?;
@@ -29,7 +30,7 @@ impl Placer {
         Ok(Self { weights: weights.map(read).transpose()?, maps })
     }
 
-    /// Facts about the weights; `None` when road users are placed evenly along lanes.
+    /// Facts about the weights; `None` if road users are placed evenly along lanes.
     pub fn info(&self) -> Option<&PlacementInfo> {
         self.weights.as_ref().map(|(_, info)| info)
     }
@@ -39,10 +40,10 @@ impl Placer {
         self.weights.as_ref().map(|(model, _)| model)
     }
 
-    /// Places road users. The same request gives the same answer.
+    /// Places road users. Equal requests give equal answers.
     ///
     /// # Errors
-    /// An unknown id among those kept, and [`GenerateError::Cancelled`].
+    /// An unknown id among the kept ones, and [`GenerateError::Cancelled`].
     pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
         let map = self.maps.known_unless(&request.scene.map, cancel).ok_or(GenerateError::Cancelled)?;
         place(self.model(), &map.graph, request, cancel)

@@ -1,5 +1,5 @@
-//! How a road user stands in a cell: drawn from the learned distributions, or measured for learning.
-//! Both directions are here, so that they cannot drift apart.
+//! Poses of road users in a cell: drawn from the learned distributions, or measured for learning. Both
+//! directions are in one file so that they cannot diverge.
 
 use super::cells::{CellKind, Cells, MapCell};
 use super::context::PoseContext;
@@ -15,7 +15,7 @@ use scene::random::Stream;
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
 
-/// Which offsets and headings hold in a cell.
+/// The situation whose offsets and headings apply in a cell.
 pub(super) fn pose_context(cells: &Cells<'_>, cell: &MapCell) -> PoseContext {
     match cell.kind {
         CellKind::Lane => {
@@ -35,7 +35,7 @@ pub(super) fn pose_context(cells: &Cells<'_>, cell: &MapCell) -> PoseContext {
     }
 }
 
-/// A way to stand in a cell.
+/// A pose relative to a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pose {
     pub(super) position: Vec2,
@@ -44,7 +44,7 @@ pub(super) struct Pose {
     pub(super) s_m: f64,
 }
 
-/// Half of a box's extent across a line to which it stands at `turn_rad`, metres.
+/// Half of a box's extent across a line, for a box at `turn_rad` to it, metres.
 fn half_across(size: Size, turn_rad: f64) -> f64 {
     0.5 * (size.length_m * turn_rad.sin().abs() + size.width_m * turn_rad.cos().abs())
 }
@@ -55,7 +55,7 @@ fn draw(histogram: Option<&Histogram>, stream: &mut Stream) -> f64 {
     histogram.low + histogram.step * (class as f64 + stream.unit())
 }
 
-/// Box of a road user in a cell of this kind; the type's default where nothing was learned.
+/// Box of a road user in a cell of this kind; the type's default if none was learned.
 pub(super) fn draw_size(
     model: &TypeModel,
     agent_type: AgentType,
@@ -73,7 +73,7 @@ pub(super) fn draw_size(
     (Size { length_m: *length_m, width_m: *width_m, height_m }, subtype)
 }
 
-/// Finer type that a box of this length suggests.
+/// The subtype that a box of this length suggests.
 fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
     match agent_type {
         AgentType::Vehicle if length_m < MOTORCYCLE_M => Subtype::Motorcycle,
@@ -86,7 +86,7 @@ fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
     }
 }
 
-/// Outward axis of a driveway: from the nearest lane to its middle.
+/// Outward axis of a driveway: from the nearest lane to the driveway's middle.
 fn driveway_axis(cells: &Cells<'_>, cell: &MapCell) -> Option<Vec2> {
     let hit =
         cells.graph.nearest_for(cell.center, DRIVEWAY_REACH_M, AgentType::Vehicle).into_iter().next()?;
@@ -94,7 +94,7 @@ fn driveway_axis(cells: &Cells<'_>, cell: &MapCell) -> Option<Vec2> {
     (cell.center - foot).try_normalize(1e-3)
 }
 
-/// Draws how a road user of this size stands in a cell; `None` when the cell has no room for it.
+/// Draws a pose of a road user of this size in a cell; `None` if the cell has no room for it.
 pub(super) fn draw_pose(
     cells: &Cells<'_>,
     cell: &MapCell,
@@ -118,7 +118,7 @@ pub(super) fn draw_pose(
             offset - half_lane_m
         }
         CellKind::Lane => {
-            // Drivers start within their lane: what is beside it is another's.
+            // Drivers start within their lane: the space beside it belongs to others.
             let room_m = half_lane_m - LANE_SIDE_M;
             let most_rad = ((room_m - 0.5 * size.width_m) / (0.5 * size.length_m).max(STRAIGHT_M))
                 .clamp(0.0, 1.0)
@@ -141,7 +141,7 @@ pub(super) fn draw_pose(
             cell.side * near
         }
         CellKind::Crosswalk => offset.clamp(-1.0, 1.0) * half_lane_m,
-        // The middle of a sidewalk; learned are pavements along edges.
+        // The middle of a sidewalk; offsets were learned only for pavements along edges.
         CellKind::Pavement if cell.on_lane => stream.between(-SIDEWALK_SHARE, SIDEWALK_SHARE) * half_lane_m,
         CellKind::Pavement => cell.side * offset,
         CellKind::Driveway => 0.0,
@@ -155,7 +155,7 @@ pub(super) fn draw_pose(
     })
 }
 
-/// Anywhere along a driveway's axis.
+/// A pose anywhere along a driveway's axis.
 fn in_driveway(
     cells: &Cells<'_>,
     cell: &MapCell,
@@ -180,8 +180,8 @@ fn in_driveway(
     Some(Pose { position, heading_rad: wrap_angle(axis.y.atan2(axis.x) + turn_rad), s_m: 0.0 })
 }
 
-/// What a pose in a cell teaches: offset (when offsets are learned there) and heading, in the terms that
-/// [`draw_pose`] draws.
+/// What a pose in a cell teaches: offset (if offsets are learned there) and heading, in the terms in which
+/// [`draw_pose`] draws them.
 pub(super) fn measure(
     cells: &Cells<'_>,
     cell: &MapCell,
@@ -231,7 +231,7 @@ pub fn lateral_classes(context: PoseContext) -> (f64, f64, usize) {
     }
 }
 
-/// The same of headings, radians.
+/// The same for headings, radians.
 pub fn heading_classes(context: PoseContext) -> (f64, f64, usize) {
     match context {
         PoseContext::Lane | PoseContext::JunctionLane | PoseContext::BikeLane => LANE_TURNS,

@@ -1,14 +1,14 @@
-//! Draws in proportion to weights that change.
+//! Draws in proportion to changing weights.
 
 use scene::AgentType;
 use scene::random::{Key, Stream};
 
-/// The stream of a seed for a purpose of placement and one of its numbers.
+/// The random stream of a seed, for a purpose of placement and an index within it.
 pub(super) fn stream(seed: u64, purpose: &str, number: usize) -> Stream {
     Key::default().text("place").number(seed).number(number as u64).text(purpose).stream()
 }
 
-/// Name of a type in the key of its random streams.
+/// Name of a type in the keys of its random streams.
 pub(super) fn stream_name(agent_type: AgentType) -> &'static str {
     match agent_type {
         AgentType::Vehicle => "vehicle",
@@ -18,9 +18,9 @@ pub(super) fn stream_name(agent_type: AgentType) -> &'static str {
     }
 }
 
-/// Weights of many places, drawn from and changed in logarithmic time (a binary tree of sums).
+/// Weights of many items, drawn from and changed in logarithmic time (a binary tree of sums).
 pub(super) struct WeightTree {
-    /// `sums[1]` is the whole; the children of `i` are `2 i` and `2 i + 1`.
+    /// `sums[1]` is the total; the children of `i` are `2 i` and `2 i + 1`.
     sums: Vec<f64>,
     leaves: usize,
 }
@@ -49,7 +49,7 @@ impl WeightTree {
         }
     }
 
-    /// A place in proportion to its weight; `None` when all are zero.
+    /// An item in proportion to its weight; `None` if all weights are zero.
     pub(super) fn draw(&self, stream: &mut Stream) -> Option<usize> {
         let total = self.sums[1];
         if total.is_nan() || total <= 0.0 {
@@ -59,7 +59,7 @@ impl WeightTree {
         let mut i = 1;
         while i < self.leaves {
             let first = self.sums[2 * i];
-            // Rounding may leave a little more than the right half holds; never step onto nothing.
+            // Rounding may leave slightly more than the right half holds; never descend into an empty half.
             let go_left = left < first || self.sums[2 * i + 1] <= 0.0;
             i = if go_left { 2 * i } else { 2 * i + 1 };
             if !go_left {

@@ -21,7 +21,7 @@ pub enum Region {
 }
 
 impl Region {
-    /// The point lies inside.
+    /// Whether the point lies inside.
     pub fn contains(&self, p: Vec2) -> bool {
         match self {
             Self::Everywhere => true,
@@ -30,7 +30,7 @@ impl Region {
         }
     }
 
-    /// Shrinks the question to a rectangle: false means that no point within `reach_m` of `p` is inside.
+    /// A cheap test by rectangle: false means that no point within `reach_m` of `p` is inside.
     pub(super) fn may_hold(&self, p: Vec2, reach_m: f64) -> bool {
         match self {
             Self::Everywhere => true,
@@ -40,7 +40,7 @@ impl Region {
     }
 }
 
-/// Even-odd rule.
+/// Whether the point lies in the ring, by the even-odd rule.
 pub(super) fn in_ring(ring: &[Vec2], p: Vec2) -> bool {
     let ends = ring.iter().zip(ring.iter().cycle().skip(1));
     let crossed = ends
@@ -48,13 +48,13 @@ pub(super) fn in_ring(ring: &[Vec2], p: Vec2) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Area of a ring, m2; what crosses itself counts by its winding.
+/// Area of a ring, m2; for a ring that crosses itself, by winding number.
 pub fn ring_area_m2(ring: &[Vec2]) -> f64 {
     let ends = ring.iter().zip(ring.iter().cycle().skip(1));
     (0.5 * ends.map(|(a, b)| scene::geometry::cross(*a, *b)).sum::<f64>()).abs()
 }
 
-/// The upright rectangle that holds a map's lanes, edges and crosswalks; `None` of a map without any.
+/// The upright rectangle around a map's lanes, edges and crosswalks; `None` for a map without any.
 pub fn map_extent(map: &LaneMap) -> Option<Extent> {
     let lanes = map.lanes.iter().flat_map(|l| &l.points.xy);
     let edges = map.road_edges.iter().flat_map(|l| &l.points.xy);

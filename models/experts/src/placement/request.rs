@@ -10,14 +10,14 @@ use std::sync::Arc;
 
 /// Most road users in a request by count.
 pub const MAX_COUNT: usize = MAX_AGENTS;
-/// Highest density, road users a kilometre of lane.
+/// Highest density, road users per kilometre of lane.
 pub const MAX_PER_LANE_KM: f64 = 200.0;
-/// Greatest room along the lane that a request may set, metres.
+/// Largest gap along the lane that a request may set, metres.
 pub const MAX_GAP_M: f64 = 50.0;
 
-/// Highest flow of one arm, vehicles an hour.
+/// Highest flow of one arm, vehicles per hour.
 pub const MAX_PER_HOUR: f64 = 20_000.0;
-/// Most parked cars for each 100 m of kerb.
+/// Most parked cars per 100 m of kerb.
 pub const MAX_PARKED_PER_100M: f64 = 20.0;
 /// Highest starting speed in a request, m/s: the top speed of cars.
 pub const MAX_SPEED_MPS: f64 = 40.0;
@@ -34,9 +34,9 @@ pub struct Arrivals {
 /// Number of parked cars, relative to the room at kerbs and in lots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parked {
-    /// Share of the places that are taken, 0 to 1.
+    /// Share of the places that are occupied, 0 to 1.
     Share(f64),
-    /// So many on each 100 m of kerb with room; of the bays in lots as large a share.
+    /// Cars per 100 m of kerb with room; lots get the same share of their bays.
     Per100M(f64),
 }
 
@@ -45,7 +45,8 @@ pub enum Parked {
 pub struct ArmTraffic {
     /// The arm.
     pub arm: Arm,
-    /// From where it comes in to its line: the first junction, or where the road ends or joins another, metres.
+    /// Length of its way from the entry to the end line: the first junction, or where the road ends or joins
+    /// another, metres.
     pub length_m: f64,
     /// Most vehicles an hour that its lanes take.
     pub most_per_hour: f64,
@@ -58,11 +59,11 @@ pub struct ArmTraffic {
 /// Number of road users.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Amount {
-    /// For each kilometre of lane for motor vehicles in the region, junctions left out.
+    /// Per kilometre of lane for motor vehicles in the region, without junctions.
     PerLaneKm(f64),
-    /// So many in all.
+    /// Total number.
     Count(usize),
-    /// So many of each type, whatever [`PlaceRequest::types`] says.
+    /// Number of each type, whatever [`PlaceRequest::types`] contains.
     Each(BTreeMap<AgentType, usize>),
 }
 
@@ -81,21 +82,21 @@ pub enum PlacementMethod {
 pub struct PlaceRequest {
     /// Map, signals, and road users that may be kept.
     pub scene: Arc<Scene>,
-    /// Scene step at which the placed start; signals and kept road users are as they are then.
+    /// Scene step at which the placed road users start; signals and kept road users are taken from it.
     pub step: usize,
-    /// Where centres may lie.
+    /// Region of the centres.
     pub region: Region,
-    /// How many.
+    /// Number of road users.
     pub amount: Amount,
     /// Share of each type; sums to one.
     pub types: BTreeMap<AgentType, f64>,
-    /// Road users of the scene that stay; `None` keeps all. The rest are as if they were not there.
+    /// Road users of the scene that stay; `None` keeps all. The others are ignored.
     pub keep: Option<BTreeSet<AgentId>>,
-    /// Repeats the answer.
+    /// Equal seeds give equal answers.
     pub seed: u64,
-    /// Least room along the lane between agents that drive, metres.
+    /// Smallest gap along the lane between agents that drive, metres.
     pub min_gap_m: f64,
-    /// Bounds of the speeds of moving motor vehicles; `None` keeps the usual speeds of such roads.
+    /// Bounds of the speeds of moving motor vehicles; `None` keeps the usual speeds of these roads.
     pub speeds: Option<SpeedRange>,
     /// Traffic by arm. Only these arms supply the drivers on their lanes.
     pub arrivals: Vec<Arrivals>,
@@ -122,32 +123,33 @@ impl PlaceRequest {
     }
 }
 
-/// The answer.
+/// The answer of a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// New road users with one state at the step and the same start as a condition; goals are free. A later
-    /// arrival has a motion from the map's edge on, a parked vehicle a standing one; neither has a condition.
+    /// arrival has a motion from the map's edge on, a parked vehicle stands throughout; neither has a
+    /// condition.
     pub agents: Vec<Agent>,
     /// Requested road users without a place, by type.
     pub unplaced: BTreeMap<AgentType, usize>,
-    /// Why, in one sentence; `None` when all were placed.
+    /// Why some found no place, in one sentence; `None` if all were placed.
     pub reason: Option<String>,
-    /// How they were placed.
+    /// The method that was used.
     pub method: PlacementMethod,
-    /// All arms of the map or region, with what was made of them.
+    /// All arms of the map or region, with the vehicles made for them.
     pub arms: Vec<ArmTraffic>,
     /// Number of parking places; `None` if the request has no parked cars.
     pub parking_places: Option<usize>,
 }
 
 impl PlaceRequest {
-    /// Ids that are free in the scene.
+    /// Ids that are not used in the scene.
     pub(super) fn free_ids(&self) -> impl Iterator<Item = AgentId> {
         let taken: HashSet<&str> = self.scene.agents.iter().map(|a| a.id.as_str()).collect();
         (1..).map(|n: usize| format!("p{n}")).filter(move |id| !taken.contains(id.as_str()))
     }
 
-    /// How many of each type, by largest remainder; vehicles first.
+    /// Number of each type, by largest remainder; vehicles first.
     pub(super) fn wanted(&self, lane_km: f64) -> BTreeMap<AgentType, usize> {
         let total = match &self.amount {
             Amount::Each(each) => return each.clone(),
@@ -171,7 +173,7 @@ impl PlaceRequest {
     }
 }
 
-/// Why some found no place, in one sentence; `full` when the scene can hold no more.
+/// Why some found no place, in one sentence; `full` if the scene can hold no more.
 pub(super) fn reason(unplaced: &BTreeMap<AgentType, usize>, full: bool) -> Option<String> {
     if unplaced.is_empty() {
         return None;
@@ -185,7 +187,7 @@ pub(super) fn reason(unplaced: &BTreeMap<AgentType, usize>, full: bool) -> Optio
     Some(format!("{why} for {}", who.join(", ")))
 }
 
-/// `3 vehicles`.
+/// A count with its noun: `3 vehicles`.
 pub(super) fn counted(n: usize, agent_type: AgentType) -> String {
     let one = match agent_type {
         AgentType::Vehicle => "vehicle",

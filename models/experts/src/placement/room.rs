@@ -1,5 +1,5 @@
-//! Room to brake: lowers drawn speeds until nobody needs more than comfortable braking for a road user ahead, nor for
-//! one whose way crosses or joins the own. Whom no speed helps is left out.
+//! Room to brake: lowers drawn speeds until comfortable braking suffices for the road user ahead, and for one
+//! whose path crosses or joins. A road user that no speed helps is left out.
 
 use crate::planning::world::AgentAtStart;
 use crate::tuning::placing::room::{
@@ -14,26 +14,26 @@ use scene::routes::{LaneGraph, Polyline};
 use scene::{AgentType, STANDING_MPS, Subtype, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Distance between the boxes of a way, metres.
+/// Distance between the boxes of a path, metres.
 const STEP_M: f64 = 1.0;
-/// Most ways of one driver.
+/// Most paths of one driver.
 const MOST_WAYS: usize = 8;
-/// Most rounds of lowering speeds; each lowers at least one.
+/// Most rounds of lowering speeds; each round lowers at least one.
 const ROUNDS: usize = 40;
-/// A road user for whom or before whom there must be room.
+/// A road user that needs room to brake, or that others need room for.
 pub(super) struct DrivenBox {
     pub(super) agent_type: AgentType,
     pub(super) limits: Limits,
     pub(super) outline: OrientedBox,
     pub(super) speed_mps: f64,
-    /// Graph lane and arc length of one that drives, metres.
+    /// Graph lane and arc length of a driver, metres.
     pub(super) lane: Option<(usize, f64)>,
-    /// It was there before: its speed stays.
+    /// The request keeps it, so its speed does not change.
     pub(super) kept: bool,
 }
 
 impl DrivenBox {
-    /// One that was there before.
+    /// A road user that the request keeps.
     pub(super) fn kept(present: &AgentAtStart, lane: Option<(usize, f64)>) -> Self {
         let Obstacle { outline, speed_mps } = present.obstacle();
         let limits = Limits::of(present.agent_type, Subtype::default(), present.size.length_m);
@@ -41,20 +41,21 @@ impl DrivenBox {
     }
 }
 
-/// Where a kept road user cannot but pass, and a little beyond.
+/// Where a kept road user has to pass, and a little beyond.
 pub(super) fn next(graph: &LaneGraph, mover: &DrivenBox) -> impl Iterator<Item = OrientedBox> {
     let walks = mover.lane.is_none().then(|| kept_clear(mover));
     ways(graph, mover).into_iter().filter(move |_| walks.is_none()).flatten().chain(walks)
 }
 
-/// The speed from which one comes to `to_mps` within `room_m` by comfortable braking, after a moment.
+/// The speed from which a driver gets down to `to_mps` within `room_m` by comfortable braking, after a
+/// reaction time.
 pub(super) fn brakes_from(limits: &Limits, room_m: f64, to_mps: f64) -> f64 {
     let brake_mps2 = limits.comfortable.brake_mps2;
     let moment_mps = brake_mps2 * REACTION_S;
     (moment_mps * moment_mps + to_mps * to_mps + 2.0 * brake_mps2 * room_m.max(0.0)).sqrt() - moment_mps
 }
 
-/// The lines that a driver can take from its place on, as far as it needs to stop and a little.
+/// The paths that a driver can take from its place, a little longer than its stopping distance.
 fn ways(graph: &LaneGraph, mover: &DrivenBox) -> Vec<Vec<OrientedBox>> {
     let parked = mover.lane.is_none() && mover.agent_type == AgentType::Vehicle;
     if parked {
@@ -94,7 +95,7 @@ fn ways(graph: &LaneGraph, mover: &DrivenBox) -> Vec<Vec<OrientedBox>> {
         .collect()
 }
 
-/// Lines along the lanes ahead of a place, one for each way to go on.
+/// Paths along the lanes ahead of a place, one per branch.
 pub(super) fn lines(
     graph: &LaneGraph,
     agent_type: AgentType,
@@ -131,7 +132,7 @@ pub(super) fn lines(
     done
 }
 
-/// The speed that bends and limits ahead leave on the easiest way on, m/s.
+/// The highest speed for the bends and limits ahead, on the branch that allows most, m/s.
 pub(super) fn bend_mps(graph: &LaneGraph, mover: &DrivenBox) -> f64 {
     let Some((lane, s_m)) = mover.lane else { return f64::INFINITY };
     let manner = mover.limits.comfortable;
@@ -144,16 +145,17 @@ pub(super) fn bend_mps(graph: &LaneGraph, mover: &DrivenBox) -> f64 {
     lines.iter().map(cap).reduce(f64::max).unwrap_or(f64::INFINITY)
 }
 
-/// What one driver meets on its ways: another road user, after so many metres.
+/// A road user on one of a driver's paths, and its distance.
 struct MetOnWay {
     by: usize,
     with: usize,
     room_m: f64,
-    /// Its share of the other's speed that leads along.
+    /// Share of the other's speed along this path.
     along: f64,
 }
 
-/// Where the ways of two drivers cross or join: metres to go until each is in the other's way, and until it has left.
+/// Where the paths of two drivers cross or join: metres until each is in the other's way, and until it has
+/// left.
 struct WaysMeet {
     of: [usize; 2],
     into_m: [f64; 2],
@@ -161,7 +163,7 @@ struct WaysMeet {
     joins: bool,
 }
 
-/// Lowers speeds to what leaves room. Returns who is left out.
+/// Lowers speeds until there is room. Returns which road users are left out.
 pub(super) fn make_room(graph: &LaneGraph, movers: &mut [DrivenBox]) -> Vec<bool> {
     let ways: Vec<Vec<Vec<OrientedBox>>> = movers.iter().map(|mover| ways(graph, mover)).collect();
     let contacts = contacts(movers, &ways);
@@ -182,7 +184,7 @@ pub(super) fn make_room(graph: &LaneGraph, movers: &mut [DrivenBox]) -> Vec<bool
     out
 }
 
-/// The box that others keep clear of: of a walker also where it is in the next moments.
+/// The box from which others keep clear; for a walker it includes the next moments.
 fn kept_clear(mover: &DrivenBox) -> OrientedBox {
     let own = &mover.outline;
     if mover.lane.is_some() || mover.agent_type == AgentType::Vehicle {
@@ -199,7 +201,7 @@ fn contacts(movers: &[DrivenBox], ways: &[Vec<Vec<OrientedBox>>]) -> Vec<MetOnWa
     let mut found = Vec::new();
     for (by, own) in ways.iter().enumerate() {
         for (with, other) in clear.iter().enumerate().filter(|(with, _)| *with != by) {
-            // Whose middle is behind the own one is not ahead.
+            // A road user whose middle is behind the driver's own is not ahead.
             let to_other = movers[with].outline.center() - movers[by].outline.center();
             let behind = to_other.dot(&movers[by].outline.forward()) < 0.0;
             let firsts = own.iter().filter_map(|way| {
@@ -263,7 +265,7 @@ fn crossing(of: [usize; 2], a: &[OrientedBox], b: &[OrientedBox]) -> Option<Ways
     held
 }
 
-/// Lowers the speed of one who follows or meets something; true when a speed or who is left out changed.
+/// Lowers the speed of a driver that follows or meets another; true if a speed or a left-out flag changed.
 fn follow(contact: &MetOnWay, movers: &mut [DrivenBox], out: &mut [bool]) -> bool {
     let &MetOnWay { by, with, room_m, along } = contact;
     if out[by] || out[with] {
@@ -275,7 +277,7 @@ fn follow(contact: &MetOnWay, movers: &mut [DrivenBox], out: &mut [bool]) -> boo
         return false;
     }
     if movers[by].kept {
-        // Who was there before cannot be slowed down.
+        // A kept road user cannot be slowed down.
         out[with] |= !movers[with].kept;
         return !movers[with].kept;
     }
@@ -288,7 +290,8 @@ fn lower(mover: &mut DrivenBox, most: f64) -> bool {
     mover.speed_mps < before
 }
 
-/// Makes one of two stop before the place where their ways meet, unless they pass it one well after the other.
+/// Makes one of two stop before their paths meet, unless they pass that place well apart in time. True if
+/// anything changed.
 fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> bool {
     let WaysMeet { of, into_m, past_m, joins } = crossing;
     if out[of[0]] || out[of[1]] {
@@ -298,7 +301,7 @@ fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> 
     let speed = of.map(|i| movers[i].speed_mps);
     let enters_s = [0, 1].map(|k| if speed[k] > 0.0 { into_m[k] / speed[k] } else { f64::INFINITY });
     let leaves_s = [0, 1].map(|k| if speed[k] > 0.0 { past_m[k] / speed[k] } else { f64::INFINITY });
-    // The one that comes later, where both could.
+    // The later one stops, if both could.
     let later = usize::from(enters_s[1] >= enters_s[0]);
     let most = |k: usize| {
         let limits = &movers[of[k]].limits;
@@ -314,7 +317,7 @@ fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> 
     }
     let may = |k: usize| !movers[of[k]].kept && room_m[k] >= 0.0;
     let Some(who) = [later, 1 - later].into_iter().find(|k| may(*k)) else {
-        // Both are in each other's way already.
+        // Each is in the other's way already.
         let who = if movers[of[1]].kept { of[0] } else { of[1] };
         out[who] = true;
         return true;
@@ -367,7 +370,7 @@ mod tests {
         movers.iter().zip(out).map(|(mover, out)| (!out).then_some(mover.speed_mps)).collect()
     }
 
-    /// Metres until a stand, by comfortable braking after a moment.
+    /// Metres to a stop, by comfortable braking after a reaction time.
     fn stops_m(speed_mps: f64) -> f64 {
         speed_mps * REACTION_S + speed_mps * speed_mps / 4.0
     }
@@ -398,7 +401,7 @@ mod tests {
         }
         assert!(of(20.0, 12.0) > of(20.0, 4.0), "a fast leader needs less room");
         assert_eq!(of(200.0, 0.0), 20.0, "it is far away");
-        // A chain: each knows the one ahead as it became.
+        // A chain: each driver uses the final speed of the one ahead.
         let chain = (0..4).map(|i| car(&graph, 0, 10.0 + 15.0 * f64::from(i), 20.0 - 6.0 * f64::from(i)));
         let slowed: Vec<f64> = speeds(&graph, chain.collect()).into_iter().flatten().collect();
         for pair in slowed.windows(2) {

@@ -1,5 +1,5 @@
-//! Speeds of the placed agents: drawn last, nearest to a conflict first and leaders before followers, so that
-//! each follower knows its leader's speed.
+//! Speeds of the placed agents. They are drawn last, nearest to a conflict first and leaders before
+//! followers, so that each follower knows its leader's speed.
 
 use super::cells::Cells;
 use super::checks::KindOnLane;
@@ -17,7 +17,7 @@ use scene::routes::speed::Obstacle;
 use scene::{AgentType, STANDING_MPS, Subtype};
 use std::collections::{BTreeMap, HashSet};
 
-/// Speeds are rounded to this, m/s.
+/// Resolution of speeds, m/s.
 const ROUNDING_MPS: f64 = 1e-3;
 
 /// Draws the speeds of one answer.
@@ -30,15 +30,15 @@ pub(super) struct StartSpeeds<'a> {
     pub(super) kept: usize,
     /// Kept road users, then the placed ones in order.
     pub(super) obstacles: Vec<Obstacle>,
-    /// Type, and lane and arc length of those that drive, of each of them.
+    /// For each obstacle its type, and for drivers lane and arc length.
     pub(super) kinds: &'a [KindOnLane],
-    /// Range of the start speeds of moving motor vehicles; `None` keeps the drawn ones.
+    /// Range of the start speeds of moving motor vehicles; `None` keeps the drawn speeds.
     pub(super) range: Option<SpeedRange>,
 }
 
 impl StartSpeeds<'_> {
-    /// Speed of everyone placed, m/s; `None` where none in the range is possible, or where nobody has room to brake. How
-    /// many of each type lack that room.
+    /// Speed of each placed agent, m/s; `None` if no speed in the range is possible, or if none leaves room
+    /// to brake. The second value counts the latter by type.
     pub(super) fn draw(mut self) -> (Vec<Option<f64>>, BTreeMap<AgentType, usize>) {
         let mut order: Vec<(f64, usize)> = Vec::new();
         for (i, placed) in self.placed.iter().enumerate() {
@@ -65,14 +65,14 @@ impl StartSpeeds<'_> {
             *no_room.entry(mover.agent_type).or_default() += 1;
         }
         let speeds = movers.iter().zip(left_out).zip(self.placed).map(|((mover, out), placed)| {
-            // Rounded down: up could take away the room.
+            // Rounded down, because rounding up could take away the room.
             let speed_mps = rounded((mover.speed_mps / ROUNDING_MPS + 1e-6).floor() * ROUNDING_MPS, 1e3);
             (!out && self.may_start(placed, speed_mps)).then_some(speed_mps)
         });
         (speeds.collect(), no_room)
     }
 
-    /// One of the obstacles.
+    /// An obstacle as a road user that needs room.
     fn mover(&self, i: usize) -> DrivenBox {
         let Obstacle { outline, speed_mps } = self.obstacles[i];
         let (agent_type, lane) = self.kinds[i];
@@ -81,7 +81,7 @@ impl StartSpeeds<'_> {
         DrivenBox { agent_type, limits, outline, speed_mps, lane, kept: i < self.kept }
     }
 
-    /// Draws the speed of one road user, after that of the leader. A ring of leaders is cut where it began.
+    /// Draws the speed of one road user, after that of its leader. A ring of leaders is cut where it began.
     fn draw_after_leader(&mut self, i: usize, begun: &mut HashSet<usize>) {
         if !begun.insert(i) {
             return;
@@ -93,8 +93,8 @@ impl StartSpeeds<'_> {
             Some(lane) => {
                 let s_m = placed.pose.s_m;
                 let outline = self.obstacles[own].outline;
-                // A leader's path begins at the own centre, where nothing else can be; the own box is too
-                // near to count as ahead.
+                // The path to the leader begins at the agent's own centre, where nothing else can be. Its own
+                // box is too near to count as ahead.
                 let leader = leader_ahead(self.cells.graph, lane, s_m, &outline, &self.obstacles);
                 if let Some(index) = leader.and_then(|l| l.index.checked_sub(self.kept)) {
                     self.draw_after_leader(index, begun);
@@ -110,7 +110,7 @@ impl StartSpeeds<'_> {
         self.obstacles[own].speed_mps = rounded(speed_mps, 1e3);
     }
 
-    /// A motor vehicle stands, or is as fast as is wanted.
+    /// Whether a speed is allowed: a motor vehicle stands, or its speed is in the range.
     fn may_start(&self, placed: &PlacedAgent, speed_mps: f64) -> bool {
         let asked = placed.lane.is_some() && placed.agent_type == AgentType::Vehicle;
         let slow = |range: SpeedRange| speed_mps > 0.0 && speed_mps < range.min_mps - ROUNDING_MPS;
@@ -171,8 +171,8 @@ impl StartSpeeds<'_> {
     }
 }
 
-/// A speed for the situation or the next more general one that is known, of the class `slowest` (0 stands) or a faster
-/// one, at most `most` m/s.
+/// A speed for the situation, or for the next more general one that is known. Its class is `slowest` (0
+/// stands) or faster, and the speed at most `most` m/s.
 fn drawn_speed(
     model: &TypeModel,
     context: SpeedContext,

@@ -9,19 +9,19 @@ use scene::routes::LaneGraph;
 use scene::{Scene, SignalState};
 use std::collections::HashMap;
 
-/// Most lanes looked along.
+/// Number of lanes to look along.
 const MAX_HOPS: usize = 12;
 
-/// What rules the next stop line.
+/// What controls the next stop line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StopControl {
     /// A junction without lights.
     Unsignalled,
     /// A stop sign.
     StopSign,
-    /// Lights of which at least one way is not red.
+    /// Lights with at least one direction that is not red.
     NotRed,
-    /// Lights, all ways red.
+    /// Lights with all directions red.
     Red,
 }
 
@@ -32,12 +32,12 @@ pub(super) enum LineAhead {
     Nothing,
     /// A stop line at this distance, metres.
     StopLine(StopControl, f64),
-    /// Inside a junction; its light, if it has one that is lit, is red or not.
+    /// Inside a junction; if it has a lit light, whether that is red.
     Inside(Option<bool>),
 }
 
 impl LineAhead {
-    /// Class of the place for rates, below [`Self::CLASSES`].
+    /// Class of the place in the features of rates, below [`Self::CLASSES`].
     pub(super) fn class(self) -> usize {
         match self {
             Self::Nothing => 0,
@@ -53,7 +53,7 @@ impl LineAhead {
 
     pub(super) const CLASSES: usize = 4 + 4 * NEAR_M.len();
 
-    /// Class of the place for speeds.
+    /// Class of the place in the contexts of speeds.
     pub(super) fn road_ahead(self) -> RoadAhead {
         use StopControl::{NotRed, Red, StopSign, Unsignalled};
         match self {
@@ -78,7 +78,7 @@ impl LineAhead {
         }
     }
 
-    /// Traffic queues here: a red light or a stop sign is near.
+    /// Whether traffic queues here: a red light or a stop sign is near.
     pub(super) fn queues(self) -> bool {
         matches!(self, Self::StopLine(StopControl::Red, m) if m < QUEUES_M.0)
             || matches!(self, Self::StopLine(StopControl::StopSign | StopControl::Unsignalled, m) if m < QUEUES_M.1)
@@ -100,7 +100,7 @@ impl ShownLights {
         Self(lit.collect())
     }
 
-    /// A lit signal rules a lane.
+    /// Whether a lit signal controls a lane.
     pub(super) fn rules(&self, lane: usize) -> bool {
         self.0.contains_key(&lane)
     }
@@ -143,7 +143,7 @@ fn stop(kind: StopControl, distance_m: f64) -> LineAhead {
     if distance_m < LOOK_M { LineAhead::StopLine(kind, distance_m.max(0.0)) } else { LineAhead::Nothing }
 }
 
-/// The successor that turns least by its end.
+/// The successor whose end turns least.
 pub(super) fn straightest(graph: &LaneGraph, lane: usize) -> Option<usize> {
     let lanes = graph.lanes();
     let turn = |next: &usize| {

@@ -1,7 +1,7 @@
-//! Anchors: where an agent may go, before any network speaks.
+//! Anchors: where an agent may go, before any network runs.
 //!
-//! With a goal position they are ways to it ([`super::to_goal`]); without one, routes ahead, each with several timings.
-//! Pedestrians get straight lines beside routes.
+//! With a goal position they are paths to it ([`super::to_goal`]); without one, routes ahead, each with
+//! several timings. Pedestrians get straight lines besides routes.
 
 use super::coordinates::MODES;
 use super::profile::{Caps, cruising, reaching_speed};
@@ -53,7 +53,7 @@ fn anchors_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, tar
     out
 }
 
-/// Paces on foot: on as now, standing, slower, faster, an even pace.
+/// Paces on foot: unchanged, standing, slower, faster, and a constant pace.
 fn walking_speed(v0: f64, timing: usize, count: usize) -> f64 {
     if count == 1 {
         return v0;

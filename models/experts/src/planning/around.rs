@@ -1,4 +1,4 @@
-//! Ways on foot round what stands between start and goal: parked vehicles, and people who wait.
+//! Paths on foot around standing obstacles between start and goal: parked vehicles, and people who wait.
 
 use super::crossing::walking;
 use super::way::{PathKind, UntimedPath};
@@ -9,15 +9,15 @@ use scene::motion::{MotionModel, Target};
 use scene::routes::Polyline;
 use scene::{STANDING_MPS, Vec2};
 
-/// Distance between the points of a way, metres.
+/// Distance between the points of a path, metres.
 const SPACING_M: f64 = 0.5;
-/// Parts in which the room around a box is taken away where an end of the way is within it.
+/// Number of parts in which the margin around a box shrinks if it contains an end of the path.
 const ROOM_PARTS: u8 = 5;
-/// Ways round boxes are named from here on.
+/// First identity of paths around boxes.
 const IDENTITY: u64 = 1_000_000;
 
-/// The shortest way to a goal round those who stand; `None` where the straight one is free, and where no way round is short
-/// enough.
+/// The shortest path to a goal around standing road users. `None` if the straight path is free, or if no
+/// detour is short enough.
 pub(super) fn around(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -53,15 +53,16 @@ pub(super) fn around(
     None
 }
 
-/// What stands, with the room that a walker keeps to it.
+/// A standing box with the margin that a walker keeps from it.
 struct KeptClear {
     grown: OrientedBox,
-    /// With as much room as leaves the start outside, and the goal: for the way from the one, and to the other.
+    /// The box with the largest margin that leaves the start outside, and the goal: for the first leg, and
+    /// for the last.
     at_ends: [OrientedBox; 2],
 }
 
 impl KeptClear {
-    /// `None` where the start or the goal is inside even without room.
+    /// `None` if the start or the goal is inside the box even without a margin.
     fn new(outline: &OrientedBox, room_m: f64, ends: [Vec2; 2]) -> Option<Self> {
         let grown = |part: u8| outline.grown(room_m * f64::from(part) / f64::from(ROOM_PARTS));
         let outside = |end: Vec2| (0..=ROOM_PARTS).rev().map(grown).find(|b| !b.meets_segment(end, end));
@@ -69,7 +70,7 @@ impl KeptClear {
         Some(Self { grown: grown(ROOM_PARTS), at_ends: [at_start?, at_goal?] })
     }
 
-    /// It is in the way on a leg; `first` and `last` say which leg of the way that is.
+    /// Whether a leg meets the box; `first` and `last` mark the first and the last leg of the path.
     fn meets(&self, from: Vec2, to: Vec2, first: bool, last: bool) -> bool {
         let [at_start, at_goal] = &self.at_ends;
         (!first || at_start.meets_segment(from, to))
@@ -78,7 +79,7 @@ impl KeptClear {
     }
 }
 
-/// Indices of the boxes that a way meets.
+/// Indices of the boxes that a path meets.
 fn met(boxes: &[KeptClear], way: &[Vec2]) -> Vec<usize> {
     let last = way.len().saturating_sub(2);
     let meets = |b: &KeptClear| {
@@ -87,13 +88,13 @@ fn met(boxes: &[KeptClear], way: &[Vec2]) -> Vec<usize> {
     (0..boxes.len()).filter(|i| meets(&boxes[*i])).collect()
 }
 
-/// A line from corner to corner, named by these corners.
+/// A path from corner to corner, identified by these corners.
 struct CornerWay {
     places: Vec<Vec2>,
     identity: u64,
 }
 
-/// The shortest line of at most `longest_m` past the corners of the known boxes that meets none of them.
+/// The shortest path of at most `longest_m` past the corners of the known boxes that meets none of them.
 fn shortest(
     boxes: &[KeptClear],
     known: &[usize],
@@ -128,7 +129,7 @@ fn shortest(
     while at != 0 {
         at = from[at];
         way.push(places[at]);
-        // Corners are told by their box and their place on it, whatever else is in the way.
+        // Corners are identified by their box and their index on it, whatever else is in the way.
         if let Some(corner) = at.checked_sub(2) {
             identity =
                 identity.wrapping_mul(1_009).wrapping_add((4 * known[corner / 4] + corner % 4) as u64 + 1);

@@ -1,13 +1,13 @@
-//! Route coordinates: how futures are spoken of.
+//! Route coordinates: the numbers that describe a future.
 //!
-//! Futures are spoken of relative to *anchors*. An anchor is a path (a route along the lane graph, or
-//! a straight line on foot) with a base progress along it; a future is the anchor plus
-//! * `KNOTS` longitudinal acceleration residuals, one a second (integrated twice to metres along), and
-//! * `KNOTS` lateral offsets, one a second (metres to the left of the path, the first always zero).
+//! A future is described relative to an *anchor*. An anchor is a path (a route along the lane graph, or a
+//! straight line on foot) with a base progress along it. A future is the anchor plus
+//! * `KNOTS` longitudinal acceleration residuals, one per second (integrated twice to metres along), and
+//! * `KNOTS` lateral offsets, one per second (metres to the left of the path, the first always zero).
 //!
-//! In these route coordinates a fixed goal is linear in the knots, so it is kept by a constant
-//! projection ([`AgentFeatures::tangent`](crate::features::AgentFeatures::tangent)), in training and at
-//! each refinement step alike.
+//! In these route coordinates a fixed goal is linear in the knots, so a constant projection keeps it
+//! ([`AgentFeatures::tangent`](crate::features::AgentFeatures::tangent)), in training and at each refinement
+//! step alike.
 
 use scene::{KNOT_S, KNOTS};
 
@@ -26,7 +26,7 @@ pub type Residual = [f32; RESIDUAL];
 /// The futures of all modes of a road user, each relative to its own anchor.
 pub type Modes = [Residual; MODES];
 
-/// The mode at a share `at` of all probability.
+/// The mode at which the cumulative probability reaches `at`.
 pub fn mode_at(probability: &[f64; MODES], at: f64) -> usize {
     let mut left = at;
     let reached = probability.iter().position(|p| {
@@ -37,7 +37,7 @@ pub fn mode_at(probability: &[f64; MODES], at: f64) -> usize {
     reached.unwrap_or(MODES - 1)
 }
 
-/// An agent that keeps within this of its place for a whole window stays there, metres.
+/// An agent that stays within this distance of its place for a whole window counts as standing, metres.
 pub const STAYS_WITHIN_M: f64 = 0.5;
 
 /// Scale of the along knots, m/s2: residuals are divided by it before they enter a network.
@@ -48,14 +48,14 @@ pub const ACROSS_SCALE: f32 = 1.0;
 /// Basis of the route coordinates: metres at the instants per knot.
 #[derive(Clone, Debug)]
 pub struct Basis {
-    /// Along: twice integrated hats, `[INSTANTS][KNOTS]`.
+    /// Along: hats integrated twice, `[INSTANTS][KNOTS]`.
     pub along: [[f32; KNOTS]; INSTANTS],
-    /// Across: hats, the first knot's column zero.
+    /// Across: hats; the first knot's column is zero.
     pub across: [[f32; KNOTS]; INSTANTS],
 }
 
 impl Basis {
-    /// The one basis.
+    /// Computes the basis, which is always the same.
     pub fn new() -> Self {
         let mut basis = Self { along: [[0.0; KNOTS]; INSTANTS], across: [[0.0; KNOTS]; INSTANTS] };
         for instant in 0..INSTANTS {

@@ -1,5 +1,5 @@
-//! Walkers and carriageways: where a path steps onto the lanes, the way by a crosswalk, and waiting at the kerb while
-//! the lanes that are crossed have green.
+//! Walkers and carriageways: where a path steps onto the lanes, the path by a crosswalk, and waiting at the
+//! kerb while the crossed lanes have green.
 
 use super::profile::{Caps, Progress, TimedLeg, approaching, speed_at};
 use super::stop_line::{Steps, StopLine};
@@ -16,13 +16,13 @@ use scene::motion::{MotionModel, Target};
 use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
-/// Distance between the places at which a path is sampled, metres.
+/// Distance between samples of a path, metres.
 const LOOK_M: f64 = 0.5;
-/// Over these two a corner of a path is rounded off, metres.
+/// Spacing of a path and radius with which its corners are rounded, metres.
 const SPACING_M: f64 = 0.5;
-/// Ways by crosswalks are named from here on.
+/// First identity of paths by crosswalks.
 const IDENTITY: u64 = 1_000;
-/// A walker sets off so long after the lanes are stopped, steps.
+/// Delay of a walker after the lanes are stopped, steps.
 const NOTICING_STEPS: usize = 5;
 
 /// The place at which a walker's path steps onto the lanes.
@@ -30,14 +30,14 @@ const NOTICING_STEPS: usize = 5;
 pub struct Kerb {
     /// Progress of the box centre at which its front is at the kerb, metres.
     pub line_m: f64,
-    /// Steps of the window at which lanes that are crossed on a crosswalk have green.
+    /// Steps of the window at which lanes crossed on a crosswalk have green.
     go: Steps,
     /// Steps at which all of them are known to be stopped.
     stopped: Steps,
 }
 
-/// The kerb on a walker's path; `None` for other types, for a walker already on the lanes, and where the path
-/// crosses none.
+/// The kerb on a walker's path. `None` for other types, for a walker already on the lanes, and if the path
+/// crosses no lanes.
 pub fn kerb(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Option<Kerb> {
     if who.agent_type != AgentType::Pedestrian {
         return None;
@@ -65,15 +65,15 @@ pub fn kerb(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Option<Ke
     Some(Kerb { line_m, go, stopped: if lit { stopped } else { 0 } })
 }
 
-/// The traffic of this stop line drives over the path within the lanes.
+/// Whether the traffic of this stop line drives over the path within the lanes.
 fn crosses(line: &StopLine, path: &Polyline, enters_m: f64, leaves_m: f64) -> bool {
     let (from, to) = line.behind(BEHIND_LINE_M);
     let (a, b) = (path.extrapolate(enters_m - LOOK_M), path.extrapolate(leaves_m + LOOK_M));
-    // Cheaper than each piece, and exact enough: people cross straight.
+    // Cheaper than testing each piece, and exact enough because people cross straight.
     Segment { from, to, owner: 0, piece: 0 }.crosses(a.position, b.position)
 }
 
-/// Progress at which a path steps onto the first lane of vehicles, and at which it has left the last; `None` where
+/// Progress at which a path steps onto the first vehicle lane, and at which it has left the last. `None` if
 /// it crosses none or begins on one.
 fn carriageway(world: &World<'_>, path: &Polyline, to_m: f64) -> Option<(f64, f64)> {
     let on = |s: &f64| is_on_lane(world, path.position_at(*s));
@@ -92,12 +92,12 @@ fn is_on_lane(world: &World<'_>, place: Vec2) -> bool {
     near.iter().any(|hit| hit.distance_m <= 0.5 * lanes[hit.lane].width_m)
 }
 
-/// All of a path between these is on one crosswalk, or right beside it.
+/// Whether the whole path between these places is on one crosswalk, or right beside it.
 fn is_on_crosswalk(world: &World<'_>, path: &Polyline, from_m: f64, to_m: f64) -> bool {
     let count = ((to_m - from_m) / 1.0).ceil().max(1.0) as usize;
     let places: Vec<Vec2> =
         (0..=count).map(|i| path.position_at(from_m + (to_m - from_m) * i as f64 / count as f64)).collect();
-    // It is drawn up to the kerb or short of it, so its middle decides.
+    // Crosswalks are drawn up to the kerb or short of it, so the middle decides.
     let middle = &places[places.len() / 4..places.len() - places.len() / 4];
     world.scene.map.crosswalks.iter().any(|area| middle.iter().all(|p| area.is_near(*p, BESIDE_M)))
 }
@@ -105,7 +105,7 @@ fn is_on_crosswalk(world: &World<'_>, path: &Polyline, from_m: f64, to_m: f64) -
 /// The middle line of a crosswalk from kerb to kerb.
 struct CrosswalkStrip {
     ends: [Vec2; 2],
-    /// Room to each side of it, metres.
+    /// Room on each side of the middle line, metres.
     half_m: f64,
 }
 
@@ -121,7 +121,7 @@ impl CrosswalkStrip {
         let sides = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| b - a);
         let longest = sides.max_by(|a, b| a.norm().total_cmp(&b.norm()))?.try_normalize(1e-6)?;
         let turned = Vec2::new(-longest.y, longest.x);
-        // Of its two ways the one that leads over the lanes.
+        // Of its two directions, the one that leads over the lanes.
         let over = if cross(driven, longest).abs() > cross(driven, turned).abs() { longest } else { turned };
         let aside = Vec2::new(-over.y, over.x);
         let extent = |way: Vec2| {
@@ -138,7 +138,7 @@ impl CrosswalkStrip {
         Some(Self { ends, half_m: (0.5 * (left - right) - INSIDE_M).max(0.0) })
     }
 
-    /// From start to goal by it, on the side of it that is nearest to both.
+    /// From start to goal by the crosswalk, on the side that is nearest to both.
     fn way(&self, start: Vec2, goal: Vec2) -> [Vec2; 4] {
         let [a, b] = self.ends;
         let length = |from: Vec2, to: Vec2| (from - start).norm() + (goal - to).norm();
@@ -150,8 +150,9 @@ impl CrosswalkStrip {
     }
 }
 
-/// The way to a goal on the other side by a crosswalk; `None` where `straight` crosses no lanes or is on a crosswalk
-/// as it is, where the goal lies on a lane, and where no crosswalk is near enough to be there in time.
+/// The path by a crosswalk to a goal on the other side. `None` if `straight` crosses no lanes or is on a
+/// crosswalk already, or if the goal lies on a lane. Also `None` if no crosswalk is near enough to arrive in
+/// time.
 pub(super) fn by_crosswalk(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -204,11 +205,11 @@ pub fn brisk_mps(v0: f64) -> f64 {
     PACE_MPS.max(v0)
 }
 
-/// Progress that is there when it must be at an even pace; `None` where that is too fast.
+/// Progress at a constant pace that arrives on time; `None` if that is too fast.
 pub(super) fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
     let even = even_pace(v0, length_m, target.step)?;
     let seconds = target.step as f64 * STEP_S;
-    // An agent that is to arrive at a speed changes to it over all of the way.
+    // An agent that has to arrive at a speed changes to it over the whole path.
     Some(match target.speed_mps {
         None => even,
         end_mps => {
@@ -217,7 +218,7 @@ pub(super) fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progres
     })
 }
 
-/// The even pace, after setting off, that covers a length in so many steps.
+/// The constant pace, after setting off, that covers a length in this many steps.
 fn even_pace(v0: f64, length_m: f64, steps: usize) -> Option<Progress> {
     let free = Caps::new(&[0.0], &[f64::INFINITY]);
     let at = |pace: f64| approaching(v0, pace, SETTING_OFF_MPS2, &free);
@@ -233,8 +234,8 @@ fn even_pace(v0: f64, length_m: f64, steps: usize) -> Option<Progress> {
 }
 
 impl Kerb {
-    /// Progress that waits at the kerb until the lanes are known to be stopped, and is at its goal when it is due;
-    /// `None` where `wanted` steps onto no lane that has green, or the time is too short.
+    /// Progress that waits at the kerb until the lanes are known to be stopped, and still meets the goal in
+    /// time. `None` if `wanted` steps onto no lane with green, or the time is too short.
     pub fn waiting(&self, wanted: &Progress, v0: f64, due: usize) -> Option<Progress> {
         let steps_out = (1..=due).find(|i| wanted[*i] > self.line_m + STEPPED_OUT_M)?;
         if self.go >> steps_out & 1 == 0 {
@@ -255,8 +256,8 @@ impl Kerb {
         Some(out)
     }
 
-    /// As `wanted`, but before the kerb in the first `until` steps; the walker then sets off. `None` if it
-    /// cannot stop before the kerb any more.
+    /// As `wanted`, but before the kerb in the first `until` steps; then the walker sets off. `None` if it
+    /// can no longer stop before the kerb.
     pub fn held(&self, wanted: &Progress, v0: f64, until: usize) -> Option<Progress> {
         let needs = v0 * v0 / (2.0 * self.line_m.max(0.05));
         if needs > STOPPING_MPS2 && v0 > STANDING_MPS {

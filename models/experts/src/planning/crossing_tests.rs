@@ -1,4 +1,4 @@
-//! Walkers at a street with a crosswalk, drawn by hand.
+//! Tests of walkers at a street with a crosswalk, on a hand-made scene.
 
 use super::anchors::{Anchor, anchors};
 use super::crossing::kerb;
@@ -45,7 +45,7 @@ fn anchors_of(map: LaneMap, agent: Agent) -> Vec<Anchor> {
     anchors(&world, who, &world.model(who), &world.target(who))
 }
 
-/// Where a path is on the lanes, x of its places.
+/// The x coordinates of a path's places on the lanes.
 fn on_lanes(anchor: &Anchor) -> Vec<f64> {
     let places = (0..200).map(|i| anchor.path.position_at(0.1 * f64::from(i)));
     places.filter(|p| (0.5..7.5).contains(&p.y)).map(|p| p.x).collect()
@@ -96,7 +96,7 @@ fn lit(agent: Agent, red_from: usize) -> Scene {
     Scene { signals: vec![signal], ..Scene::bare("street", street(), vec![agent]) }
 }
 
-/// Progress that waits for the lanes, and the line at which it does.
+/// Progress that waits for the lanes, and the line at which it waits.
 fn waiting(scene: &Scene) -> (Option<[f64; HORIZON_STEPS + 1]>, f64) {
     let world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     let who = &world.present[0];

@@ -1,4 +1,4 @@
-//! How much of a path breaks the rules of the road: beyond its edges, over a median, against the traffic.
+//! Length of a path that breaks the rules of the road: beyond its edges, over a median, against the traffic.
 
 use super::world::AgentAtStart;
 use crate::tuning::fixed::legal::{BESIDE_LANES_M, BEYOND_M, EDGE_M, NARROWER_M};
@@ -8,12 +8,12 @@ use scene::score::Drivable;
 use scene::{AgentType, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
-/// Distance between the places at which a path is sampled, metres.
+/// Distance between samples of a path, metres.
 const STEP_M: f64 = 1.5;
 
 /// Metres of the first `to_m` of a path on which a road user would break the rules. Riders use pavements, so
-/// only the edges that they cross and the traffic count for them; nothing does on foot or where the map does not
-/// say.
+/// only crossed edges and wrong-way riding count for them. Nothing counts on foot, or if the map does not
+/// define its ground.
 pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, to_m: f64) -> f64 {
     if who.agent_type == AgentType::Pedestrian || ground.is_unknown() {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Red lights on a path: the stop lines that it crosses, and progress along it that waits at them.
+//! Red lights on a path: the stop lines that it crosses, and progress that waits at them.
 
 use super::profile::{Caps, Progress, TimedLeg, speed_at};
 use super::stop_line::{Steps, StopLine};
@@ -17,12 +17,12 @@ use std::f64::consts::FRAC_PI_4;
 /// A turn at red is checked this many steps and metres after the line. An agent that cannot get there does
 /// not begin the turn.
 const TURN_STEPS: usize = 45;
-/// Steps after green at which the first in a queue leaves, and each further one after the one before it.
+/// Steps after green at which the first agent of a queue leaves, and steps from each agent to the next.
 const FIRST_LEAVES_STEPS: usize = 10;
 const NEXT_LEAVES_STEPS: usize = 12;
-/// Steps over which speeding up is measured.
+/// Steps over which acceleration is measured.
 const SMOOTHED_STEPS: usize = 3;
-/// An agent that would leave later than this step stays in the window.
+/// An agent that would leave later than this step stays for the whole window.
 const LATEST_LEAVING: usize = 75;
 
 /// A stop line that a path crosses.
@@ -32,11 +32,11 @@ pub struct Gate {
     line_m: f64,
     /// Steps of the window at which an agent on the path must not pass.
     red: Steps,
-    /// Steps at which the light is known to let it pass.
+    /// Steps at which the light is known to allow passing.
     open: Steps,
-    /// The path turns right after it: allowed after a stop.
+    /// The path turns right after the line, which is allowed at red after a stop.
     right: bool,
-    /// Road users that stand before it, ahead of this one.
+    /// Number of road users that stand at the line ahead of this one.
     queue: usize,
 }
 
@@ -46,16 +46,16 @@ impl Gate {
         self.line_m
     }
 
-    /// The line is closed at this step of the window.
+    /// Whether the line is closed at this step of the window.
     pub fn is_red(&self, step: usize) -> bool {
         self.red >> step & 1 == 1
     }
 
-    /// The step at which an agent that stands at this red line from the start sets off; `None` where it stays
+    /// The step at which an agent that stands at this red line from the start sets off. `None` if it stays
     /// red for too long.
     fn leaves(&self) -> Option<usize> {
         let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
-        // A signal state after the last recorded one is no sign to leave.
+        // A signal state after the last recorded one is no reason to leave.
         if self.open >> green & 1 == 0 {
             return None;
         }
@@ -64,12 +64,12 @@ impl Gate {
     }
 }
 
-/// An agent that stands before these lights sets off in the window.
+/// Whether an agent that stands at these lights sets off in the window.
 pub fn sets_off(gates: &[Gate]) -> bool {
     gates.first().is_some_and(|gate| gate.leaves().is_some())
 }
 
-/// Stop lines that are red at some time in the window on a road user's path, nearest first.
+/// Stop lines on a road user's path that are red at some time in the window, nearest first.
 pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate> {
     let drives = matches!(who.agent_type, AgentType::Vehicle | AgentType::Cyclist);
     if !drives || world.stop_lines.iter().all(|line| line.red() == 0) {
@@ -94,7 +94,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
     crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
     let one_junction = crossed.chunk_by(|a, b| b.0 - a.0 < ONE_JUNCTION_M);
     let gate = |lines: &[(f64, f64, &StopLine)]| {
-        // The nearest lane counts, and only if no lane that is as near lets go.
+        // The nearest lane decides, unless another equally near lane is open.
         let least = lines.iter().map(|l| l.1).fold(f64::INFINITY, f64::min);
         let taken = || lines.iter().filter(|l| l.1 <= least + SAME_LANE_M);
         let red = taken().fold(Steps::MAX, |red, l| red & l.2.red());
@@ -113,25 +113,25 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()
 }
 
-/// An agent that waits, and the lights on its path.
+/// An agent that waits at lights on its path.
 pub struct Waiting<'a> {
     /// Stop lines on the path, nearest first.
     pub gates: &'a [Gate],
     /// Speed at the start, m/s.
     pub v0: f64,
-    /// Of its kind.
+    /// Limits of its type.
     pub limits: &'a Limits,
     /// The target that it must meet.
     pub target: &'a Target,
-    /// How fast the path can be driven.
+    /// Speed caps along the path.
     pub caps: Caps<'a>,
     /// Acceleration with which a standing agent sets off towards a goal, m/s2.
     pub easy_mps2: f64,
 }
 
 impl Waiting<'_> {
-    /// Progress that waits at red lights; `None` where `wanted` passes none or cannot be changed. An agent
-    /// that cannot stop goes on, and so does one that would miss its goal time.
+    /// Progress that waits at red lights; `None` if `wanted` passes none or cannot be changed. An agent that
+    /// cannot stop goes on, and so does one that would miss its goal time.
     pub fn obeying(&self, wanted: &Progress) -> Option<Progress> {
         let mut changed: Option<Progress> = None;
         for gate in self.gates {
@@ -143,8 +143,8 @@ impl Waiting<'_> {
         changed
     }
 
-    /// Progress of an agent that stands at a light and sets off at the latest when it turns green. `None`
-    /// where `wanted` does so already, or where no green is known.
+    /// Progress of an agent that stands at a light and sets off at the latest when it turns green. `None` if
+    /// `wanted` does so already, or if no green is known.
     pub fn setting_off(&self, wanted: &Progress) -> Option<Progress> {
         let gate = self.gates.first().filter(|_| self.v0 < STOPPED_MPS)?;
         let leaves = gate.leaves()?;
@@ -182,7 +182,7 @@ impl Waiting<'_> {
         }
         let due = self.target.position.map(|_| self.target.step);
         let passes_red = |p: &Progress| passes(p).filter(|step| is_red(*step) && !turns(p, *step));
-        // A light may turn red again before the agent passes, so a few greens are tried.
+        // A light may turn red again before the agent passes, so several greens are tried.
         for _ in 0..3 {
             let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
             let held = match due {
@@ -203,7 +203,7 @@ impl Waiting<'_> {
         None
     }
 
-    /// Brakes for the line, stands there until green (where there is one), then sets off. A goal that is due
+    /// Brakes for the line, stands there until green (if there is one), then sets off. A goal that is due
     /// earlier keeps its progress until then. An agent that may turn at red sets off after a stop.
     fn free(&self, turns: bool, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
         let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(LEAST_STOP_M))).max(BRAKE_MPS2);
@@ -234,7 +234,8 @@ impl Waiting<'_> {
         out
     }
 
-    /// At the line when it turns green, standing or, where that is too late, rolling; then on to the goal.
+    /// Arrives at the line when it turns green, standing or, if that takes too long, rolling; then on to the
+    /// goal.
     fn to_goal(&self, stop_m: f64, green: usize, due: usize, wanted: &Progress) -> Option<Progress> {
         let seconds = |steps: usize| steps as f64 * STEP_S;
         let end_mps = self.target.speed_mps;
@@ -265,14 +266,14 @@ impl Waiting<'_> {
         leg.arriving_in_comfort([(self.caps.clone(), rates)])
     }
 
-    /// Along with what is wanted until the line must be braked for, standing by `green`.
+    /// Follows the wanted progress until it has to brake for the line, and stands by `green`.
     fn braking(&self, stop_m: f64, green: usize, wanted: &Progress) -> Progress {
         let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(LEAST_STOP_M))).max(BRAKE_MPS2);
         let mut out = [0.0; HORIZON_STEPS + 1];
         let mut speed = self.v0;
         for i in 0..HORIZON_STEPS {
             let left = (stop_m - out[i]).max(0.0);
-            // An agent that must stand in time does not dawdle.
+            // An agent that has to stand in time does not dawdle.
             let open = speed_at(wanted, i + 1).max(self.v0).min((2.0 * brake * left).sqrt());
             let next = open.min(left / STEP_S).min(speed + SET_OFF_MPS2 * STEP_S);
             out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
@@ -284,7 +285,7 @@ impl Waiting<'_> {
         out
     }
 
-    /// Within the limits up to a step.
+    /// Whether a progress stays within the limits up to a step.
     fn is_possible(&self, progress: &Progress, until: usize) -> bool {
         let limits = self.limits;
         let (up, down) = (PRESSED_SHARE * limits.accel_mps2, PRESSED_SHARE * limits.brake_mps2);
@@ -301,7 +302,7 @@ impl Waiting<'_> {
     }
 }
 
-/// Stood in the two seconds before a step.
+/// Whether a progress stood during the two seconds before a step.
 fn stood_before(progress: &Progress, step: usize) -> bool {
     (step.saturating_sub(20).max(1)..=step).any(|i| speed_at(progress, i) < STOPPED_MPS)
 }

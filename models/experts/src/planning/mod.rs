@@ -1,8 +1,8 @@
-//! The planning prior: what can be said of a road user's futures before any network speaks.
+//! The planning prior: what is known about a road user's futures before any network runs.
 //!
-//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`crossing`] how walkers
-//! cross lanes, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and
-//! [`pullback`] takes gradients in the plane back to those numbers.
+//! [`world`] is the scene at one step and [`anchors`] are the paths from there, legal ones first.
+//! [`crossing`] covers how walkers cross lanes, and [`profile`] the pace along paths. [`coordinates`] defines
+//! a future relative to its anchor, and [`pullback`] converts gradients in the plane to its numbers.
 
 pub mod anchors;
 mod around;

@@ -19,7 +19,7 @@ impl<'a> Caps<'a> {
         Self { arc_m, caps_mps }
     }
 
-    /// The highest cap at which a progress is faster than it, as a share; one or less where all hold up to `step`.
+    /// Largest ratio of a progress's speed to its cap, up to `step`; at most one if it keeps all caps.
     fn excess(&self, from_m: f64, progress: &Progress, step: usize) -> f64 {
         let share = |i: usize| speed_at(progress, i) / self.at(from_m + progress[i - 1]).max(0.1);
         (1..=step.min(HORIZON_STEPS)).map(share).fold(0.0, f64::max)
@@ -32,12 +32,12 @@ impl<'a> Caps<'a> {
     }
 }
 
-/// Integrates a speed wish under the caps; slowing for a cap takes at most `brake` m/s2.
+/// Integrates a wanted speed under the caps; slowing down for a cap takes at most `brake` m/s2.
 fn integrate(v0: f64, caps: &Caps<'_>, brake: f64, wish: impl Fn(f64) -> f64) -> Progress {
     driven(v0, |s| caps.at(s), (f64::INFINITY, brake), wish)
 }
 
-/// Integrates a speed wish under a cap at each progress, within rates of speeding up and of braking, m/s2.
+/// Integrates a wanted speed under a cap at each progress, within rates of acceleration and braking, m/s2.
 fn driven(v0: f64, cap: impl Fn(f64) -> f64, (up, down): (f64, f64), wish: impl Fn(f64) -> f64) -> Progress {
     let mut out = [0.0; HORIZON_STEPS + 1];
     let mut speed = v0;
@@ -56,7 +56,7 @@ pub fn cruising(v0: f64, speed_mps: f64, caps: &Caps<'_>) -> Progress {
     approaching(v0, speed_mps, if speed_mps > v0 { CRUISING_MPS2.0 } else { CRUISING_MPS2.1 }, caps)
 }
 
-/// Approaches `speed_mps` by `rate_mps2`, up or down, and keeps it, under the caps.
+/// Approaches `speed_mps` at `rate_mps2`, up or down, and keeps it, under the caps.
 pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> Progress {
     let wish = |t: f64| {
         if speed_mps > v0 { (v0 + rate_mps2 * t).min(speed_mps) } else { (v0 - rate_mps2 * t).max(speed_mps) }
@@ -64,7 +64,7 @@ pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> 
     integrate(v0, caps, BRAKING_MPS2, wish)
 }
 
-/// A progress that goes on from a step, where it is `from_mps` fast, as [`cruising`] does.
+/// Continues a progress from a step, where its speed is `from_mps`, in the manner of [`cruising`].
 pub fn cruising_from(
     progress: &Progress,
     step: usize,
@@ -87,17 +87,18 @@ pub fn cruising_from(
     out
 }
 
-/// As far as speeding up by `rate_mps2` to `top_mps` leads, under the caps.
+/// Accelerates at `rate_mps2` to `top_mps`, under the caps: the farthest reachable progress.
 pub fn fastest(v0: f64, rate_mps2: f64, top_mps: f64, caps: &Caps<'_>) -> Progress {
     integrate(v0, caps, HARDEST_MPS2, |t| (v0 + rate_mps2 * t).min(top_mps.max(v0)))
 }
 
-/// As far as braking by `rate_mps2` at once leads.
+/// Brakes at `rate_mps2` at once: the shortest possible progress.
 pub fn slowest(v0: f64, rate_mps2: f64) -> Progress {
     approaching(v0, 0.0, rate_mps2, &Caps::new(&[0.0], &[f64::INFINITY]))
 }
 
-/// Reaches `speed_mps` at `seconds` by constant acceleration; `sag` bends the way there (m/s at half time).
+/// Reaches `speed_mps` at `seconds`, at constant acceleration if `sag` is zero; `sag` is the deviation from
+/// that speed at half time, m/s.
 pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Caps<'_>) -> Progress {
     let wish = |t: f64| {
         let f = (t / seconds).min(1.0);
@@ -106,8 +107,8 @@ pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Ca
     integrate(v0, caps, HARDEST_MPS2, wish)
 }
 
-/// Stands as long as there is time to, then speeds up evenly, by `easy_mps2` where that is enough; beyond the end
-/// it goes on as fast as it is then.
+/// Stands for as long as the time allows, then accelerates evenly, at `easy_mps2` if that is enough. Beyond
+/// the end it keeps its speed.
 fn setting_off(length_m: f64, seconds: f64, easy_mps2: f64) -> Progress {
     let rate = easy_mps2.max(2.0 * length_m / (seconds * seconds));
     let wait = (seconds - (2.0 * length_m / rate).sqrt()).max(0.0);
@@ -118,20 +119,20 @@ fn setting_off(length_m: f64, seconds: f64, easy_mps2: f64) -> Progress {
     })
 }
 
-/// A distance to cover in a time.
+/// A distance to cover in a given time.
 #[derive(Clone, Copy, Debug)]
 pub struct TimedLeg {
     /// Speed at its beginning, m/s.
     pub v0: f64,
     /// Where it begins along the path, metres.
     pub from_m: f64,
-    /// Its length, metres.
+    /// Length, metres.
     pub length_m: f64,
-    /// Its time.
+    /// Time for it, seconds.
     pub seconds: f64,
     /// Speed at its end, m/s; `None` leaves it free.
     pub end_mps: Option<f64>,
-    /// Rate at which a standing agent sets off where it has time, m/s2.
+    /// Rate at which a standing agent sets off if it has time, m/s2.
     pub easy_mps2: f64,
 }
 
@@ -140,13 +141,13 @@ impl TimedLeg {
         (self.seconds / STEP_S).round().clamp(1.0, HORIZON_STEPS as f64) as usize
     }
 
-    /// It begins at rest and may end at any speed.
+    /// Whether it begins at rest and may end at any speed.
     fn sets_off(&self) -> bool {
         self.v0 < STANDING_MPS && self.end_mps.is_none() && self.length_m > 0.0
     }
 
-    /// Speed at a time, of a one-parameter family: linear acceleration that fades out, or a parabola through both
-    /// speeds.
+    /// Speed at a time, in a family with one parameter: linear acceleration that fades out, or a parabola
+    /// through both speeds.
     fn wish(&self, shape: f64, t: f64) -> f64 {
         let Self { v0, seconds, .. } = *self;
         let t = t.min(seconds);
@@ -156,7 +157,7 @@ impl TimedLeg {
         }
     }
 
-    /// Covers the length with the smoothest speed of the family, whatever the way bends. A standing agent with a free
+    /// Covers the length with the smoothest speed of the family, ignoring bends. A standing agent with a free
     /// end speed leaves as late as its easy rate allows.
     pub fn arriving(&self) -> Progress {
         if self.sets_off() {
@@ -177,8 +178,8 @@ impl TimedLeg {
         go(high)
     }
 
-    /// The same under caps of speed and within rates of speeding up and braking; `None` where the time is too short for
-    /// that.
+    /// The same under speed caps and within rates of acceleration and braking; `None` if the time is too
+    /// short for that.
     fn arriving_under(&self, caps: &Caps<'_>, rates: (f64, f64)) -> Option<Progress> {
         let cap = |s: f64| caps.at(self.from_m + s);
         if driven(self.v0, cap, rates, |_| f64::INFINITY)[self.step()] < self.length_m {
@@ -193,8 +194,8 @@ impl TimedLeg {
         Some(self.reached((-30.0, 30.0), |shape| driven(self.v0, cap, rates, |t| self.wish(shape, t))))
     }
 
-    /// Covers the length as comfortably as the time allows: each manner in turn has its caps and its rates of speeding
-    /// up and of braking, m/s2. Without any that arrives, as [`TimedLeg::arriving`].
+    /// Covers the length as comfortably as the time allows. Each manner, tried in turn, has its caps and its
+    /// rates of acceleration and braking, m/s2. If none arrives, as [`TimedLeg::arriving`].
     pub fn arriving_in_comfort<'a>(
         &self,
         manners: impl IntoIterator<Item = (Caps<'a>, (f64, f64))>,
@@ -209,7 +210,7 @@ impl TimedLeg {
     }
 }
 
-/// A progress that is free from a step on: it goes on as fast as it is then, under the caps.
+/// Continues a progress freely from a step: at its speed there, under the caps.
 pub fn going_on(mut progress: Progress, step: usize, caps: &Caps<'_>) -> Progress {
     let mut speed = speed_at(&progress, step);
     for i in step.clamp(1, HORIZON_STEPS)..HORIZON_STEPS {
@@ -237,7 +238,7 @@ mod tests {
     #[test]
     fn a_bend_on_the_way_is_slowed_for_while_there_is_time() {
         let arc: Vec<f64> = (0..200).map(f64::from).collect();
-        // A bend from 30 to 45 m that comfort takes at 5 m/s and hurry at 7.
+        // A bend from 30 to 45 m that takes 5 m/s in comfort and 7 m/s in a hurry.
         let capped = |bend: f64, brake: f64| -> Vec<f64> {
             let before = |s: f64| (bend * bend + 2.0 * brake * (30.0 - s).max(0.0)).sqrt();
             arc.iter().map(|s| if *s < 45.0 { before(*s) } else { 30.0 }).collect()
@@ -253,7 +254,7 @@ mod tests {
             assert!((p[90] - length).abs() < 0.2, "{} for {length}", p[90]);
             assert!(slowest(&p) < fastest, "{} for {length}", slowest(&p));
         }
-        // Nothing but haste leads there.
+        // Only the hurried manner gets there.
         let far = leg(10.0, 120.0, 9.0, None);
         assert_eq!(far.arriving_in_comfort(manners()), far.arriving());
     }
@@ -284,7 +285,7 @@ mod tests {
         assert!(near[50] < 0.01 && (near[90] - 5.0).abs() < 1e-9);
         let far = leg(0.0, 60.0, 9.0, None).arriving();
         assert!(far[10] > 0.5 && (far[90] - 60.0).abs() < 1e-9);
-        // A goal that is met before the end is driven past.
+        // After a goal that is met before the end, the agent continues.
         let early = leg(0.0, 5.0, 6.0, None).arriving();
         assert!(early[90] > early[60] + 3.0 * 0.9 * speed_at(&early, 60));
     }

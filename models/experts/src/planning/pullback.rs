@@ -1,13 +1,14 @@
-//! Gradients at the instants of a draft as gradients of its knots: the way downhill in the scene's energy.
+//! Converts gradients at the instants of a draft to gradients of its knots: the descent direction of the
+//! scene's energy.
 
 use super::coordinates::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use super::smooth;
 use scene::KNOTS;
 
-/// Longest step downhill, in normalised knots.
+/// Longest descent step, in normalised knots.
 const LONGEST: f32 = 0.8;
 
-/// Takes gradients at the instants back to the knots of a residual.
+/// Converts gradients at the instants to the knots of a residual.
 #[derive(Clone, Debug)]
 pub struct Pullback {
     basis: Basis,
@@ -25,7 +26,7 @@ impl Default for Pullback {
 }
 
 impl Pullback {
-    /// Gradient to the normalised knots, from the gradient [along, across] at each instant.
+    /// Gradient with respect to the normalised knots, from the gradient [along, across] at each instant.
     pub fn knots(&self, route: &[[f32; 2]; INSTANTS]) -> [f32; RESIDUAL] {
         let mut knots = [0.0; RESIDUAL];
         for (instant, gradient) in route.iter().enumerate() {
@@ -37,8 +38,8 @@ impl Pullback {
         knots
     }
 
-    /// The refiner's input: the way downhill in the knots' correlation, tangent to the goal, of bounded
-    /// length. `route` as in [`Pullback::knots`]; `tangent` as in
+    /// The refiner's input: the descent direction, smoothed by the knots' correlation, tangent to the goal,
+    /// of bounded length. `route` as in [`Pullback::knots`]; `tangent` as in
     /// [`AgentFeatures`](crate::features::AgentFeatures).
     pub fn downhill(
         &self,

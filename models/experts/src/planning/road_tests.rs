@@ -1,4 +1,4 @@
-//! Ways by the road and lights on them, on scenes drawn by hand.
+//! Tests of paths by the road and of lights on them, on hand-made scenes.
 
 use super::anchors::{Anchor, PathKind, anchors};
 use super::coordinates::MODES;
@@ -35,7 +35,8 @@ fn straight(from: f64, to: f64, y: f64) -> Vec<Vec2> {
     (0..=n).map(|i| Vec2::new(from + (to - from) * i as f64 / n as f64, y)).collect()
 }
 
-/// Two carriageways with a median between them that has a gap at x = 60, with or without a lane that turns there.
+/// Two carriageways with a median between them that has a gap at x = 60, with or without a turning lane
+/// there.
 fn carriageways(turning: bool) -> LaneMap {
     let edge = |id: &str, from: f64, to: f64, y: f64| TypedLine {
         id: id.into(),
@@ -107,13 +108,13 @@ fn the_way_over_a_median_that_may_be_crossed_comes_first() {
     };
     let (_, broken) = over(&["a0", "a1", "b0", "b1"], false, to(80.0, 12.0, 9.0));
     assert_eq!(broken, [0.0; MODES], "over the median where nothing but that leads there");
-    // Once it may, it need not turn round far ahead.
+    // Once it may cross the edge, it need not turn round far ahead.
     let (by_the_gap, _) = over(&[], true, to(40.0, 12.0, 9.0));
     let (over_it, broken) = over(&["a0", "a1"], true, to(40.0, 12.0, 9.0));
     assert_eq!(by_the_gap[0].kind, PathKind::Route);
     assert!(over_it[0].kind != PathKind::Route && broken[0] < 2.0, "{:?} {broken:?}", over_it[0].kind);
     assert!(over_it[0].path.length_m() < by_the_gap[0].path.length_m());
-    // Another edge does not help.
+    // Permission for another edge does not help.
     let (found, _) = over(&["right"], true, to(40.0, 12.0, 9.0));
     assert_eq!(found[0].kind, PathKind::Route);
 }
@@ -124,7 +125,7 @@ fn a_way_by_the_road_that_takes_too_long_does_not_serve() {
     assert!(broken[0] > 5.0, "{broken:?}");
 }
 
-/// A street with a light at x = 40 that is red until so many steps have passed.
+/// A street with a light at x = 40 that is red until this many steps have passed.
 fn lit(agent: Agent, green: usize) -> Scene {
     let lanes = vec![
         lane("in", straight(-50.0, 40.0, 0.0), &["through"]),
@@ -138,7 +139,8 @@ fn lit(agent: Agent, green: usize) -> Scene {
     Scene { signals: vec![signal], ..Scene::bare("light", map, vec![agent]) }
 }
 
-/// Progress of an anchor's base, or of going on at 10 m/s, that obeys the light; `None` where it does as it would.
+/// Progress of an anchor's base, or of continuing at 10 m/s, that obeys the light; `None` if it obeys it
+/// anyway.
 fn waiting(scene: &Scene) -> Option<Progress> {
     let world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     let who = &world.present[0];

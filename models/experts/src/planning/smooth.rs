@@ -1,10 +1,10 @@
-//! Correlation between the knots of a future: what a network says, all noise and every push pass through it,
+//! Correlation between the knots of a future. Network outputs, noise and gradient steps all pass through it,
 //! so that neighbouring knots move together.
 
 use scene::KNOTS;
 use scene::motion::knot_covariance_factor;
 
-/// Length of the squared-exponential correlation, seconds.
+/// Length scale of the squared-exponential correlation, seconds.
 const LENGTH_S: f64 = 1.5;
 
 /// Lower Cholesky factor of the knots' correlation, `[KNOTS][KNOTS]`; its rows have length 1.

@@ -1,11 +1,11 @@
-//! Stop lines of signals, with what they show in a window.
+//! Stop lines of signals, with their states in a window.
 
 use crate::tuning::fixed::lights::{BAND_SPARE_M, GOES_ON_M, TELLING_M};
 use scene::geometry::cross;
 use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::{HORIZON_STEPS, Signal, SignalState, Vec2};
 
-/// Pieces of the telling length at whose ends a path is compared with a lane.
+/// Number of sections of `TELLING_M` at whose ends a path is compared with a lane.
 const TELLING_PLACES: i32 = 8;
 
 /// Steps of a window as bits, the start first.
@@ -17,13 +17,13 @@ pub struct StopLine {
     at: Pose,
     lane: usize,
     half_width_m: f64,
-    /// The signal's lane goes on behind the line (it leads through the junction); else it ends there.
+    /// The signal's lane continues behind the line, through the junction; otherwise it ends there.
     goes_on: bool,
     /// Steps of the window at which it is red.
     red: Steps,
-    /// Steps at which it is known not to be.
+    /// Steps at which it is known not to be red.
     open: Steps,
-    /// Steps at which the lane has green, or had until a moment ago.
+    /// Steps at which the lane has green, or had it until a moment ago.
     go: Steps,
 }
 
@@ -52,13 +52,13 @@ impl StopLine {
         })
     }
 
-    /// The ground right behind the line, straight on for so many metres: its two ends.
+    /// The ends of a straight segment of this length behind the line.
     pub(super) fn behind(&self, reach_m: f64) -> (Vec2, Vec2) {
         let ahead = self.at.direction();
         (self.at.position - ahead, self.at.position + ahead * reach_m)
     }
 
-    /// Its middle, with the heading of its lane.
+    /// Middle of the line, with the heading of its lane.
     pub(crate) fn at(&self) -> Pose {
         self.at
     }

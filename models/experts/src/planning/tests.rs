@@ -1,4 +1,4 @@
-//! The world at a step and the anchors that it offers, on scenes drawn by hand.
+//! Tests of the world at a step and of its anchors, on hand-made scenes.
 
 use super::anchors::{Anchor, PathKind, anchors};
 use super::coordinates::MODES;
@@ -11,7 +11,8 @@ use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// A road eastwards that forks at x = 50: straight on, or a quarter circle of 20 m to the left, then north.
+/// A road eastwards that forks at x = 50: straight on, or a quarter circle of 20 m radius to the left, then
+/// north.
 fn fork() -> LaneMap {
     let lane = |id: &str, points: Vec<Vec2>, next: &[&str]| Lane {
         speed_limit_mps: Some(14.0),

@@ -1,5 +1,5 @@
-//! Ways through via points: one leg after the other, each planned as a way to a goal, and a progress that is at
-//! each via point at its time.
+//! Paths through via points: one leg after the other, each planned as a path to a goal, and a progress that
+//! is at each via point at its time.
 
 use super::coordinates::MODES;
 use super::profile::{Caps, Progress, TimedLeg, cruising_from, going_on, speed_at};
@@ -10,17 +10,17 @@ use crate::tuning::fixed::through::{FASTER, LEAST_LEG_M, PRESSED, UNHURRIED};
 use scene::motion::{MotionKind, MotionModel, Target};
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
-/// Ways to a via point from which the next leg begins; the last leg has as many as there are slots for.
+/// Paths to a via point from which the next leg begins; the last leg has as many as there are slots.
 const WAYS_ON: usize = 2;
-/// An agent without a goal passes its last via point at least so many steps before the window ends.
+/// Steps before the window's end by which an agent without a goal has passed its last via point.
 const LEFT_STEPS: usize = 10;
 
-/// A way through the via points so far, with how far along it each lies.
+/// A path through the via points so far, with the arc length of each.
 struct Through {
     way: UntimedPath,
-    /// Metres along the way, one each via point.
+    /// Metres along the path, one per via point.
     at_m: Vec<f64>,
-    /// Sum of the ranks of its legs: what comes first is taken first.
+    /// Sum of the ranks of its legs; the lowest sum comes first.
     rank: usize,
     /// Mean speed of its last leg, m/s.
     mean_mps: f64,
@@ -71,7 +71,7 @@ pub(super) fn anchors_through(
     }
 }
 
-/// Anchors of these ways, as many timings of each as it has slots.
+/// Anchors of these paths; each gets as many timings as it has slots.
 fn timed(
     through: Vec<Through>,
     slots: impl IntoIterator<Item = usize>,
@@ -87,7 +87,7 @@ fn timed(
     out
 }
 
-/// Each way so far led on by the ways that are found from where it ends; without any, those from the start. The
+/// Extends each path by the paths that are found from its end; if there are none yet, starts new ones. The
 /// next leg takes `steps`.
 fn lead_on(
     world: &World<'_>,
@@ -122,7 +122,7 @@ fn lead_on(
 }
 
 impl Through {
-    /// The road user where the way so far ends, facing along it.
+    /// The road user at the end of the path so far, facing along it.
     fn end(&self, who: &AgentAtStart) -> AgentAtStart {
         let end = self.way.path.last();
         let velocity = end.direction() * self.mean_mps;
@@ -132,8 +132,8 @@ impl Through {
     }
 }
 
-/// Steps that each leg takes: to the via points, then to the goal where there is one. What is not fixed is shared out
-/// by distance.
+/// Steps of each leg: to the via points, then to the goal if there is one. Free times are shared out by
+/// distance.
 fn leg_steps(who: &AgentAtStart, model: &MotionModel, target: &Target, vias: &[Waypoint]) -> Vec<usize> {
     let mut places: Vec<(Vec2, Option<usize>)> = vias.iter().map(|w| (w.via.position, w.step)).collect();
     places.extend(target.position.map(|goal| (goal, Some(target.step))));
@@ -164,7 +164,7 @@ fn leg_steps(who: &AgentAtStart, model: &MotionModel, target: &Target, vias: &[W
     out
 }
 
-/// Progress that is at the via points with a time at that time, and at the goal when it is due.
+/// Progress that is at each timed via point at its time, and at the goal when it is due.
 fn to_goal(
     world: &World<'_>,
     model: &MotionModel,
@@ -182,8 +182,8 @@ fn to_goal(
     going_on(base, target.step, &Caps::new(found.way.path.arc_m(), &found.way.caps_mps))
 }
 
-/// Progress without a place to end at: at the via points with a time at that time, and past all of them in the
-/// window where the way allows; `share` of how fast one goes there.
+/// Progress without a goal position. It is at each timed via point at its time, and passes all of them in the
+/// window if the path allows. `share` sets its speed between the present one and the limit.
 fn ahead(
     world: &World<'_>,
     model: &MotionModel,
@@ -200,7 +200,7 @@ fn ahead(
     let limit_mps = world.tuning.anchors.over_limit * way.limit_mps.max(v0);
     let mut speed_mps = match target.speed_mps {
         Some(speed_mps) => speed_mps,
-        // As fast as now at the least: a via point is there to be driven through.
+        // At least the present speed: a via point is there to be driven through.
         None => v0.min(limit_mps) + share * (limit_mps - v0).max(0.0),
     };
     let start = paced(model, way, &dated, None, world.tuning.anchors.setting_off_mps2);
@@ -215,12 +215,13 @@ fn ahead(
     base
 }
 
-/// Steps and progress of the via points with a time.
+/// Step and progress of each timed via point.
 fn dated(vias: &[Waypoint], found: &Through) -> Vec<(usize, f64)> {
     vias.iter().zip(&found.at_m).filter_map(|(waypoint, at_m)| Some((waypoint.step?, *at_m))).collect()
 }
 
-/// Progress through these places at these steps, rising; the speed at each is between those before and after it.
+/// Rising progress through these places at these steps; the speed at each lies between those of its
+/// neighbours.
 fn paced(
     model: &MotionModel,
     way: &UntimedPath,

@@ -1,4 +1,4 @@
-//! Ways to a goal position: along lanes where they lead there in time, off them where nothing else does.
+//! Paths to a goal position: along lanes if they lead there in time, off them only if nothing else does.
 
 use super::around::around;
 use super::coordinates::MODES;
@@ -21,7 +21,7 @@ use scene::score::Drivable;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 use std::sync::Arc;
 
-/// Most ways that get anchors.
+/// Most paths that get anchors.
 pub(super) const MOST_WAYS: usize = 3;
 /// The first path to a goal gets more of the slots than the others.
 pub(super) const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
@@ -64,14 +64,14 @@ pub(super) fn anchors_to_goal(
     out
 }
 
-/// Progress of the goal along a path that ends at it (or goes on beyond it).
+/// Progress of the goal along a path that ends at it or continues beyond it.
 pub(super) fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
     let foot = path.project(goal);
     let beyond = (goal - path.last().position).dot(&path.last().direction());
     if foot.s_m >= path.length_m() - 1e-6 && beyond > 0.0 { path.length_m() + beyond } else { foot.s_m }
 }
 
-/// A vehicle or rider on its way to a goal position.
+/// The trip of a vehicle or rider to a goal position.
 struct GoalTrip<'a, 'w> {
     world: &'a World<'w>,
     who: &'a AgentAtStart,
@@ -79,14 +79,14 @@ struct GoalTrip<'a, 'w> {
     target: &'a Target,
     goal: Vec2,
     query: GoalQuery,
-    /// The motion of least effort, and its path.
+    /// The motion of least effort, with its path.
     least: Projection,
     least_path: Polyline,
-    /// Where it may drive.
+    /// Ground on which it may drive.
     ground: Arc<Drivable>,
 }
 
-/// Ways to a goal position, the first the one to take; `goes_on` says whether they lead on along the lanes.
+/// Paths to a goal position, the preferred one first. `goes_on` extends them along the lanes beyond the goal.
 pub(super) fn paths_to_goal(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -109,7 +109,7 @@ pub(super) fn paths_to_goal(
     let pace_mps = (goal - who.start.position()).norm() / (target.step as f64 * STEP_S);
     let query = GoalQuery {
         pose: who.pose(),
-        // An agent with time to spare changes lanes over a shorter way than one that hurries.
+        // An agent with time to spare changes lanes over a shorter distance than one in a hurry.
         speed_mps: 0.5 * (v0 + pace_mps),
         agent_type: who.agent_type,
         goal,
@@ -127,15 +127,15 @@ pub(super) fn paths_to_goal(
 }
 
 impl GoalTrip<'_, '_> {
-    /// Ways as drivers and riders mostly go, whatever the rules say: lane routes, and the smooth way where it is
-    /// as good.
+    /// Paths that drivers and riders usually take, whatever the rules: lane routes, and the smooth path if it
+    /// is as good.
     fn usual(&self) -> Vec<UntimedPath> {
         let Self { world, who, target, .. } = self;
         let routes =
             if world.planning.routes { routes_to_goal(&world.graph, &self.query) } else { Vec::new() };
         let mut out: Vec<UntimedPath> = routes.into_iter().map(|found| self.along(found)).collect();
-        // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the
-        // traffic goes elsewhere.
+        // Riders do not keep to a lane's middle and use pavements. For them the smooth path is enough, unless
+        // a route with the traffic leads elsewhere.
         let tuning = &world.tuning.anchors;
         if who.agent_type == AgentType::Cyclist
             && let Some(mut smooth) = smooth_to(who, self.model, target, self.goal, tuning)
@@ -158,15 +158,16 @@ impl GoalTrip<'_, '_> {
         }
         if out.is_empty() || near || (joined && direct) {
             let route = if near { out.remove(0).route } else { None };
-            // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
+            // Off the lanes, a goal with a heading is approached directly; without a heading the lanes
+            // decide.
             let place = usize::from(joined && !near && target.heading_rad.is_none());
             out.insert(place, UntimedPath { route, ..self.least_effort() });
         }
         out
     }
 
-    /// The motion of least effort leads over an edge that this road user was allowed to cross, and no other: that is
-    /// why it was allowed.
+    /// Whether the motion of least effort crosses an edge that this road user may cross, and no other: it was
+    /// permitted for this.
     fn takes_what_is_allowed(&self) -> bool {
         let crosses = |ground: &Drivable| {
             let path = self.least_path.points();
@@ -180,7 +181,7 @@ impl GoalTrip<'_, '_> {
         let GoalQuery { pose, agent_type, .. } = self.query;
         let v0 = self.model.start_speed_mps();
         let pace_mps = found.route.path.length_m() / (self.target.step as f64 * STEP_S);
-        // Where the speed changes evenly, the last half of the way is driven at this speed.
+        // If the speed changes at a constant rate, this is the mean speed over the last half of the path.
         let speed_mps = self.target.speed_mps.unwrap_or((1.5 * pace_mps - 0.5 * v0).max(0.0));
         let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad, speed_mps };
         let path = base_path(&found.route.path, pose, v0, agent_type, Some(end));
@@ -196,8 +197,8 @@ impl GoalTrip<'_, '_> {
         UntimedPath::new(path, LATERAL_MPS2, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
     }
 
-    /// The paths that keep to the rules and arrive in time, in their order. Without any, further paths are
-    /// searched, and those that break the rules least serve; a detour must be worth its length.
+    /// The paths that keep to the rules and arrive in time, in order. If there are none, more paths are
+    /// searched, and those that break the rules least are used; a detour must be worth its length.
     fn by_the_road(&self, ways: Vec<UntimedPath>) -> Vec<UntimedPath> {
         let tuning = &self.world.tuning.anchors;
         let fine = |cost: f64| cost <= tuning.broken_m;
@@ -227,14 +228,14 @@ impl GoalTrip<'_, '_> {
         judged.into_iter().filter(|(cost, _)| *cost <= bound).map(|(_, way)| way).collect()
     }
 
-    /// Metres on which a way breaks the rules, and much more where it does not arrive in time.
+    /// Metres on which a path breaks the rules, with a large penalty if it does not arrive in time.
     fn cost(&self, way: &UntimedPath) -> f64 {
         let length_m = goal_progress(&way.path, self.goal);
         let late = if self.arrives(way, length_m) { 0.0 } else { LATE_M };
         late + broken_m(&self.ground, self.who, &way.path, length_m)
     }
 
-    /// The goal can be reached in time along a way, within the limits.
+    /// Whether the goal can be reached in time along a path, within the limits.
     fn arrives(&self, way: &UntimedPath, length_m: f64) -> bool {
         if way.kind == PathKind::LeastEffort {
             return self.least.reach.is_reached();
@@ -247,7 +248,7 @@ impl GoalTrip<'_, '_> {
         soon >= length_m - ARRIVING_M && late <= length_m + ARRIVING_M
     }
 
-    /// A way to a goal that is due before the window ends goes on along the lanes from there, where it is on one.
+    /// Extends a path to a goal that is due before the window ends along the lanes, if the goal is on one.
     fn go_on(&self, way: &mut UntimedPath) {
         let Self { world, who, target, model, .. } = self;
         if !world.planning.routes || way.path.length_m() < 1.0 {
@@ -266,7 +267,7 @@ impl GoalTrip<'_, '_> {
         way.extend(&base_path(&route.path, end, speed_mps, who.agent_type, None), limit_mps);
     }
 
-    /// How far drivers get in the time at an easy pace, metres.
+    /// Distance that a driver covers in the time at an easy pace, metres.
     fn drivable_m(&self) -> f64 {
         let AnchorTuning { easy_mps, setting_off_mps2, .. } = self.world.tuning.anchors;
         let caps = Caps::new(&[0.0], &[f64::INFINITY]);
@@ -274,8 +275,8 @@ impl GoalTrip<'_, '_> {
     }
 }
 
-/// On foot, a spline under tension: it leaves as the person walks now and arrives as the goal asks. Where that
-/// would wind, or there is hardly a way to go, the straight line.
+/// On foot, a spline under tension: it leaves in the present direction of walking and arrives as the goal
+/// asks. If that would wind, or the path is very short, the straight line.
 fn walk_to(
     who: &AgentAtStart,
     model: &MotionModel,
@@ -297,7 +298,7 @@ fn walk_to(
     UntimedPath::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
 }
 
-/// The spline under tension to the goal, as a path with its pace; `None` where it would wind or hardly move.
+/// The spline under tension to the goal, as a path with its pace; `None` if it would wind or hardly move.
 fn smooth_to(
     who: &AgentAtStart,
     model: &MotionModel,
@@ -325,12 +326,12 @@ fn smooth_to(
     Some(UntimedPath { pace: Some(pace), ..candidate })
 }
 
-/// Whether a way of this length to the goal does not wind.
+/// Whether a path of this length to the goal does not wind.
 fn is_direct(length_m: f64, who: &AgentAtStart, goal: Vec2) -> bool {
     length_m < DIRECT.0 * (goal - who.start.position()).norm() + DIRECT.1
 }
 
-/// A path long enough to have a direction: very short ones go on along the start heading.
+/// A path long enough to have a direction: very short ones are extended along the start heading.
 fn with_tail(path: Polyline, who: &AgentAtStart) -> Polyline {
     if path.length_m() > 1.0 {
         return path;

@@ -1,4 +1,4 @@
-//! Ways: paths that an agent may take, before and after they have a timing.
+//! Paths that an agent may take, before and after they have a timing.
 
 use super::coordinates::MODES;
 use super::profile::{Caps, Progress, TimedLeg};
@@ -19,13 +19,13 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 /// The kind of path that an anchor follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathKind {
-    /// Lanes all the way.
+    /// Along lanes all the way.
     Route,
     /// By a curve onto or off the lanes.
     Joined,
     /// The motion of least effort to the goal: projected for vehicles, a spline under tension for people and riders.
     LeastEffort,
-    /// Straight on: no lane is known.
+    /// Straight on, because no lane is known.
     Straight,
 }
 
@@ -34,26 +34,27 @@ pub enum PathKind {
 pub struct Anchor {
     /// Path of the box centre, scene frame; begins at the start position.
     pub path: Polyline,
-    /// Base progress along it.
+    /// Base progress along the path.
     pub base: Progress,
     /// Speed caps at the path's points, m/s.
     pub caps_mps: Vec<f64>,
     /// Where the path came from.
     pub kind: PathKind,
-    /// Route behind it, if any.
+    /// Route that the path follows, if any.
     pub route: Option<Route>,
-    /// Names the path across small changes of the goal, so that modes keep their place while dragging.
+    /// Identifies the path across small changes of the goal, so that modes keep their slot while the user
+    /// drags.
     pub identity: u64,
-    /// Which timing of its path this is, and of how many.
+    /// Index of this timing among those of its path, and their number.
     pub timing: (usize, usize),
     /// Metres along the path at which it passes each via point of the window.
     pub passes_m: Vec<f64>,
 }
 
-/// Names of timings on one path; more than there are modes.
+/// Multiplier of path identities; larger than the number of modes.
 const TIMINGS: u64 = 8;
 
-/// Slots of each path when there are 1 to 6 of them.
+/// Number of slots per path, for 1 to 6 paths.
 pub(super) const SLOTS: [[usize; MODES]; MODES] = [
     [6, 0, 0, 0, 0, 0],
     [3, 3, 0, 0, 0, 0],
@@ -63,19 +64,19 @@ pub(super) const SLOTS: [[usize; MODES]; MODES] = [
     [1, 1, 1, 1, 1, 1],
 ];
 
-/// A path before it has timings.
+/// A path without timings.
 pub(super) struct UntimedPath {
     pub(super) path: Polyline,
     pub(super) caps_mps: Vec<f64>,
     /// Curvature at the path's points, 1/m.
     pub(super) curvatures_per_m: Vec<f64>,
-    /// Speed limits at the path's points with what is usual over them, m/s.
+    /// Speed limits at the path's points, including usual speeding, m/s.
     pub(super) limits_mps: Vec<f64>,
     pub(super) limit_mps: f64,
     pub(super) kind: PathKind,
     pub(super) route: Option<Route>,
     pub(super) identity: u64,
-    /// Base progress that comes with the path.
+    /// Base progress that belongs to the path.
     pub(super) pace: Option<Progress>,
 }
 
@@ -121,7 +122,8 @@ pub(super) fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionM
 fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &AnchorTuning) -> UntimedPath {
     let start = who.start.position();
     let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
-    // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
+    // A walker's velocity sways, so its heading predicts its direction better, unless it clearly moves
+    // elsewhere.
     let aside = model.kind == MotionKind::Walk
         && velocity.norm() > SWAYING_MPS
         && velocity.dot(&faces) < 0.5 * velocity.norm();
@@ -131,7 +133,7 @@ fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &An
     UntimedPath::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3, tuning)
 }
 
-/// An arc that turns by `bend` radians over the length.
+/// An arc that turns by `bend` radians over its length.
 fn bent(
     who: &AgentAtStart,
     model: &MotionModel,
@@ -161,7 +163,7 @@ fn bent(
     )
 }
 
-/// Length of the path of a walker, metres: farther than it gets in a window.
+/// Length of a walker's path, metres: longer than it walks in a window.
 fn walked_m(v0: f64) -> f64 {
     HORIZON_STEPS as f64 * STEP_S * v0.max(LEAST_MPS) * LONGER.0 + LONGER.1
 }
@@ -192,7 +194,7 @@ impl UntimedPath {
                 .iter()
                 .map(|s| {
                     let i = (*s as usize).min(route.limits_mps.len().saturating_sub(1));
-                    // Many drive faster than the sign says.
+                    // Many drive faster than the posted limit.
                     route.limits_mps.get(i).map_or(limit_mps, |l| over_limit * l)
                 })
                 .collect(),
@@ -208,7 +210,7 @@ impl UntimedPath {
         Self { path, caps_mps, curvatures_per_m, limits_mps, limit_mps, kind, route, identity, pace: None }
     }
 
-    /// Goes on along another path, which begins where this one ends, at ease and no faster than `limit_mps`.
+    /// Extends the path by another one that begins at its end, at an easy pace of at most `limit_mps`.
     pub(super) fn extend(&mut self, onward: &Polyline, limit_mps: f64) {
         let curvatures = speed::curvatures_per_m(onward);
         let rules = SpeedRules::default();
@@ -220,7 +222,7 @@ impl UntimedPath {
         self.path = Polyline::new(points.copied());
     }
 
-    /// This way and a further one, which begins where this one ends.
+    /// This path followed by another, which begins where this one ends.
     pub(super) fn followed_by(&self, leg: &Self) -> Self {
         let points = self.path.points().iter().chain(leg.path.points().iter().skip(1));
         let kind = if self.kind == leg.kind { self.kind } else { PathKind::Joined };
@@ -237,7 +239,7 @@ impl UntimedPath {
         }
     }
 
-    /// Progress over a leg of this way, as comfortable as its time allows.
+    /// Progress over a leg of this path, as comfortable as its time allows.
     pub(super) fn arriving(&self, leg: &TimedLeg, limits: &Limits) -> Progress {
         let manners = HURRY.map(|share| {
             let manner = limits.comfortable.towards(limits.hurried, share);
@@ -265,12 +267,12 @@ impl UntimedPath {
     }
 }
 
-/// Values at the points of a way and of the leg that follows it, whose first point is the way's last.
+/// Values at the points of a path and of the leg that follows it, whose first point is the path's last.
 fn joined(way: &[f64], leg: &[f64]) -> Vec<f64> {
     way.iter().chain(leg.iter().skip(1)).copied().collect()
 }
 
-/// Lanes of a route folded into one number.
+/// Hash of the lanes of a route.
 pub(super) fn identity_of(route: &Route) -> u64 {
     route.legs.iter().fold(17, |h: u64, leg| h.wrapping_mul(1_000_003).wrapping_add(leg.lane as u64 + 11))
 }
@@ -306,12 +308,12 @@ impl Anchor {
         (foot.s_m, foot.lateral_m)
     }
 
-    /// Identifies the path without its timing.
+    /// Identity of the path without its timing.
     pub fn path_identity(&self) -> u64 {
         self.identity / TIMINGS
     }
 
-    /// Progress, base speed and the like at a step.
+    /// Base progress at a step.
     pub fn base_at(&self, step: usize) -> f64 {
         self.base[step.min(HORIZON_STEPS)]
     }

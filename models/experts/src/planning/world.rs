@@ -12,14 +12,14 @@ use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// How the futures of one road user are planned. An evaluation leaves parts out to see what they bring; users
-/// get all.
+/// How the futures of a road user are planned. An evaluation switches parts off to measure their effect;
+/// users get all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Planning {
-    /// Anchors follow lanes; otherwise they are those of a road user with no lane near.
+    /// Anchors follow lanes; otherwise every road user is planned as if no lane were near.
     pub routes: bool,
-    /// Projects motions onto the goal. Otherwise only the limits are enforced, and the goal is no more than
-    /// an input of the networks.
+    /// Projects motions onto the goal. Otherwise only the limits are enforced, and the goal is only an input
+    /// of the networks.
     pub projection: bool,
 }
 
@@ -42,16 +42,17 @@ pub struct AgentAtStart {
     pub start: State,
 }
 
-/// A via point as a window has it.
+/// A via point as a window sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waypoint {
-    /// As the user fixed it, its time counted from the window's start and free where it lies beyond the window.
+    /// As the user fixed it, with its time counted from the window's start. The time is free if it lies
+    /// beyond the window.
     pub via: Via,
-    /// Step of the window at which it is passed, where that is fixed: 1 ..= [`HORIZON_STEPS`].
+    /// Step of the window at which it is passed, if that is fixed: 1 ..= [`HORIZON_STEPS`].
     pub step: Option<usize>,
 }
 
-/// A scene that is borrowed for as long as a world lives, or shared with it.
+/// A scene that is borrowed or shared.
 #[derive(Clone, Debug)]
 pub enum SceneHandle<'a> {
     /// Borrowed.
@@ -89,8 +90,8 @@ impl From<Arc<Scene>> for SceneHandle<'_> {
     }
 }
 
-/// A scene at one step. Nothing later than this step enters, except the user's conditions and later signal
-/// states. The networks do not see those signal states; they only make agents wait at red lights.
+/// A scene at one step. It contains nothing later than this step, except the user's conditions and later
+/// signal states. The networks do not see those signal states; they only make agents wait at red lights.
 pub struct World<'a> {
     /// The scene.
     pub scene: SceneHandle<'a>,
@@ -100,16 +101,16 @@ pub struct World<'a> {
     pub step: usize,
     /// Road users present at the start, by id.
     pub present: Vec<AgentAtStart>,
-    /// The conditions in this window, one entry an agent of the scene. They may differ from the scene's, as
-    /// for a subgoal.
+    /// The conditions in this window, one per agent of the scene. They may differ from the scene's, for
+    /// example by a subgoal.
     pub conditions: Vec<Conditions>,
     /// Signals of lanes in the graph.
     pub signals: Vec<LaneSignal>,
     /// Seconds each signal has been in its state.
     pub signal_ages_s: Vec<f64>,
-    /// Stop lines of all signals of lanes, with what they will show in this window.
+    /// Stop lines of all lane signals, with their states in this window.
     pub stop_lines: Vec<StopLine>,
-    /// How its road users' futures are planned.
+    /// How futures are planned.
     pub planning: Planning,
     /// The tuned numbers of planning.
     pub tuning: &'a Tuning,
@@ -123,7 +124,7 @@ impl<'a> World<'a> {
         Self::with_conditions(scene, graph, step, conditions)
     }
 
-    /// The scene at `step` under other conditions than its own, one entry an agent.
+    /// The scene at `step` with other conditions than its own, one per agent.
     pub fn with_conditions(
         scene: impl Into<SceneHandle<'a>>,
         graph: Arc<LaneGraph>,
@@ -162,12 +163,12 @@ impl<'a> World<'a> {
         MotionModel::new(present.agent_type, subtype, present.size, present.start)
     }
 
-    /// Asks something else of a road user in this window. Nothing that is worked out so far depends on goals.
+    /// Replaces a road user's goal in this window. Nothing computed so far depends on goals.
     pub fn aim(&mut self, agent: usize, goal: Goal) {
         self.conditions[agent].goal = goal;
     }
 
-    /// Asks a road user to pass these places in this window.
+    /// Replaces a road user's via points in this window.
     pub fn lead(&mut self, agent: usize, via: Vec<Via>) {
         self.conditions[agent].via = via;
     }
@@ -205,14 +206,14 @@ impl<'a> World<'a> {
         }
     }
 
-    /// All others as obstacles of a route.
+    /// All road users but this one as obstacles of a route.
     pub fn obstacles(&self, but: usize) -> Vec<Obstacle> {
         self.present.iter().filter(|p| p.index != but).map(AgentAtStart::obstacle).collect()
     }
 }
 
 impl AgentAtStart {
-    /// The road user at `step` with its conditions applied; `None` when nothing says where it is.
+    /// The road user at `step` with its conditions applied; `None` if its place is unknown.
     pub fn at(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<Self> {
         let logged = agent.state_at(step);
         let fixed = &conditions.start;
@@ -220,7 +221,7 @@ impl AgentAtStart {
         let heading_rad = fixed.heading_rad.or(logged.map(|s| s.heading_rad)).unwrap_or(0.0);
         let velocity = match (fixed.speed_mps, logged) {
             (Some(speed), _) => scene::geometry::direction(heading_rad) * speed,
-            // A turned start takes its speed with it.
+            // The speed turns with a turned start.
             (None, Some(s)) if fixed.heading_rad.is_some() => {
                 scene::geometry::direction(heading_rad) * s.speed_mps()
             }

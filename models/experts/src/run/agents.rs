@@ -1,4 +1,5 @@
-//! The road users of a run: those to come, those that are there with the plan that they drive, and those that have left.
+//! The road users of a run: those that enter later, those that are present with the plan that they drive, and
+//! those that have left.
 
 use crate::generator::{extend_along_road, state_between};
 use crate::tuning::fixed::run::{BRAKES_FOR_S, BRAKES_MPS2};
@@ -6,59 +7,59 @@ use scene::geometry::direction;
 use scene::routes::LaneGraph;
 use scene::{AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
-/// Milliseconds of a step of a plan.
+/// Duration of a step of a plan, milliseconds.
 pub(super) const PLAN_STEP_MS: u64 = 100;
-/// States of a plan that is looked at: the present and nine seconds.
+/// Number of states of a plan that the generator reads: the present and nine seconds.
 pub(super) const LOOKED_AT: usize = HORIZON_STEPS + 1;
-/// A plan is carried on by so many states more than are looked at, so that it is not needed at each step.
+/// Number of states by which an extended plan exceeds that, so that it is not extended at each step.
 const SPARE: usize = 20;
-/// A road user that has not planned yet.
+/// Value of `planned_ms` for a road user that has not planned yet.
 pub(super) const NEVER_PLANNED: i64 = i64::MIN;
 
 /// One road user of the scene in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RunAgent {
     pub(super) presence: Presence,
-    /// Via points that it has passed.
+    /// Number of via points that it has passed.
     pub(super) vias_passed: usize,
 }
 
-/// Whether a road user is there, and what it does.
+/// Whether a road user is present, and who drives it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Presence {
-    /// It comes in later.
+    /// It enters later.
     Coming,
     /// The run drives it.
     Driven(DrivenPlan),
-    /// The caller prescribes it.
+    /// The caller drives it.
     Ego(EgoMotion),
-    /// It has left, and does not come again.
+    /// It has left and does not return.
     Gone,
 }
 
 /// The motion that a road user drives.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DrivenPlan {
-    /// Milliseconds of the run at the first state.
+    /// Time of the run at the first state, milliseconds.
     pub(super) from_ms: u64,
-    /// Each 0.1 s after the one before.
+    /// States 0.1 s apart.
     pub(super) states: Vec<State>,
-    /// Milliseconds of the run at which it planned last; [`NEVER_PLANNED`] at first.
+    /// Time of the run of its last plan, milliseconds; [`NEVER_PLANNED`] at first.
     pub(super) planned_ms: i64,
 }
 
-/// What is known of an ego.
+/// The known motion of an ego.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct EgoMotion {
     pub(super) state: State,
-    /// Announced states from 0.1 s after the present on.
+    /// Announced states, from 0.1 s after the present on.
     pub(super) plan: Vec<State>,
     /// Braking in the last step, m/s2.
     pub(super) brakes_mps2: f64,
 }
 
 impl Presence {
-    /// The state at this time of the run; `None` where the road user is absent.
+    /// The state at this time of the run; `None` if the road user is absent.
     pub(super) fn state(&self, now_ms: u64) -> Option<State> {
         match self {
             Self::Coming | Self::Gone => None,
@@ -69,12 +70,12 @@ impl Presence {
 }
 
 impl DrivenPlan {
-    /// Of a road user that has planned nothing yet.
+    /// The plan of a road user that has not planned yet.
     pub(super) fn fresh(now_ms: u64, state: State) -> Self {
         Self { from_ms: now_ms, states: vec![state], planned_ms: NEVER_PLANNED }
     }
 
-    /// The state at a time of the run, not before the first; the last one after the plan's end.
+    /// The state at a time of the run, clamped to the plan's first and last state.
     pub(super) fn at(&self, now_ms: u64) -> State {
         let past_ms = now_ms.saturating_sub(self.from_ms);
         let i = (past_ms / PLAN_STEP_MS) as usize;
@@ -84,13 +85,14 @@ impl DrivenPlan {
         if share == 0.0 { at(i) } else { state_between(&at(i), &at(i + 1), share) }
     }
 
-    /// Forgets what is past, and carries the plan on along the road where it ends within what is looked at.
+    /// Drops past states, and extends the plan along the road if it ends within the states that the generator
+    /// reads.
     pub(super) fn carry_on(&mut self, now_ms: u64, graph: &LaneGraph, agent_type: AgentType) {
         let past = (now_ms.saturating_sub(self.from_ms) / PLAN_STEP_MS) as usize;
         let past = past.min(self.states.len().saturating_sub(1));
         self.states.drain(..past);
         self.from_ms += past as u64 * PLAN_STEP_MS;
-        // One more for a present between two states.
+        // One state more, because the present may lie between two states.
         if self.states.len() <= LOOKED_AT {
             let count = LOOKED_AT + 1 + SPARE;
             if self.states.len() == 1 {
@@ -110,8 +112,8 @@ impl DrivenPlan {
 }
 
 impl EgoMotion {
-    /// What the others expect of it: the states at 0, 0.1 .. 9 s from now on. That is its plan, and the way along the
-    /// road after it.
+    /// What the others expect of it: states at 0, 0.1 .. 9 s from now on. They follow its announced plan,
+    /// then the road.
     pub(super) fn expected(&self, graph: &LaneGraph, agent_type: AgentType) -> Vec<State> {
         if self.plan.is_empty() {
             let even = along_road(&self.state, LOOKED_AT, graph, agent_type);
@@ -126,7 +128,8 @@ impl EgoMotion {
         states
     }
 
-    /// The same way while it goes on braking for a while.
+    /// The states `even` of a constant speed, slowed down: the ego is expected to go on braking for
+    /// `BRAKES_FOR_S`.
     fn braking(&self, even: &[State]) -> Vec<State> {
         let speed_mps = self.state.speed_mps();
         if speed_mps < STANDING_MPS {
@@ -150,7 +153,7 @@ impl EgoMotion {
     }
 }
 
-/// The way on from a state at its speed: along the road, on foot and away from roads straight on.
+/// States from a state on at its speed: along the road, or straight on for walkers and away from roads.
 fn along_road(first: &State, count: usize, graph: &LaneGraph, agent_type: AgentType) -> Vec<State> {
     let speed_mps = first.speed_mps();
     if speed_mps < STANDING_MPS {
@@ -165,7 +168,7 @@ fn along_road(first: &State, count: usize, graph: &LaneGraph, agent_type: AgentT
     if agent_type != AgentType::Pedestrian && ahead_mps > 0.0 {
         let mut states = vec![*first];
         extend_along_road(&mut states, &[Some(*first)], graph, agent_type, count);
-        // Without a road there is no way to go along.
+        // Without a road there is no path to follow.
         let moves = |s: &State| (s.position() - first.position()).norm() > 0.5 * speed_mps * STEP_S;
         if states.get(1).is_some_and(moves) {
             return states;
@@ -211,7 +214,7 @@ mod tests {
         assert!((silent.expected(&graph, Vehicle)[90].x_m - 100.0).abs() < 0.1);
         let brakes = EgoMotion { brakes_mps2: 4.0, ..silent.clone() };
         let expected = brakes.expected(&graph, Vehicle);
-        // 10 m/s, 1.5 s at 4 m/s2, then 4 m/s.
+        // 10 m/s, then 1.5 s of braking at 4 m/s2, then 4 m/s.
         assert!((expected[15].x_m - 20.5).abs() < 0.1, "{:?}", expected[15]);
         assert!((expected[90].speed_mps() - 4.0).abs() < 1e-6);
         let halts = State { x_m: 11.0, ..State::default() };

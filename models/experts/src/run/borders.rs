@@ -1,4 +1,4 @@
-//! Who comes in, and who leaves.
+//! Which road users enter and leave.
 
 use crate::tuning::fixed::run::{ARRIVED_M, ENTRY_GAP_M, ENTRY_HEADWAY_S, OFF_MAP_M, OUTSIDE_M};
 use scene::geometry::Extent;
@@ -11,7 +11,7 @@ use scene::{Agent, AgentType, STEP_S, Size, State};
 pub enum DepartureReason {
     /// The roads of the map end there.
     LeftTheMap,
-    /// It is where its goal is.
+    /// It has reached its goal.
     Arrived,
 }
 
@@ -38,8 +38,8 @@ pub(super) fn departure(
     (outside || off).then_some(DepartureReason::LeftTheMap)
 }
 
-/// There is room for a road user to come in with this state among those that are there: none is nearer than a gap, or
-/// would be there in a moment at the speed by which it is faster.
+/// Whether a road user can enter with this state among those present. None may be within a gap, or get there
+/// in a moment at their closing speed.
 pub(super) fn has_room(state: &State, size: &Size, there: &[(State, Size)]) -> bool {
     let own = OrientedBox::of_state(state, size);
     let ahead = own.forward();
@@ -66,7 +66,7 @@ mod tests {
         let at = |x_m: f64, vx_mps: f64| State { x_m, vx_mps, ..State::default() };
         let room = |other: State| has_room(&at(0.0, 10.0), &size, &[(other, size)]);
         assert!(!room(at(6.0, 10.0)) && room(at(8.0, 10.0)));
-        // One that stands 15 m ahead, and one that comes up from behind.
+        // One that stands 15 m ahead, and one that approaches from behind.
         assert!(!room(at(15.0, 0.0)) && room(at(25.0, 0.0)));
         assert!(!room(at(-15.0, 20.0)) && room(at(-15.0, 10.0)));
         assert!(room(State { y_m: 3.5, ..at(2.0, 10.0) }), "the lane beside");

@@ -1,4 +1,4 @@
-//! What a caller asks of a run: to begin, to make a step, to say what would be.
+//! The operations of a run: begin, step, and peek.
 
 use super::agents::{DrivenPlan, EgoMotion, Presence, RunAgent};
 use super::error::RunError;
@@ -13,10 +13,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl Run {
-    /// Begins a run: every road user that is there plans for the first time.
+    /// Begins a run: every present road user plans for the first time.
     ///
     /// # Errors
-    /// Settings out of range, egos that are unknown, absent at the start or named twice, and the generator's.
+    /// Settings out of range, egos that are unknown, absent at the start or named twice, and the generator's
+    /// errors.
     pub fn new(
         scene: Arc<Scene>,
         egos: &[AgentId],
@@ -45,11 +46,11 @@ impl Run {
         Ok(run)
     }
 
-    /// One step: the egos are where this says, the others go on, and answer to what they see then.
+    /// Makes one step: the egos are at the given states, the others follow their plans and react.
     ///
     /// # Errors
-    /// States that are missing, not asked for or no states, a run that is over, and the generator's. The run stays as
-    /// it was then.
+    /// States that are missing, superfluous or invalid, a run that is over, and the generator's errors. The
+    /// run is then unchanged.
     pub fn step(
         &mut self,
         generator: &Generator,
@@ -63,8 +64,9 @@ impl Run {
         Ok(step)
     }
 
-    /// What the others would do if egos drove these plans from where they are: states 0.1 s apart, the first 0.1 s after
-    /// the present. An ego that is left out does what it has announced. The run does not change.
+    /// What the others would do if egos drove these plans from their present places. A plan is states 0.1 s
+    /// apart, the first 0.1 s after the present. An ego that is left out follows its announced plan. The run
+    /// does not change.
     ///
     /// # Errors
     /// As [`Run::step`].
@@ -106,7 +108,7 @@ fn present_at(scene: &Scene, agent: usize, start_step: usize) -> Presence {
     let own = &scene.agents[agent];
     match AgentAtStart::at(agent, own, &own.conditions, start_step) {
         Some(there) if own.kind() == AgentType::Other => {
-            // What is shown and never planned does what is recorded.
+            // A road user that is shown but never planned follows its recording.
             let recorded = (start_step + 1..).map_while(|step| own.track.at(step).copied());
             let states = std::iter::once(there.start).chain(recorded).collect();
             Presence::Driven(DrivenPlan { states, ..DrivenPlan::fresh(0, there.start) })

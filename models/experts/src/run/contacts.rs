@@ -1,4 +1,4 @@
-//! The faults of one step: boxes that have met, and corners that have left the road.
+//! The faults of one step: boxes that begin to overlap, and corners that leave the road.
 
 use crate::tuning::fixed::run::PAST_EDGE_M;
 use scene::geometry::obb::{OrientedBox, overlaps};
@@ -9,13 +9,13 @@ use scene::{AgentId, AgentType, Size, State, Vec2};
 /// A fault and the road user whose it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFault {
-    /// Of a collision the one that drove into the other: the one whose own velocity closes the gap more.
+    /// In a collision, the one that drove into the other: its own velocity closes the gap more.
     pub agent: AgentId,
-    /// What, when and where.
+    /// The fault, with time and place.
     pub fault: Fault,
 }
 
-/// A road user at the end of a step, and at its beginning where it was there.
+/// A road user at the end of a step, and at its beginning if it was present then.
 pub(super) struct Stepped<'a> {
     pub(super) id: &'a AgentId,
     pub(super) agent_type: AgentType,
@@ -30,7 +30,7 @@ impl Stepped<'_> {
     }
 }
 
-/// What goes wrong in a step that ends at this scene time and did not before.
+/// Faults that begin in a step that ends at this scene time.
 pub(super) fn faults(stepped: &[Stepped<'_>], time_s: f64, graph: &LaneGraph) -> Vec<RunFault> {
     let boxes: Vec<OrientedBox> = stepped.iter().map(|s| s.outline(&s.now)).collect();
     let mut found = Vec::new();

@@ -1,37 +1,37 @@
-//! Why a run refuses something.
+//! Errors of a run.
 
 use crate::request::GenerateError;
 use scene::AgentId;
 
-/// Why bytes are no snapshot of a run.
+/// Why bytes are not a snapshot of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SnapshotError {
-    /// They begin otherwise.
+    /// They begin with other bytes than a snapshot does.
     #[error("these bytes are no snapshot of a run")]
     NoSnapshot,
-    /// A version of the form that this program does not read.
+    /// A version of the format that this program does not read.
     #[error("a snapshot of version {0}; this program reads version 1")]
     Version(u8),
-    /// It was taken in a scene with another map, other signals or other road users.
+    /// The snapshot belongs to a scene with another map, other signals or other road users.
     #[error("the snapshot was taken in another scene")]
     OtherScene,
     /// They end too early.
     #[error("the snapshot ends at byte {0}, within a value")]
     Ends(usize),
-    /// Bytes that are left over.
+    /// Bytes that follow the end of the snapshot.
     #[error("the snapshot goes on after its end at byte {0}")]
     GoesOn(usize),
     /// A value that no run has.
     #[error("byte {at}: {what} that no run has")]
     Value {
-        /// Byte at which it begins.
+        /// Byte offset of the value.
         at: usize,
-        /// What it would be.
+        /// What the value stands for.
         what: &'static str,
     },
 }
 
-/// Why a run cannot begin or go on.
+/// Why a run cannot begin or continue.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// No road user has this id.
@@ -46,20 +46,20 @@ pub enum RunError {
     /// A step without the state of an ego.
     #[error("the step has no state of ego \"{0}\"")]
     EgoMissing(AgentId),
-    /// A state of a road user that the run drives itself.
+    /// A state of a road user that the run itself drives.
     #[error("road user \"{0}\" is no ego of this run")]
     NotAnEgo(AgentId),
-    /// A number that is not finite or that no road user has.
+    /// A number that is not finite, or outside the range of road users.
     #[error(
         "state {at} of ego \"{agent}\": coordinates within 10,000 m, speeds within 100 m/s, a heading within a turn"
     )]
     NoState {
         /// The ego.
         agent: AgentId,
-        /// 0 for the state itself, from 1 on those of the plan.
+        /// 0 for the state itself, from 1 on for the states of the plan.
         at: usize,
     },
-    /// An announced plan of more than the states that an ego may announce.
+    /// An announced plan with too many states.
     #[error("the plan of ego \"{agent}\" has {found} states; at most {most}")]
     PlanTooLong {
         /// The ego.
@@ -69,7 +69,7 @@ pub enum RunError {
         /// Allowed.
         most: usize,
     },
-    /// A setting out of its range.
+    /// A setting outside its range.
     #[error("{what} is {got}; {least} to {most} expected")]
     OutOfRange {
         /// The setting.
@@ -81,13 +81,13 @@ pub enum RunError {
         /// Given.
         got: usize,
     },
-    /// The run has lasted an hour, the most that a run may last.
+    /// The run has lasted an hour, the longest duration of a run.
     #[error("the run has made {most} steps, the most that it may make")]
     Over {
-        /// Steps.
+        /// Number of steps.
         most: u64,
     },
-    /// Bytes that are no snapshot of a run of this scene.
+    /// Bytes that are not a snapshot of a run of this scene.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
     /// The generator failed.

@@ -1,9 +1,9 @@
-//! A run: traffic that is stepped, beside road users that somebody else drives.
+//! A run: stepped traffic around road users that the caller drives.
 //!
-//! The caller prescribes some road users, the *egos*: it says at each step where they are, and may announce where they
-//! go. The run drives all others. They know what has happened and what egos announce, and nothing else. Each holds a
-//! plan of nine seconds, drives it, and plans anew at an interval. In between it answers at once, by another pace on
-//! its own path, when a changed motion of another would meet its own.
+//! The caller drives some road users, the *egos*: at each step it gives their states, and it may announce
+//! their plans. The run drives all others. They know what has happened and what egos announce, and nothing
+//! else. Each follows a plan of nine seconds and plans anew at an interval. In between, when a changed motion
+//! of another would meet its own, it reacts at once by changing its pace on its path.
 //!
 //! A run is a value: it has no thread, clock or file. Its state is a [snapshot](Run::snapshot) of bytes.
 //!
@@ -12,7 +12,7 @@
 //! use scene::map::{Lane, LaneMap};
 //! use scene::{Agent, AgentType, Scene, State, Subtype, Vec2};
 //!
-//! // Two cars on a straight lane; the front one is the caller's.
+//! // Two cars on a straight lane; the caller drives the front one.
 //! let lane = Lane::street("east", vec![Vec2::new(0.0, 0.0), Vec2::new(400.0, 0.0)]);
 //! let at = |x_m: f64| State { x_m, vx_mps: 10.0, ..State::default() };
 //! let car = |id: &str, x_m: f64| Agent::bare(id, AgentType::Vehicle, Subtype::Car, vec![Some(at(x_m))]);
@@ -22,7 +22,7 @@
 //! let engine = Engine::built_in()?.generator;
 //! let egos = ["mine".to_owned()];
 //! let mut run = Run::new(scene.into(), &egos, RunSettings::default(), &engine, &Cancel::default())?;
-//! // Mine brakes by 4 m/s2 and says nothing.
+//! // "mine" brakes at 4 m/s2 and announces nothing.
 //! for i in 1..=20 {
 //!     let t = 0.1 * f64::from(i);
 //!     let mine = State { x_m: 60.0 + 10.0 * t - 2.0 * t * t, vx_mps: 10.0 - 4.0 * t, ..State::default() };

@@ -1,4 +1,4 @@
-//! One moment of a run as a call of the generator: what everybody is known to do, and who plans anew.
+//! One moment of a run as a call of the generator: everyone's known motion, and who plans anew.
 
 use super::agents::{NEVER_PLANNED, PLAN_STEP_MS, Presence};
 use super::state::Run;
@@ -13,15 +13,16 @@ use scene::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A scene of what is there at present, and what each does without a change.
+/// A scene of the road users at present, each with its motion if nothing changes.
 pub(super) struct RunMoment {
     scene: Arc<Scene>,
-    /// The road users that may react, by id.
+    /// Ids of the road users that may react.
     others: BTreeSet<AgentId>,
 }
 
 impl RunMoment {
-    /// Of a run in which every plan reaches far enough; `announced` are motions of egos in place of those expected.
+    /// The moment of a run in which every plan reaches far enough. `announced` motions of egos replace the
+    /// expected ones.
     pub(super) fn of(run: &Run, graph: &LaneGraph, announced: &BTreeMap<usize, Vec<State>>) -> Self {
         let step = run.scene_step();
         let (mut agents, mut others) = (Vec::new(), BTreeSet::new());
@@ -68,7 +69,7 @@ impl RunMoment {
         Self { scene: Arc::new(scene), others }
     }
 
-    /// The call in which these road users plan anew and all others react to them and to the egos.
+    /// The call in which these road users plan anew, and all others react to them and to the egos.
     pub(super) fn request(self, run: &Run, acting: &[usize]) -> Request {
         let ids: BTreeSet<AgentId> = acting.iter().map(|i| run.scene.agents[*i].id.clone()).collect();
         let others = self.others.difference(&ids).cloned().collect();
@@ -89,7 +90,7 @@ impl RunMoment {
 }
 
 impl Run {
-    /// The motion that a road user has planned before, as the generator takes it up.
+    /// The earlier plan of a road user, in the form in which the generator continues it.
     fn driven(&self, agent: usize) -> Option<ShownLast> {
         let Presence::Driven(plan) = &self.agents[agent].presence else { return None };
         if plan.planned_ms == NEVER_PLANNED {
@@ -100,14 +101,14 @@ impl Run {
     }
 }
 
-/// What is left of a road user's conditions once it drives.
+/// The conditions of a road user that still apply once it drives.
 fn conditions(agent: &Agent, vias_passed: usize) -> Conditions {
     let asked = &agent.conditions;
     let via = asked.via.get(vias_passed..).unwrap_or_default().to_vec();
     Conditions { start: Start::default(), via, ..asked.clone() }
 }
 
-/// The box centre of what drives swings out in a bend; a plan begins with the part of its velocity along the heading.
+/// In a bend the box centre swings out, so a plan begins with the velocity component along the heading.
 fn rolling(state: &State) -> State {
     let ahead = direction(state.heading_rad);
     let velocity = ahead * state.velocity().dot(&ahead);

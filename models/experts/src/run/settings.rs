@@ -1,30 +1,30 @@
-//! How a run goes, and what an ego says.
+//! Settings of a run, and the states of egos.
 
 use super::error::RunError;
 use scene::{AgentId, HORIZON_STEPS, MAX_COORDINATE_M, MAX_STEPS, State};
 
-/// Range of a step, milliseconds, both ends allowed.
+/// Range of the length of a step, milliseconds, both ends included.
 pub const RUN_STEP_MS: (u32, u32) = (50, 500);
-/// Range of the time between two plans of one road user, milliseconds, both ends allowed.
+/// Range of the time between two plans of one road user, milliseconds, both ends included.
 pub const PLAN_INTERVAL_MS: (u32, u32) = (200, 5_000);
-/// Longest run, milliseconds: an hour.
+/// Longest run, milliseconds: one hour.
 pub const MOST_RUN_MS: u64 = 3_600_000;
-/// Most steps of 0.1 s that an ego announces.
+/// Most steps of 0.1 s in an ego's announced plan.
 pub const MOST_ANNOUNCED: usize = HORIZON_STEPS;
-/// Refinement steps of a plan by default, fewer than in a call: as many road users reach their goals without a fault as
-/// with five.
+/// Default refinement steps of a plan, fewer than in a call: as many road users reach their goals without a
+/// fault as with five.
 const REFINEMENT: usize = 1;
-/// No state of an ego is faster, m/s.
+/// Highest speed of an ego's state, m/s.
 const FASTEST_MPS: u32 = 100;
 
-/// How a run goes.
+/// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSettings {
-    /// Repeats the run.
+    /// Equal seeds give equal runs.
     pub seed: u64,
     /// Length of a step, milliseconds: [`RUN_STEP_MS`].
     pub step_ms: u32,
-    /// Each of the others plans anew after so many milliseconds: [`PLAN_INTERVAL_MS`].
+    /// Time after which each of the others plans anew, milliseconds: [`PLAN_INTERVAL_MS`].
     pub plan_interval_ms: u32,
     /// Scene step at which the run begins.
     pub start_step: usize,
@@ -39,8 +39,10 @@ impl Default for RunSettings {
 }
 
 impl RunSettings {
+    /// Checks all ranges.
+    ///
     /// # Errors
-    /// The first number that is out of its range.
+    /// The first number outside its range.
     pub(super) fn check(&self) -> Result<(), RunError> {
         let (step, interval) = (RUN_STEP_MS, PLAN_INTERVAL_MS);
         let numbers = [
@@ -54,15 +56,15 @@ impl RunSettings {
     }
 }
 
-/// What an ego does: where it is at the end of the step, and where it says that it goes from there.
+/// The state of an ego at the end of a step, and its announced plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EgoState {
-    /// One of the run's egos.
+    /// Id of one of the run's egos.
     pub id: AgentId,
     /// Box centre, heading and velocity at the end of the step.
     pub state: State,
-    /// Announced states, each 0.1 s after the one before, the first 0.1 s after `state`; at most
-    /// [`MOST_ANNOUNCED`]. Empty where it announces nothing: the others expect it to go on along its lane.
+    /// Announced states 0.1 s apart, the first 0.1 s after `state`; at most [`MOST_ANNOUNCED`]. If it is
+    /// empty, the others expect the ego to continue along its lane.
     pub plan: Vec<State>,
 }
 
@@ -72,6 +74,8 @@ impl EgoState {
         Self { id: id.into(), state, plan: Vec::new() }
     }
 
+    /// Checks the plan's length and all numbers.
+    ///
     /// # Errors
     /// A plan that is too long, or a number that no state has.
     pub(super) fn check(&self) -> Result<(), RunError> {
@@ -84,7 +88,7 @@ impl EgoState {
     }
 }
 
-/// Finite numbers that a scene can hold.
+/// Whether the state's numbers are finite and in the range of a scene.
 pub(super) fn is_state(state: &State) -> bool {
     let State { x_m, y_m, heading_rad, vx_mps, vy_mps } = *state;
     let near = |value: f64, most: f64| value.abs() <= most;

@@ -1,7 +1,7 @@
-//! A run as bytes. Equal runs give equal bytes, and a run that is restored goes on as the one that was saved.
+//! A run as bytes. Equal runs give equal bytes, and a restored run continues exactly like the saved one.
 //!
-//! The form: a head (eight bytes, the last the version), the SHA-256 of the scene's map, signals and road users, then
-//! numbers in little-endian order. The scene itself is not in it.
+//! The format: a head (eight bytes, the last is the version), the SHA-256 of the scene's map, signals and
+//! road users, then numbers in little-endian order. The scene itself is not included.
 
 use super::agents::{DrivenPlan, EgoMotion, LOOKED_AT, NEVER_PLANNED, Presence, RunAgent};
 use super::error::{RunError, SnapshotError};
@@ -10,9 +10,9 @@ use super::state::{Run, identity, with_goal_times};
 use scene::{MAX_STEPS, MAX_VIAS, Scene, State};
 use std::sync::Arc;
 
-/// The last byte is the version of the form.
+/// The last byte is the version of the format.
 const HEAD: [u8; 8] = *b"DT-RUN\0\x01";
-/// Byte of a snapshot that has the version of its form.
+/// Offset of the version byte in a snapshot.
 pub const VERSION_AT: usize = 7;
 /// More states than any plan has.
 const MOST_STATES: usize = LOOKED_AT + MAX_STEPS;
@@ -51,10 +51,11 @@ impl Run {
         out.0
     }
 
-    /// A run of this scene from its bytes.
+    /// Restores a run of this scene from its bytes.
     ///
     /// # Errors
-    /// Bytes that are none, of another version or scene, cut off, or with values that no run has; with the byte.
+    /// Bytes that are not a snapshot, of another version or scene, cut off, or with impossible values; the
+    /// error names the byte.
     pub fn restore(scene: Arc<Scene>, bytes: &[u8]) -> Result<Self, RunError> {
         let identity = identity(&scene);
         let mut read = SnapshotReader { bytes, at: 0 };
@@ -145,7 +146,7 @@ impl SnapshotReader<'_> {
         if count < least {
             return Err(SnapshotError::Value { at, what: "a number of states" });
         }
-        // Nothing is reserved for states that are not there.
+        // No memory is reserved for states that may be missing.
         (0..count).map(|_| self.state()).collect()
     }
 

@@ -1,4 +1,4 @@
-//! The state of a run, and what a step comes to.
+//! The state of a run, and the result of a step.
 
 use super::agents::{PLAN_STEP_MS, Presence, RunAgent};
 use super::borders::DepartureReason;
@@ -10,19 +10,19 @@ use scene::{AgentId, ContentHash, HORIZON_STEPS, STEP_S, Scene, State};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A run at one moment. A clone is a branch: it goes its own way from there.
+/// A run at one moment. A clone is a branch that continues independently.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The scene, with the times of goals that have none.
+    /// The scene; goals without a time have got one.
     pub(super) scene: Arc<Scene>,
-    /// Of the scene as it was given.
+    /// Hash of the scene as it was given.
     pub(super) identity: ContentHash,
     pub(super) settings: RunSettings,
-    /// Steps that were made.
+    /// Number of steps made.
     pub(super) number: u64,
     /// Milliseconds since the start.
     pub(super) elapsed_ms: u64,
-    /// One entry a road user of the scene.
+    /// One entry per road user of the scene.
     pub(super) agents: Vec<RunAgent>,
 }
 
@@ -40,26 +40,26 @@ pub struct RunChange {
 pub struct RunDeparture {
     /// The road user.
     pub agent: AgentId,
-    /// Why.
+    /// Why it left.
     pub reason: DepartureReason,
 }
 
-/// What one step came to.
+/// Result of one step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunStep {
     /// The step, from 1 on; 0 for the start.
     pub number: u64,
     /// Scene time at its end, seconds.
     pub time_s: f64,
-    /// Everybody who is there, egos too, in the order of the scene.
+    /// All present road users, egos included, in the order of the scene.
     pub states: Vec<(AgentId, State)>,
-    /// Who answers to whom, by id.
+    /// Road users that changed their plan, by id.
     pub changes: Vec<RunChange>,
-    /// What goes wrong in this step and did not before.
+    /// Faults that begin in this step.
     pub faults: Vec<RunFault>,
-    /// Who has come in, in the order of the scene.
+    /// Road users that entered, in the order of the scene.
     pub entered: Vec<AgentId>,
-    /// Who has left, in the order of the scene.
+    /// Road users that left, in the order of the scene.
     pub left: Vec<RunDeparture>,
 }
 
@@ -68,14 +68,14 @@ pub struct RunStep {
 pub struct RunPeek {
     /// The states of the others from 0.1 s after the present on, 0.1 s apart, to nine seconds.
     pub futures: BTreeMap<AgentId, Vec<State>>,
-    /// Who would answer, by id.
+    /// Road users that would react, by id.
     pub changes: Vec<RunChange>,
     /// The first collision of each ego with each other.
     pub faults: Vec<RunFault>,
 }
 
 impl Run {
-    /// The present as a step: who is there. Nobody has changed, entered or left.
+    /// The present as a step, with the states only: no change, entry or departure.
     pub fn present(&self) -> RunStep {
         let at = |(own, agent): (&RunAgent, &scene::Agent)| {
             Some((agent.id.clone(), own.presence.state(self.elapsed_ms)?))
@@ -91,7 +91,7 @@ impl Run {
         }
     }
 
-    /// The state of a road user that is there.
+    /// The state of a present road user.
     pub fn state(&self, id: &str) -> Option<State> {
         let at = self.index(id).ok()?;
         self.agents[at].presence.state(self.elapsed_ms)
@@ -103,7 +103,7 @@ impl Run {
         all.filter(|(own, _)| matches!(own.presence, Presence::Ego(_))).map(|(_, agent)| &agent.id).collect()
     }
 
-    /// Steps that were made.
+    /// Number of steps made.
     pub fn number(&self) -> u64 {
         self.number
     }
@@ -118,17 +118,17 @@ impl Run {
         MOST_RUN_MS.saturating_sub(self.elapsed_ms) / u64::from(self.settings.step_ms)
     }
 
-    /// How it goes.
+    /// The settings of the run.
     pub fn settings(&self) -> &RunSettings {
         &self.settings
     }
 
-    /// The scene that it runs in.
+    /// The scene of the run.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
-    /// About how many bytes of memory it takes beside its scene.
+    /// Approximate bytes of memory, without the scene.
     pub fn bytes(&self) -> usize {
         let states = |own: &RunAgent| match &own.presence {
             Presence::Driven(plan) => plan.states.len(),
@@ -139,7 +139,7 @@ impl Run {
         size_of::<Self>() + self.agents.len() * size_of::<RunAgent>() + all * size_of::<State>()
     }
 
-    /// The step of the scene at present, a half one cut off.
+    /// The present step of the scene, rounded down.
     pub(super) fn scene_step(&self) -> usize {
         self.settings.start_step + (self.elapsed_ms / PLAN_STEP_MS) as usize
     }
@@ -150,12 +150,12 @@ impl Run {
     }
 }
 
-/// Names what a run depends on in its scene: the map, the signals and the road users.
+/// Hash of the parts of a scene that a run depends on: the map, the signals and the road users.
 pub(super) fn identity(scene: &Scene) -> ContentHash {
     ContentHash::of(&(scene.map.hash(), &scene.signals, &scene.agents))
 }
 
-/// Goals without a time are due after nine seconds, as in a call.
+/// Sets a time of nine seconds for goals without one, as in a call.
 pub(super) fn with_goal_times(scene: Arc<Scene>, start_step: usize) -> Arc<Scene> {
     let lacks = |agent: &scene::Agent| {
         let goal = &agent.conditions.goal;

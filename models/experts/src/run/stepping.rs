@@ -1,4 +1,4 @@
-//! From one moment of a run to the next: everybody moves, some come and go, some plan anew, the rest react.
+//! From one moment of a run to the next: all move, some enter and leave, some plan anew, the others react.
 
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
 use super::borders::{departure, has_room};
@@ -17,13 +17,13 @@ use scene::routes::LaneGraph;
 use scene::{AgentId, AgentType, STEP_S, Size, State};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most road users that plan at once when a run begins.
+/// Most road users that plan in one call when a run begins.
 const MOST_AT_ONCE: usize = 64;
-/// A road user that reacted plans anew at once, if its last plan is so old, milliseconds.
+/// A road user that reacted plans anew at once if its last plan is older than this, milliseconds.
 const SURPRISED_AFTER_MS: i64 = 500;
 
 impl Run {
-    /// The states of the egos by their place in the scene.
+    /// The checked states of the egos, by index into the scene's agents.
     pub(super) fn checked(&self, egos: &[EgoState]) -> Result<BTreeMap<usize, EgoState>, RunError> {
         let mut known = BTreeMap::new();
         for ego in egos {
@@ -45,7 +45,7 @@ impl Run {
         }
     }
 
-    /// The first plans, of all who are there.
+    /// Plans all present road users for the first time.
     pub(super) fn plan_all(&mut self, generator: &Generator, cancel: &Cancel) -> Result<(), RunError> {
         let graph = generator.maps().graph(&self.scene.map);
         let all = self.planners();
@@ -62,7 +62,7 @@ impl Run {
         Ok(())
     }
 
-    /// One step.
+    /// Makes one step.
     pub(super) fn advance(
         &mut self,
         generator: &Generator,
@@ -94,7 +94,7 @@ impl Run {
         }
     }
 
-    /// Those who are driven and leave in this step.
+    /// Removes the driven road users that leave in this step.
     fn see_off(&mut self, map: &KnownMap) -> Vec<RunDeparture> {
         let (step, now_ms) = (self.scene_step(), self.elapsed_ms);
         let mut left = Vec::new();
@@ -108,7 +108,7 @@ impl Run {
         left
     }
 
-    /// Those who come in: where their recording first shows them from now on, once there is room.
+    /// Lets road users enter where their recording first shows them from now on, once there is room.
     fn let_in(&mut self) -> Vec<AgentId> {
         let (step, now_ms, start) = (self.scene_step(), self.elapsed_ms, self.settings.start_step);
         let size = |i: usize| {
@@ -134,7 +134,7 @@ impl Run {
         entered
     }
 
-    /// Counts the via points that are behind.
+    /// Counts the via points that have been passed.
     fn pass_vias(&mut self) {
         let (step, now_ms) = (self.scene_step(), self.elapsed_ms);
         for (own, agent) in self.agents.iter_mut().zip(&self.scene.agents) {
@@ -157,7 +157,7 @@ impl Run {
         faults(&stepped.collect::<Vec<_>>(), self.time_s(), graph)
     }
 
-    /// Those who can plan, by id.
+    /// Road users that can plan, by id.
     fn planners(&self) -> Vec<usize> {
         let plans = |i: &usize| {
             let driven = matches!(self.agents[*i].presence, Presence::Driven(_));
@@ -168,7 +168,8 @@ impl Run {
         all
     }
 
-    /// Those who plan anew in this step: the longest without a plan first, no more than a step's share of all.
+    /// Road users that plan anew in this step: those with the oldest plan first, at most one step's share of
+    /// all.
     fn due(&self) -> Vec<usize> {
         let all = self.planners();
         let planned_ms = |i: usize| match &self.agents[i].presence {
@@ -179,7 +180,7 @@ impl Run {
         let now_ms = self.elapsed_ms as i64;
         let mut due: Vec<usize> =
             all.iter().copied().filter(|i| planned_ms(*i).saturating_add(interval_ms) <= now_ms).collect();
-        // A stable sort: those of one age by id.
+        // A stable sort: plans of one age stay sorted by id.
         due.sort_by_key(|i| planned_ms(*i));
         let steps = self.settings.plan_interval_ms.div_ceil(self.settings.step_ms).max(1) as usize;
         let fresh = due.iter().filter(|i| planned_ms(**i) == NEVER_PLANNED).count();
@@ -187,7 +188,7 @@ impl Run {
         due
     }
 
-    /// Carries every plan on as far as the generator looks.
+    /// Extends every plan as far as the generator reads.
     pub(super) fn carry_on(&mut self, graph: &LaneGraph) {
         let now_ms = self.elapsed_ms;
         for (own, agent) in self.agents.iter_mut().zip(&self.scene.agents) {
@@ -197,7 +198,7 @@ impl Run {
         }
     }
 
-    /// These plan anew; all others answer to them and to the egos.
+    /// Plans these road users anew; all others react to them and to the egos.
     fn plan(
         &mut self,
         generator: &Generator,
@@ -210,7 +211,7 @@ impl Run {
         self.answer(generator, request, acting, cancel)
     }
 
-    /// Takes the plans of a call over. Returns who reacted.
+    /// Takes over the plans of a call. Returns the road users that reacted.
     pub(super) fn answer(
         &mut self,
         generator: &Generator,
@@ -251,7 +252,7 @@ impl Run {
         Ok(changes)
     }
 
-    /// The first collision of each ego with each other road user, where all drive as a peek says.
+    /// The first collision of each ego with each other road user, if all drive as in a peek.
     pub(super) fn peeked_faults(
         &self,
         graph: &LaneGraph,

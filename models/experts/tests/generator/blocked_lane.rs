@@ -1,5 +1,5 @@
-//! An agent stands in the way: the vehicle goes round it, or stops before it where there is no room. Beyond a
-//! goal it goes on along the lane.
+//! A standing agent blocks the lane: the vehicle goes around it, or stops before it if there is no room.
+//! Beyond a goal it continues along the lane.
 
 use super::crossing::{agent, street};
 use super::{GENERATOR, ask, run};
@@ -77,7 +77,7 @@ fn who_has_no_goal_waits_in_its_lane_and_not_in_the_one_of_those_who_come() {
     let points: Vec<Vec2> = (0..=200).map(|i| Vec2::new(100.0 - f64::from(i), 1.75)).collect();
     let mut map = LaneMap { road_edges: vec![edge("l", 3.6), edge("r", -3.6)], ..street() };
     map.lanes.push(Lane { width_m: Some(3.5), ..Lane::street("b", points) });
-    // Cars of a queue, so far behind each other.
+    // Cars of a queue with these gaps.
     for (gap_m, speed_mps) in [(12.0, 4.0), (14.0, 6.0), (18.0, 8.0), (25.0, 10.0), (30.0, 12.0)] {
         let car =
             |id: &str, x_m: f64, speed_mps: f64| agent(id, AgentType::Vehicle, (x_m, -1.75), 0.0, speed_mps);
@@ -123,7 +123,7 @@ fn the_way_round_stays_while_the_goal_moves_by_little() {
 
 #[test]
 fn beyond_a_goal_the_way_goes_on_along_the_lane() {
-    // Straight on to the origin, then a quarter of a circle of 30 m to the left, then north.
+    // Straight on to the origin, then a quarter circle of 30 m radius to the left, then north.
     let straight = (0..100).map(|i| Vec2::new(f64::from(i) - 100.0, 0.0));
     let bend = (0..=47).map(|i| {
         let turned = f64::from(i) / 30.0;

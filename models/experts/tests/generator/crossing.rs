@@ -3,7 +3,7 @@
 use scene::map::{Area, Lane, LaneMap};
 use scene::{Agent, AgentType, Scene, State, Subtype, Vec2};
 
-/// A straight lane 3.5 m wide with a point a metre, limited to 30 miles an hour.
+/// A straight lane 3.5 m wide with a point per metre and a limit of 30 mph.
 fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
     let n = (to - from).norm().ceil() as usize;
     let points: Vec<Vec2> = (0..=n).map(|i| from + (to - from) * (i as f64 / n as f64)).collect();

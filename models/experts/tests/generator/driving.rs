@@ -1,4 +1,4 @@
-//! Futures are driven as good drivers drive, with the shipped weights.
+//! Futures follow good driving practice, with the shipped weights.
 
 use super::run;
 use experts::{Engine, Generator, ReachReport, React, Request};
@@ -37,7 +37,7 @@ fn shown<'a>(sample: &'a Sample, id: &str) -> &'a Future {
     &futures.modes[futures.chosen]
 }
 
-/// Greatest sideways acceleration between steps 0.2 s apart, m/s2.
+/// Greatest lateral acceleration between steps 0.2 s apart, m/s2.
 fn sideways(future: &Future) -> f64 {
     let turn = |w: &[State]| wrap_angle(w[2].heading_rad - w[0].heading_rad).abs() / (2.0 * STEP_S);
     future.states.windows(3).map(|w| turn(w) * w[1].speed_mps()).fold(0.0, f64::max)
@@ -66,7 +66,7 @@ fn bends_on_the_way_to_a_goal_are_slowed_for() {
         };
         let points: Vec<Vec2> = (0..=(100.0 + arc_m) as usize).map(|s| at(s as f64)).collect();
         let mut turning = car("1", 0.0, 0.0, 13.9);
-        // 7 m/s on average leave time for the bend.
+        // An average of 7 m/s leaves time for the bend.
         turning.conditions.goal = Goal { position: Some(at(63.0)), ..Goal::default() };
         let answer = run(&SHIPPED, ask(vec![Lane::street("bend", points)], vec![turning], &["1"]));
         for future in &answer.samples[0].agents["1"].modes {
@@ -80,7 +80,7 @@ fn bends_on_the_way_to_a_goal_are_slowed_for() {
 fn a_late_arrival_that_cannot_brake_in_time_enters_slower() {
     let mut slow = car("1", 0.0, 0.0, 10.0);
     slow.conditions.goal = Goal { position: Some(Vec2::new(40.0, 0.0)), ..Goal::default() };
-    // 3 s later, a few metres behind it, with 20 m/s.
+    // A second car enters 3 s later, a few metres behind, at 20 m/s.
     let mut late = car("2", 10.0, 0.0, 20.0);
     late.track.first_step = 30;
     late.track.states.truncate(61);
@@ -112,7 +112,7 @@ fn an_agent_with_a_typed_start_that_is_cut_in_upon_brakes_in_its_lane() {
     });
 }
 
-/// Whoever is cut in upon, with this start.
+/// Asserts that the car behind a cut-in brakes in its lane, with this start.
 fn brakes_in_its_lane(start: Start) {
     for (gap_m, slower_mps) in [(5.0, 2.5), (10.0, 2.5), (10.0, 5.0), (20.0, 5.0), (20.0, 7.5), (30.0, 7.5)] {
         let (mut behind, speed_mps) = (car("1", 0.0, 0.0, 13.9), 13.9 - slower_mps);
@@ -142,7 +142,7 @@ fn brakes_in_its_lane(start: Start) {
 
 #[test]
 fn a_queue_moves_off_one_after_the_other_and_what_is_parked_stays() {
-    // The first one rolls; one more stands beside the lane.
+    // The first one rolls; another stands beside the lane.
     let queue = [("1", 0.0, 0.1), ("2", -7.0, 0.0), ("3", -14.0, 0.0)];
     let mut agents: Vec<Agent> = queue.map(|(id, x_m, speed_mps)| car(id, x_m, 0.0, speed_mps)).into();
     agents.push(car("4", 10.0, -2.2, 0.0));

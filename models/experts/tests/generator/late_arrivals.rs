@@ -1,4 +1,4 @@
-//! Road users that come in later: one whose place is taken then stays out, and says why.
+//! Road users that enter later: one whose place is taken then stays out, and names the cause.
 
 use super::crossing::{agent, street};
 use super::{GENERATOR, ask, run};
@@ -19,8 +19,8 @@ fn late(id: &str, first_step: usize, x_m: f64, speed_mps: f64) -> Agent {
     late
 }
 
-/// A car that stands, one that is found again in its place, one that comes in at speed right before it, and one for which
-/// there is room.
+/// A standing car, one that is recorded again in its place, one that enters at speed right before it, and one
+/// with room.
 fn scene() -> Scene {
     let stands = agent("stands", AgentType::Vehicle, (0.0, -1.75), 0.0, 0.0);
     let others = [late("again", 20, 0.4, 0.0), late("fast", 40, -4.8, 15.0), late("room", 30, 40.0, 4.0)];

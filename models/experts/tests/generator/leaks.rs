@@ -15,7 +15,7 @@ use ::scene::routes::LaneGraph;
 use experts::features::agent::plan;
 use experts::planning::world::World;
 
-/// Every logged state after the first step moved somewhere else.
+/// Moves every recorded state after the first step elsewhere.
 fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {
     for agent in scene.agents.iter_mut().filter(|a| who(a)) {
         for state in agent.track.states.iter_mut().skip(1).flatten() {
@@ -28,7 +28,7 @@ fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {
     scene
 }
 
-/// The start moved a little, in the fields that the bits of `subset` name.
+/// Moves the start slightly, in the fields that the bits of `subset` name.
 fn with_start(mut scene: Scene, id: &str, subset: u8) -> Scene {
     let agent = scene.agents.iter_mut().find(|a| a.id == id).unwrap();
     let start = agent.state_at(0).unwrap();
@@ -51,7 +51,7 @@ fn features(scene: &Scene) -> String {
     planned.collect()
 }
 
-/// Two steps of refinement are enough to mix everything that is there to be mixed.
+/// Two refinement steps are enough to mix all inputs.
 fn quick(scene: Scene, agents: Option<&[&str]>) -> Request {
     Request { steps: 2, ..ask(scene, agents) }
 }
@@ -101,7 +101,7 @@ fn futures_of_others_do_not_leak_when_all_are_generated() {
         for start in [0, 7 - goal] {
             let honest = with_start(with_goal(crossing(), "1", goal), "1", start);
             let answer = answered(quick(honest.clone(), None));
-            // One by one, so that two changes cannot make up for each other; then all at once.
+            // One by one, so that two changes cannot cancel each other; then all at once.
             for other in ["2", "3", "6"] {
                 let changed = other_future(honest.clone(), |a| a.id == other);
                 let changed = answered(quick(changed, None));

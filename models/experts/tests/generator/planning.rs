@@ -1,4 +1,4 @@
-//! What an evaluation may leave out of planning.
+//! Stages of planning that an evaluation may switch off.
 
 use super::*;
 use ::scene::routes::LaneGraph;
@@ -25,7 +25,7 @@ fn each_takes_away_its_own_part_alone() {
         assert!(free.anchors.iter().all(|a| a.route.is_none() && a.kind != PathKind::Route));
         assert_eq!(free.features.neighbours, all.features.neighbours);
         assert_eq!(free.features.own, all.features.own);
-        // The anchors of the same car where no lane is near.
+        // The anchors of the same car without a lane nearby.
         let mut bare = scene.clone();
         bare.map = LaneMap::default().into();
         let bare = planned(&bare, Planning::default());
@@ -43,7 +43,7 @@ fn an_answer_shows_it() {
     };
     let all = answer(Planning::default());
     assert_ne!(answer(Planning { routes: false, ..Planning::default() }), all);
-    // Without a goal there is nothing to project onto but the limits.
+    // Without a goal the projection only enforces the limits.
     assert_eq!(answer(Planning { projection: false, ..Planning::default() }), all);
 }
 

@@ -1,4 +1,4 @@
-//! How refinement goes about its steps, as an evaluation may change it.
+//! Options of refinement that an evaluation may change.
 
 use super::*;
 use experts::{Refining, Shown};
@@ -12,7 +12,7 @@ fn drawn(scene: Scene, seed: u64, refining: Refining) -> Answer {
     run(&GENERATOR, request)
 }
 
-/// Steps of the shown futures at which two boxes overlap, pairs by pairs.
+/// Number of steps at which two boxes of shown futures overlap, summed over pairs.
 fn overlapping(scene: &Scene, answer: &Answer) -> usize {
     let boxes: Vec<Vec<OrientedBox>> = answer.samples[0]
         .agents

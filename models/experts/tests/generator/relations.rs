@@ -1,4 +1,4 @@
-//! Goals relative to another agent: placed from its motion, also where the same call plans it.
+//! Goals relative to another agent, resolved from its motion, even if the same call plans it.
 
 use super::crossing::{agent, crossing};
 use super::{GENERATOR, ask, run};
@@ -56,7 +56,7 @@ fn the_other_one_is_planned_first_and_keeps_its_futures() {
     let both = call(Some(&["1", "2"]));
     let (ahead, own) = (due(shown(&both, "1")), due(shown(&both, "2")));
     assert!((gap_m(&scene, &ahead, &own) - 8.0).abs() < 0.1, "{}", gap_m(&scene, &ahead, &own));
-    // The future of the other one is that of a call without the relation.
+    // The future of the other agent equals that of a call without the relation.
     let mut apart = scene.clone();
     (apart.agents[1].conditions.relation, apart.agents[1].conditions.goal) = (None, Goal::default());
     let apart = run(&GENERATOR, ask(apart, Some(&["1", "2"])));

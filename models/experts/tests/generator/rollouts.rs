@@ -12,7 +12,7 @@ fn chosen<'a>(answer: &'a Answer, id: &str) -> &'a Future {
     &futures.modes[futures.chosen]
 }
 
-/// Without the two that drive into each other's way, so that goals are not given up for others.
+/// Without the two that conflict, so that goals are not given up for others.
 fn quiet() -> Scene {
     let mut scene = crossing();
     scene.agents.retain(|a| ["1", "5", "6"].contains(&a.id.as_str()));

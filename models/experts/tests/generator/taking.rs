@@ -12,13 +12,13 @@ fn asked(scene: Scene) -> Request {
     Request { react: React::Everyone, ..ask(scene, Some(&["1"])) }
 }
 
-/// Faults that others have a part in, to a tenth.
+/// Faults that involve others, rounded to a tenth.
 fn with_others<'a>(faults: impl IntoIterator<Item = &'a Fault>) -> BTreeSet<(FaultKind, String, i64)> {
     let found = faults.into_iter().filter_map(|f| Some((f, f.with.clone()?)));
     found.map(|(f, with)| (f.kind, with, (10.0 * f.time_s).round() as i64)).collect()
 }
 
-/// The same of a future of the first one among the others as an answer has them.
+/// The same for a future of the first agent, among the others as in the answer.
 fn among(scene: &Scene, answer: &Answer, future: &Future) -> BTreeSet<(FaultKind, String, i64)> {
     let drivable = Drivable::new(&scene.map);
     let judge = Judge::new(&scene.map, &scene.signals, &drivable, 0..91);

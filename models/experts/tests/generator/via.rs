@@ -1,4 +1,4 @@
-//! Via points: every future passes them where it can, within the limits, and missed ones are reported.
+//! Via points: every future passes them if possible within the limits, and missed ones are reported.
 
 use super::*;
 use scene::judge::FaultKind;
@@ -44,12 +44,12 @@ fn all_pass(scene: &Scene, answer: &Answer, what: &str) {
     assert!(resolved.via.iter().all(|via| via.passed), "{what}: {:?}", resolved.via);
 }
 
-/// What it is, the places on the way, and the goal.
+/// Id, via points, and goal.
 type Case<'a> = (&'a str, &'a [Via], Option<(f64, f64)>);
 
 #[test]
 fn all_futures_pass_where_a_lane_leads_there() {
-    // With its kind, via points and goal: straight on, round the corner, across, on foot.
+    // Straight on, around the corner, across, on foot.
     let cases: [Case<'_>; 8] = [
         ("1", &[via(0.0, -1.75, 0.5, None)], Some((40.0, -1.75))),
         ("1", &[via(-20.0, -1.75, 0.5, None), via(20.0, -2.25, 0.5, None)], Some((50.0, -1.75))),
@@ -76,7 +76,7 @@ fn all_futures_pass_where_a_lane_leads_there() {
 
 #[test]
 fn a_time_is_kept() {
-    // At an even pace it is there after 5 s.
+    // At a constant pace it is there after 5 s.
     for (time_s, goal) in [(4.0, Some((40.0, -1.75))), (6.5, Some((30.0, -1.75))), (6.0, None), (3.5, None)] {
         let vias = [via(0.0, -1.75, 1.0, Some(time_s))];
         let scene = asked("1", &vias, goal);
@@ -87,7 +87,7 @@ fn a_time_is_kept() {
 
 #[test]
 fn what_is_missed_is_said() {
-    // Beside the car, where no wheel turns so far; and farther than it gets.
+    // Beside the car, where no vehicle can turn that far; and farther than it gets.
     for (x, y, time_s) in [(-38.0, 8.0, None), (80.0, -1.75, Some(2.0))] {
         let vias = [via(x, y, 1.0, time_s)];
         let scene = asked("1", &vias, Some((30.0, -1.75)));

@@ -1,4 +1,4 @@
-//! From a scene to the rows of a scenario.
+//! Writes a scene as the rows of a scenario.
 
 use super::{AV, CITY, FOCAL, FRAGMENT, NOTE, SCORED, UNSCORED};
 use crate::columnar::{self, Column, ColumnValues};
@@ -11,7 +11,7 @@ use scene::{Agent, AgentType, Conditions, STEP_S, Scene, Shown, State, Subtype};
 use std::borrow::Cow;
 use std::io;
 
-/// A track as it is written.
+/// A track in the form of the file.
 struct Track<'a> {
     id: Cow<'a, str>,
     object_type: &'static str,
@@ -82,7 +82,7 @@ pub(super) fn write(scene: &Scene, motion: ExportedMotion) -> io::Result<Exporte
     Ok(Exported { bytes, losses })
 }
 
-/// The road user in the middle of interest: the format has one always.
+/// The focal road user, which the format requires.
 fn focal(scene: &Scene) -> Option<&str> {
     let listed =
         scene.meta.objects_of_interest.first().or(scene.meta.tracks_to_predict.first().map(|(id, _)| id));

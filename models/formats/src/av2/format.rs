@@ -1,4 +1,4 @@
-//! Argoverse scenarios as users import and export them.
+//! Argoverse scenarios as an import and export format.
 
 use super::{export, import, map};
 use crate::columnar::{is_parquet, names_in};
@@ -13,7 +13,7 @@ use crate::unpack;
 use scene::{Origin, Scene};
 use std::io;
 
-/// A scenario with or without its map; a map without scenario is a scene without road users.
+/// A scenario with or without its map; a map alone gives a scene without road users.
 pub struct Argoverse;
 
 impl Format for Argoverse {

@@ -1,4 +1,4 @@
-//! From the rows of a scenario to a scene.
+//! Reads the rows of a scenario as a scene.
 
 use super::map::Place;
 use super::{AV, CITY, FOCAL, LICENCE, NOTE, SCORED};
@@ -35,13 +35,13 @@ const OPTIONAL: [&str; 7] = [
     "end_timestamp",
     "num_timestamps",
 ];
-/// Coordinates reach so far, metres.
+/// Greatest coordinate, metres.
 const MAX_METRES: f64 = 1e7;
 
 /// The columns of a file.
 struct TrackRows {
     table: ParquetTable,
-    /// Position in the file by name.
+    /// Index of each column in the file, by name.
     at: HashMap<&'static str, usize>,
 }
 
@@ -104,7 +104,7 @@ struct First {
     end: f64,
 }
 
-/// Reads a scenario; `place` is the map of where it is.
+/// Reads a scenario; `place` is the map of its location.
 ///
 /// # Errors
 /// Those of the file, `cannot-represent` for another table or several scenarios, `too-many-agents`.
@@ -187,7 +187,7 @@ pub(super) fn read(
             Default::default()
         }
     };
-    // Files written by this program carry their own licence; all others have the data set's.
+    // Files written by this program carry their own licence; all others have that of the data set.
     let notes = rows.table.notes();
     let own = if notes.contains_key(NOTE) { notes.get("licence").cloned() } else { Some(LICENCE.into()) };
     let meta = Meta {
@@ -224,7 +224,7 @@ pub(super) fn read(
     scenes.next().unwrap_or_else(|| Err(empty()))
 }
 
-/// Present position of the recording vehicle, else of the first road user, in whole metres.
+/// Present position of the recording vehicle, otherwise of the first road user, in whole metres.
 fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
     let ego = users.iter().find(|user| user.id == AV).or(users.first());
     let now_s = now_step as f64 * STEP_S;
@@ -239,7 +239,7 @@ fn origin(users: &[RecordedAgent], now_step: usize) -> Vec2 {
 fn timestamps(first: &First, steps: usize) -> Option<Vec<f64>> {
     let count = first.steps.max(2) - 1;
     let step_s = (first.end - first.start) * 1e-9 / count as f64;
-    // Tenths, or nearly so.
+    // Steps of about 0.1 s.
     let sane = first.start > 0.0 && (step_s - STEP_S).abs() < STEP_S / 4.0;
     sane.then(|| (0..steps).map(|i| first.start * 1e-9 + i as f64 * step_s).collect())
 }

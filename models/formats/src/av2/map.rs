@@ -1,4 +1,4 @@
-//! The map of a place: `log_map_archive_*.json`.
+//! The map of a location: `log_map_archive_*.json`.
 
 use crate::problem::{ImportWarning, ReadError};
 use crate::sentences;
@@ -13,14 +13,14 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
 
-/// Most bytes of a map once unpacked: the largest of the data set has two MiB.
+/// Most bytes of a decompressed map: the largest of the data set has two MiB.
 const MAX_BYTES: u64 = 16 << 20;
-/// Points of a centre line are this far apart, metres.
+/// Distance between points of a centre line, metres.
 const SPACING_M: f64 = 2.0;
-/// Lanes are followed this far beyond their ends where edges of the ground are looked for, metres: the ground is cut
-/// off where the map ends, and that is no kerb.
+/// Lanes are extended by this length beyond their ends when edges of the ground are searched, metres: the
+/// ground is cut off at the end of the map, and that cut is no kerb.
 const BEYOND_M: f64 = 2.0;
-/// Lines whose ends are at most this far apart are the same line, metres.
+/// Lines whose ends are at most this far apart count as the same line, metres.
 const SAME_M: f64 = 0.05;
 
 #[derive(Clone, Copy, Deserialize)]
@@ -66,7 +66,7 @@ struct Ground {
     area_boundary: Vec<Point>,
 }
 
-/// A map as its file has it.
+/// A map in the form of its file.
 #[derive(Deserialize)]
 pub(super) struct Place {
     #[serde(default)]
@@ -77,7 +77,7 @@ pub(super) struct Place {
     drivable_areas: BTreeMap<String, Ground>,
 }
 
-/// Reads a map, plain or gzip.
+/// Reads a map, plain or compressed with gzip.
 ///
 /// # Errors
 /// Those of the file, `malformed-json`.
@@ -115,14 +115,14 @@ fn line_type(mark: Option<&str>) -> Option<&'static str> {
 }
 
 impl Place {
-    /// Of lanes and ground; `None` without any.
+    /// Extent of lanes and ground; `None` without any.
     pub fn extent(&self) -> Option<Extent> {
         let lanes = self.lane_segments.values().flat_map(|lane| &lane.left_lane_boundary);
         let ground = self.drivable_areas.values().flat_map(|area| &area.area_boundary);
         Extent::about(lanes.chain(ground).map(|p| Vec2::new(p.x, p.y)))
     }
 
-    /// The map about a point of it.
+    /// The map with a point of it as the origin.
     pub fn lane_map(&self, origin: Vec2) -> (LaneMap, Vec<ImportWarning>) {
         let mut map = LaneMap::default();
         let mut broken = 0;
@@ -140,7 +140,7 @@ impl Place {
         paint(&segments, origin, &mut map);
         for crossing in self.pedestrian_crossings.values() {
             let (near, mut far) = (about(&crossing.edge1, origin), about(&crossing.edge2, origin));
-            // Both edges run the same way, mostly: the ring must not cross itself.
+            // The edges usually run the same way: one is reversed, so that the ring does not cross itself.
             let ends = (near.last(), far.first(), far.last());
             if let (Some(end), Some(first), Some(last)) = ends
                 && (first - end).norm() > (last - end).norm()
@@ -165,7 +165,8 @@ impl Place {
         (map, warnings)
     }
 
-    /// The ground and its edges: whether these were found, and how many areas no scene can hold.
+    /// Adds the ground and its edges; returns whether edges were found, and how many areas exceed the limits
+    /// of a scene.
     fn ground(&self, origin: Vec2, map: &mut LaneMap) -> (bool, usize) {
         let near = |line: &Vec<Vec2>| line.iter().all(|p| p.amax() <= MAX_COORDINATE_M);
         let mut areas: Vec<Vec<Vec2>> =
@@ -182,7 +183,7 @@ impl Place {
     }
 }
 
-/// A line with a little more at both ends.
+/// A line extended a little at both ends.
 fn beyond(line: &[Vec2]) -> Vec<Vec2> {
     let [first, second, ..] = line else { return line.to_vec() };
     let [.., before, last] = line else { return line.to_vec() };
@@ -224,8 +225,8 @@ fn lane(segment: &Segment, origin: Vec2) -> Option<Lane> {
     })
 }
 
-/// Lanes that follow each other and that lie side by side. The file has links to lanes that it has not, and many that
-/// one of their two lanes alone has.
+/// Links lanes that follow each other or lie side by side. The file has links to lanes that it does not
+/// contain, and many links that only one of the two lanes has.
 fn link(segments: &[&Segment], map: &mut LaneMap) {
     let index: HashMap<i64, usize> = segments.iter().enumerate().map(|(i, s)| (s.id, i)).collect();
     let add = |list: &mut Vec<String>, id: i64| {
@@ -249,7 +250,7 @@ fn link(segments: &[&Segment], map: &mut LaneMap) {
             };
             let (own, its) = (&map.lanes[i].points.xy, &map.lanes[other].points.xy);
             let way = |line: &[Vec2]| line[line.len() - 1] - line[0];
-            // Beside a lane may be the one of oncoming traffic.
+            // The neighbour may be a lane of oncoming traffic.
             if way(own).dot(&way(its)) <= 0.0 {
                 return Vec::new();
             }
@@ -268,7 +269,7 @@ fn link(segments: &[&Segment], map: &mut LaneMap) {
 
 /// Draws the painted sides of lanes, each once, and links them to the lanes that they bound.
 fn paint(segments: &[&Segment], origin: Vec2, map: &mut LaneMap) {
-    // A line is the side of two lanes: it is known by its ends, in either order.
+    // A line is the side of two lanes: it is identified by its ends, in either order.
     let mut drawn: HashMap<[(i64, i64); 2], String> = HashMap::new();
     for (i, segment) in segments.iter().enumerate() {
         let sides = [

@@ -11,14 +11,14 @@ pub use format::Argoverse;
 
 /// Licence of the data set.
 const LICENCE: &str = "cc-by-nc-sa-4.0";
-/// The id that the recording vehicle has.
+/// Id of the recording vehicle.
 const AV: &str = "AV";
-/// Categories of tracks: part of one, none that is scored, scored, the one in the middle.
+/// Categories of tracks: fragment, unscored, scored, and focal.
 const FRAGMENT: i64 = 0;
 const UNSCORED: i64 = 1;
 const SCORED: i64 = 2;
 const FOCAL: i64 = 3;
 /// Prefix of the tag that names a scene's city.
 const CITY: &str = "city:";
-/// Note of our own files.
+/// Key of the note in our own files.
 const NOTE: &str = "dragtraffic";

@@ -1,7 +1,7 @@
-//! Parquet files, whatever table they hold: flat columns in, row by row.
+//! Parquet files with any table: reads flat columns, row by row.
 //!
-//! The library that decodes them trusts the file's own description: it reserves what a header declares, and
-//! some false values make it panic. So everything that it would trust is checked first (`vet`), and memory
+//! The library that decodes them trusts the file's own metadata: it reserves what a header declares, and some
+//! false values make it panic. Therefore everything that it would trust is checked first (`vet`), and memory
 //! holds one page at a time of each column.
 
 mod read;

@@ -1,4 +1,4 @@
-//! Flat columns of a Parquet file, row by row.
+//! Reads flat columns of a Parquet file, row by row.
 
 use super::vet::{self, ColumnChunk, MAGIC};
 use crate::limits::memory_for;
@@ -16,18 +16,18 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Most bytes of a file: as a whole it is in memory, because what it is stands at its end. One that unfolded on its
-/// way here is measured by the bytes that came.
+/// Most bytes of a file. The whole file is in memory, because its metadata is at its end. A file that was
+/// decompressed on the way is measured by the bytes before decompression.
 fn most_bytes(file: &dyn Source) -> u64 {
     (memory_for(file.encoded_len()) / 4).min(256 << 20)
 }
-/// Most bytes that the columns of a row take at a time beside the file.
+/// Most bytes that the current pages of all columns take, beside the file.
 const MAX_PAGES: u64 = 40 << 20;
 /// Most rows of a file, plus one per byte: repeated values take no bytes, so bytes do not bound the rows.
 const MAX_ROWS: u64 = 1 << 20;
 /// Rows that are decoded at a time.
 const BATCH: usize = 1_024;
-/// Bytes at the end of a file in which its columns' names stand.
+/// Bytes at the end of a file that contain the names of its columns.
 const TAIL: usize = 64 << 10;
 
 /// True for the first bytes of a Parquet file.
@@ -35,7 +35,7 @@ pub(crate) fn is_parquet(head: &[u8]) -> bool {
     head.starts_with(MAGIC)
 }
 
-/// True where all these names stand at the end of a Parquet file.
+/// Whether all these names occur at the end of a Parquet file.
 pub(crate) fn names_in(bytes: &[u8], names: &[&str]) -> bool {
     let tail = bytes.get(bytes.len().saturating_sub(TAIL)..).unwrap_or_default();
     let has = |name: &&str| tail.windows(name.len()).any(|window| window == name.as_bytes());
@@ -70,7 +70,7 @@ pub struct ParquetTable {
     names: Vec<String>,
     /// Index in the file of each selected column.
     chosen: Vec<usize>,
-    /// The row group that is read next, and the readers of the one before it.
+    /// The row group that is read next, and the readers of the previous one.
     group: usize,
     readers: Vec<ColumnReader>,
     left: usize,
@@ -85,7 +85,7 @@ fn unreadable(error: &ParquetError) -> ReadError {
     ReadError::malformed(0, refusals::unreadable(FORMAT, &error.to_string()))
 }
 
-/// Lies that the library does not expect end it; here they refuse the file.
+/// Runs work that panics on false metadata, and turns the panic into a refusal of the file.
 fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadError> {
     let ended = |_| Err(ReadError::malformed(0, refusals::contradiction(FORMAT)));
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(ended)
@@ -95,7 +95,7 @@ impl ParquetTable {
     /// Opens a file and checks its metadata.
     ///
     /// # Errors
-    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for more columns or rows than are read.
+    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for more columns or rows than can be read.
     pub fn open(file: &dyn Source) -> Result<Self, ReadError> {
         let mut bytes = Vec::new();
         let fault = |error: &std::io::Error| unpack::fault(error, 0);
@@ -148,10 +148,11 @@ impl ParquetTable {
         notes.filter_map(|note| Some((note.key.clone(), note.value.clone()?))).collect()
     }
 
-    /// Says which columns are read; looks at all their pages.
+    /// Selects the columns to read, and checks all their pages.
     ///
     /// # Errors
-    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for a column that is no flat list of values.
+    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for a column that is not a flat list of
+    /// values.
     pub fn choose(&mut self, chosen: Vec<usize>) -> Result<(), ReadError> {
         for &column in &chosen {
             self.is_flat(column)?;
@@ -224,7 +225,7 @@ impl ParquetTable {
         }
     }
 
-    /// Decodes the next rows of the group, or of the next one that has any.
+    /// Decodes the next rows of the group, or of the next group that has any.
     fn decode(&mut self) -> Result<bool, ReadError> {
         while self.left == 0 {
             if self.group >= self.reader.num_row_groups() {
@@ -250,7 +251,7 @@ impl ParquetTable {
     }
 }
 
-/// Reads so many values of a column.
+/// Reads this many values of a column.
 fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<OwnedValue>) -> Result<(), ParquetError> {
     macro_rules! read {
         ($reader:expr, $cell:expr) => {{

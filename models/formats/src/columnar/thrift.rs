@@ -1,7 +1,7 @@
-//! The compact protocol of Thrift, as far as the headers of Parquet need it: numbers of structs, and everything
-//! else passed over.
+//! The compact protocol of Thrift, as far as the headers of Parquet need it: numbers of structs; everything
+//! else is skipped.
 
-/// Structs and lists within each other, at most.
+/// Greatest nesting of structs and lists.
 const MAX_DEPTH: usize = 24;
 
 const STRUCT: u8 = 12;
@@ -13,7 +13,7 @@ pub(super) struct ThriftField {
     kind: u8,
 }
 
-/// Reads from the beginning of a slice; `None` where the slice is short or contradicts itself.
+/// Reads from the beginning of a slice; `None` if the slice is too short or inconsistent.
 pub(super) struct ThriftReader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -58,8 +58,8 @@ impl<'a> ThriftReader<'a> {
         Some((value >> 1) as i64 ^ -((value & 1) as i64))
     }
 
-    /// Calls `take` for each field of the struct that begins here; `take` gives whether it has read the value, which
-    /// is passed over otherwise.
+    /// Calls `take` for each field of the struct that begins here; `take` returns whether it has read the
+    /// value, which is skipped otherwise.
     pub fn each(&mut self, mut take: impl FnMut(&mut Self, ThriftField) -> Option<bool>) -> Option<()> {
         self.fields(0, &mut take)
     }
@@ -87,7 +87,7 @@ impl<'a> ThriftReader<'a> {
         }
     }
 
-    /// The whole number of a field; nothing where it is something else.
+    /// The integer of a field; nothing for other types.
     pub fn whole(&mut self, field: ThriftField) -> Option<i64> {
         match field.kind {
             3 => self.byte().map(|byte| i64::from(byte as i8)),
@@ -108,7 +108,7 @@ impl<'a> ThriftReader<'a> {
             15 => self.unsigned()?,
             count => u64::from(count),
         };
-        // Each element takes a byte at least.
+        // Each element takes at least one byte.
         (count <= (self.bytes.len() - self.at) as u64).then_some((head & 0x0f, count))
     }
 
@@ -136,7 +136,7 @@ impl<'a> ThriftReader<'a> {
                 Some(())
             }
             STRUCT => self.fields(depth + 1, &mut |_, _| Some(false)),
-            // Maps are nowhere in these headers.
+            // These headers contain no maps.
             _ => None,
         }
     }

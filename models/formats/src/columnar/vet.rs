@@ -8,24 +8,25 @@ use std::ops::Range;
 
 /// First and last bytes of a file.
 pub(super) const MAGIC: &[u8] = b"PAR1";
-/// Most bytes of the description at a file's end, beside an eighth of the file: decoded they take many times as much.
+/// Most bytes of the metadata at a file's end, plus an eighth of the file: decoded, they take many times as
+/// much.
 const MAX_FOOTER: usize = 1 << 20;
-/// Most column chunks, beside one for each 512 bytes of the file.
+/// Most column chunks, plus one for each 512 bytes of the file.
 const MAX_CHUNKS: u64 = 50_000;
-/// Most bytes that a page of a column holds once unpacked.
+/// Most bytes of a decompressed page.
 const MAX_PAGE: i64 = 8 << 20;
 
 /// A column's part of a row group.
 pub(super) struct ColumnChunk {
     /// Byte range of its pages.
     pub range: Range<i64>,
-    /// Bytes that a value takes at least in a dictionary.
+    /// Least bytes of a value in a dictionary.
     pub least: i64,
     /// Rows of the group.
     pub rows: i64,
 }
 
-/// Looks at the frame of a file and at the shape of its description.
+/// Checks the frame of a file and the structure of its metadata.
 ///
 /// # Errors
 /// `malformed-file`, `decoded-too-large`.
@@ -79,7 +80,7 @@ pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
     }
 }
 
-/// Looks at the headers of all pages of a chunk; gives the most bytes that it takes in memory at a time.
+/// Checks the headers of all pages of a chunk; returns the most bytes that it takes in memory at a time.
 ///
 /// # Errors
 /// `malformed-file`, `decoded-too-large`.
@@ -98,7 +99,7 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
             return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGE as u64, message));
         }
         let sound = page.packed >= 0 && page.unpacked >= 0 && page.values >= 0;
-        // A dictionary comes first; index pages are written nowhere.
+        // A dictionary comes first; no writer produces index pages.
         let in_place = if page.is_dictionary { first } else { page.kind != 1 };
         // Delta encodings allocate by their own data, which is known only after decompression.
         let readable = matches!(page.encoding, 0 | 2 | 3 | 8 | 9);
@@ -112,7 +113,7 @@ pub(super) fn pages(bytes: &[u8], chunk: &ColumnChunk) -> Result<u64, ReadError>
             if page.values.saturating_mul(chunk.least) > page.unpacked {
                 return Err(broken(at, wanted::DICTIONARY_VALUES));
             }
-            // A text of a few bytes takes 40 once it is known where it lies.
+            // A text of a few bytes takes 40 more for its position.
             dictionary = page.unpacked.saturating_add(page.values.saturating_mul(48));
         } else {
             values = values.saturating_add(page.values);

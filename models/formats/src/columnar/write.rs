@@ -1,4 +1,4 @@
-//! Columns as a Parquet file.
+//! Writes columns as a Parquet file.
 
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
 
-/// Values of a column; `None` is null where the column may have none.
+/// Values of a column; `None` is null if the column is optional.
 #[allow(missing_docs, reason = "the names say it")]
 pub enum ColumnValues {
     Text(Vec<Option<String>>),
@@ -29,7 +29,7 @@ pub struct Column {
     pub name: &'static str,
     /// Every row has a value.
     pub required: bool,
-    /// One a row.
+    /// One value per row.
     pub values: ColumnValues,
 }
 
@@ -43,7 +43,7 @@ fn compression() -> Result<Compression, ParquetError> {
     Ok(Compression::SNAPPY)
 }
 
-/// Writes tables of the same columns, a row group each, with notes beside them.
+/// Writes tables with the same columns, one row group each, and notes as metadata.
 ///
 /// # Errors
 /// Those of the library; none is expected.

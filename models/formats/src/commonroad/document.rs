@@ -1,4 +1,4 @@
-//! A scenario as it stands in its file.
+//! A scenario in the form of its file.
 
 use super::shapes::{self, Shape};
 use super::words::VERSIONS;
@@ -32,7 +32,7 @@ pub(super) const ROOT: &str = "commonRoad";
 pub(super) struct Side {
     pub points: Vec<Vec2>,
     pub marking: String,
-    /// The lanelet beside it, and whether it runs the same way.
+    /// The adjacent lanelet, and whether it runs the same way.
     pub beside: Option<(i64, bool)>,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct Lanelet {
     pub both_ways: Vec<String>,
     pub signs: Vec<i64>,
     pub lights: Vec<i64>,
-    /// Ends of the stop line, or that there is one at the end of the lanelet.
+    /// Ends of the stop line, or that the stop line is at the end of the lanelet.
     pub stop: Option<Option<(Vec2, Vec2)>>,
     /// Limit of version 2018b, m/s.
     pub speed_mps: Option<f64>,
@@ -58,7 +58,7 @@ pub(super) struct Lanelet {
 /// A sign.
 #[derive(Debug)]
 pub(super) struct Sign {
-    /// Kinds with their numbers.
+    /// Kinds of signs with their numbers.
     pub elements: Vec<(String, Option<f64>)>,
     pub position: Option<Vec2>,
 }
@@ -66,7 +66,7 @@ pub(super) struct Sign {
 /// A light.
 #[derive(Debug)]
 pub(super) struct TrafficLight {
-    /// Colours with how many steps they last.
+    /// Colours with their durations in steps.
     pub cycle: Vec<(String, u64)>,
     pub offset: i64,
     pub direction: String,
@@ -76,12 +76,12 @@ pub(super) struct TrafficLight {
 /// State of an obstacle at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ObstacleState {
-    /// Steps of the file.
+    /// Step of the file.
     pub step: i64,
     pub at: Vec2,
     pub heading_rad: Option<f64>,
     pub velocity: Option<Vec2>,
-    /// A middle of what is possible.
+    /// Whether the state is the middle of a set of possible states.
     pub uncertain: bool,
 }
 
@@ -91,11 +91,11 @@ pub(super) struct Obstacle {
     pub id: i64,
     pub word: String,
     pub fixed: bool,
-    /// Unknown size if absent.
+    /// Shape; unknown size if absent.
     pub shape: Option<Shape>,
     /// In the order of the file.
     pub states: Vec<ObstacleState>,
-    /// Occupied sets instead of states.
+    /// Whether the file has occupied sets instead of states.
     pub sets: bool,
 }
 
@@ -109,7 +109,7 @@ pub(super) struct GoalState {
     pub lanelets: Vec<i64>,
     pub heading_rad: Option<Range>,
     pub speed_mps: Option<Range>,
-    /// Steps of the file.
+    /// Time in steps of the file.
     pub time: Option<Range>,
 }
 
@@ -133,19 +133,20 @@ pub(super) struct CommonRoadDocument {
     pub lanelets: Vec<Lanelet>,
     pub signs: HashMap<i64, Sign>,
     pub lights: HashMap<i64, TrafficLight>,
-    /// Lanelets through junctions by where they turn.
+    /// Lanelets through junctions by their turn direction.
     pub turns: Vec<(&'static str, i64)>,
     pub obstacles: Vec<Obstacle>,
     pub problems: Vec<PlanningProblem>,
-    /// Elements that a scene has no place for.
+    /// Number of elements that a scene cannot hold.
     pub others: usize,
 }
 
-/// Reads a file, plain or gzip.
+/// Reads a file, plain or compressed with gzip.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or an
-/// unknown version, `invalid-field` for what is missing or no number, `map-too-large`, `too-many-agents`.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of file
+/// or an unknown version, `invalid-field` for what is missing or no number, `map-too-large`,
+/// `too-many-agents`.
 pub(super) fn read(file: &dyn Source) -> Result<CommonRoadDocument, ReadError> {
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
     let input = input.map_err(|error| unpack::fault(&error, 0))?;
@@ -331,13 +332,13 @@ fn turns(node: &XmlNode, turns: &mut Vec<(&'static str, i64)>) -> Result<(), Rea
     Ok(())
 }
 
-/// A number, or the middle of two between which it lies; that it is one.
+/// A number, or the middle of an interval; whether it is an interval.
 fn value(node: &XmlNode) -> Result<(f64, bool), ReadError> {
     let (from, to) = range(node)?;
     Ok(((from + to) / 2.0, from != to))
 }
 
-/// Between which numbers it lies.
+/// The bounds of an interval.
 fn range(node: &XmlNode) -> Result<Range, ReadError> {
     if let Some(exact) = node.child("exact") {
         return exact.number().map(|value| (value, value));
@@ -345,7 +346,7 @@ fn range(node: &XmlNode) -> Result<Range, ReadError> {
     Ok((node.required("intervalStart")?.number()?, node.required("intervalEnd")?.number()?))
 }
 
-/// A state; nothing where its place is not a place.
+/// A state; nothing if its position is missing or not a position.
 fn state(node: &XmlNode) -> Result<Option<ObstacleState>, ReadError> {
     let places = shapes::all(node.required("position")?)?;
     let Some(place) = places.first() else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! From a scene to a scenario in a file.
+//! Writes a scene as a scenario.
 
 use super::export_map::MapElements;
 use super::export_motion::{self, PlanningTask, ScenarioAgent};
@@ -13,10 +13,10 @@ use scene::{Agent, STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
 
-/// Writes a scene, in its own frame: where that lies is in the file's location.
+/// Writes a scene in its own frame; the location of the file has the origin.
 ///
 /// # Errors
-/// `InvalidInput` for a scene without a lane, since a scenario has one at least.
+/// `InvalidInput` for a scene without a lane, since a scenario needs one.
 pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     if scene.map.lanes.is_empty() {
         let message = crate::refusals::file_needs("CommonRoad", crate::refusals::what::LANE);
@@ -82,7 +82,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     Ok(Exported { bytes: out.finish()?, losses: losses.into_iter().collect() })
 }
 
-/// The day on which futures were made, where that is known.
+/// The day on which the futures were made, if it is known.
 fn date(scene: &Scene) -> String {
     let made = scene.generated.as_ref().and_then(|generated| generated.created_at.get(..10));
     let is_date = |day: &&str| {
@@ -91,7 +91,7 @@ fn date(scene: &Scene) -> String {
     made.filter(is_date).unwrap_or("1970-01-01").to_owned()
 }
 
-/// The scene's own name in its source where that is a benchmark's, else one made of its name.
+/// The scene's own name in its source if that is a benchmark id, otherwise an id made from its name.
 fn benchmark_id(scene: &Scene) -> String {
     let own = scene.meta.source_id.as_deref().filter(|id| is_benchmark_id(id));
     let own = own.or(Some(scene.name.as_str()).filter(|id| is_benchmark_id(id)));

@@ -1,4 +1,4 @@
-//! A lane map as lanelets, signs and lights.
+//! Writes a lane map as lanelets, signs and lights.
 
 use super::words::{INTERSECTION, color, lane_word, marking};
 use crate::loss::{Loss, code};
@@ -10,7 +10,7 @@ use scene::{Scene, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
 use std::io;
 
-/// Half the length of a stop line, in widths of its lane.
+/// Half the length of a stop line, as a share of the width of its lane.
 const HALF: f64 = 0.5;
 /// Marking of a side that is a road edge.
 const CURB: &str = "curb";
@@ -25,18 +25,18 @@ pub(super) struct MapElements<'a> {
     /// Markings of lines and edges.
     markings: HashMap<&'a str, &'static str>,
     crosswalks: Vec<(i64, &'a Area)>,
-    /// Signs of lanes with a limit. Each has its own: readers look for the lane at which a sign begins, and where
-    /// lanes with the same one go round there is none.
+    /// Signs of lanes with a limit, one for each lane: readers look for the lane at which a sign begins, and
+    /// a ring of lanes with the same sign has no such lane.
     limits: HashMap<&'a str, i64>,
     /// Signs at which lanes stop.
     stops: Vec<(i64, &'a StopSign)>,
     lights: Vec<(i64, &'a Signal)>,
-    /// Places in `stops` and `lights` of what a lane obeys.
+    /// Indices into `stops` and `lights` of the signs and lights that a lane obeys.
     obeys: HashMap<&'a str, (Vec<usize>, Vec<usize>)>,
 }
 
 impl<'a> MapElements<'a> {
-    /// Numbers all elements that are drawn and reports the rest; signals cover so many steps.
+    /// Numbers all elements that are drawn and reports the others as losses; signals cover this many steps.
     pub fn of(scene: &'a Scene, steps: usize, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;
         let number = |lane: &'a Lane| (lane.id.as_str(), (ids.take(&lane.id), lane.points.xy.len() - 1));
@@ -119,7 +119,7 @@ impl<'a> MapElements<'a> {
         );
     }
 
-    /// A lane beside all of a lane.
+    /// Whether a neighbour lies beside the whole length of a lane.
     fn is_whole(&self, lane: &Lane, neighbor: &Neighbor) -> bool {
         let Some((_, last)) = self.lanes.get(neighbor.lane.as_str()) else { return false };
         let covers = |range: (usize, usize), last: usize| range.0 <= last / 8 && range.1 + last / 8 >= last;
@@ -185,7 +185,7 @@ impl<'a> MapElements<'a> {
         let lights: Vec<_> = obeys.iter().flat_map(|(_, lights)| lights).map(|i| self.lights[*i]).collect();
         let signs: Vec<i64> = obeys.iter().flat_map(|(signs, _)| signs).map(|i| self.stops[*i].0).collect();
         let stop = lights.iter().find_map(|(_, signal)| signal.stop).or_else(|| {
-            // Without a place a light on a way through a junction is obeyed where that begins.
+            // A light without a position on a way through a junction is obeyed where the way begins.
             let end = if lane.interpolating { points.first() } else { points.last() };
             end.copied().filter(|_| !lights.is_empty())
         });

@@ -1,4 +1,4 @@
-//! Road users as obstacles, and the one with a goal as a planning problem.
+//! Writes road users as obstacles, and the one with a goal as a planning problem.
 
 use super::export_map::position;
 use super::words::road_user_word;
@@ -18,28 +18,28 @@ const GOAL_M: f64 = 1.0;
 /// Tolerances of a goal: heading (radians), speed (m/s) and time (steps).
 const OFF: (f64, f64, usize) = (0.1, 0.5, 5);
 
-/// A road user as the scenario has it.
+/// A road user of the scenario.
 pub(super) struct ScenarioAgent<'a> {
     pub agent: &'a Agent,
-    /// As the file has it.
+    /// Its motion in the file.
     pub shown: &'a Shown<'a>,
     /// Its number in the scenario.
     pub id: i64,
-    /// The user fixed more than boxes and states can hold.
+    /// Whether the user fixed more than boxes and states can hold.
     pub is_fixed: bool,
 }
 
 /// The road user that a planner drives, with its start and goal.
 pub(super) struct PlanningTask {
-    /// Place in the list of road users.
+    /// Index in the list of road users.
     agent: usize,
     first_step: usize,
     start: State,
     goal: Goal,
 }
 
-/// Writes a planning problem from the beginning of the longest lane to its end, for a scene without an ego or a goal:
-/// a scenario has one at least.
+/// Writes a planning problem from the beginning of the longest lane to its end, for a scene without an ego or
+/// a goal: a scenario needs one.
 pub(super) fn write_made(scene: &Scene, id: i64, out: &mut Markup) {
     let lanes = &scene.map.lanes;
     let length =
@@ -55,8 +55,8 @@ pub(super) fn write_made(scene: &Scene, id: i64, out: &mut Markup) {
 }
 
 impl PlanningTask {
-    /// The task of the ego, else of the first road user with a goal; `None` without any start. `shown` are
-    /// the road users of the scene as the file has them.
+    /// The task of the ego, otherwise of the first road user with a goal; `None` without any start. `shown`
+    /// are the road users of the scene with their motion in the file.
     pub fn of(scene: &Scene, shown: &[Shown<'_>]) -> Option<Self> {
         let agents = &scene.agents;
         let ego = agents.iter().position(|agent| agent.role.as_deref() == Some(EGO));
@@ -65,7 +65,7 @@ impl PlanningTask {
         let (first_step, start) = *known(&shown.track, &agents[agent]).first()?;
         let mut goal = agents[agent].conditions.goal;
         if goal.is_free() {
-            // Its recorded end becomes the goal.
+            // Its last recorded state becomes the goal.
             let last = shown.track.last_valid_step().filter(|last| *last > first_step);
             let end = last.and_then(|last| Some((last, shown.track.at(last)?)));
             if let Some((last, end)) = end {
@@ -121,7 +121,7 @@ impl Lost {
         });
         let roles = agents.iter().filter(|agent| agent.role.is_some()).count();
         let is_ego = ego.is_some_and(|ego| ego.role.as_deref() == Some(EGO));
-        // Steps after the last state, and which of them is the present, are nowhere in a file.
+        // The format stores neither steps after the last state nor the present step.
         let last = agents.iter().filter_map(|agent| agent.track.last_valid_step()).max();
         let timing =
             scene.time.now_step != 0 || last.is_none_or(|last| last + 1 != scene.time.steps) || ego.is_some();
@@ -185,7 +185,8 @@ fn obstacle(user: &ScenarioAgent<'_>, out: &mut Markup, lost: &mut Lost) {
     let slips = states.iter().any(|(_, state)| along(state).1.abs() > 1e-6);
     out.open("initialState", &[]);
     state(*first, slips, out);
-    // CommonRoad's own reader goes no further in a first state than to what is missing: slip comes after these.
+    // CommonRoad's own reader stops at the first missing member of an initial state: slip therefore comes
+    // last.
     let (next, speeds) = (rest.first().unwrap_or(first), |state: &State| along(state).0);
     let turned = wrap_angle(next.1.heading_rad - first.1.heading_rad);
     exact("acceleration", decimal((speeds(&next.1) - speeds(&first.1)) / STEP_S), out);
@@ -201,7 +202,7 @@ fn obstacle(user: &ScenarioAgent<'_>, out: &mut Markup, lost: &mut Lost) {
     out.close();
 }
 
-/// States of a road user; of one that was drawn, and never moved, where its user has put it.
+/// States of a road user; for one that the user drew and that never moved, its drawn position.
 fn known(track: &Track, agent: &Agent) -> Vec<(usize, State)> {
     let mut known: Vec<_> = track.valid_steps().filter_map(|step| Some((step, *track.at(step)?))).collect();
     let start = &agent.conditions.start;
@@ -213,7 +214,7 @@ fn known(track: &Track, agent: &Agent) -> Vec<(usize, State)> {
     known
 }
 
-/// Two states or more at steps that follow each other, with straight motion where there were gaps.
+/// Two states or more at consecutive steps, with straight motion in the gaps.
 fn filled(known: &[(usize, State)]) -> Vec<(usize, State)> {
     let mut states: Vec<(usize, State)> = Vec::new();
     for (step, state) in known {
@@ -243,7 +244,7 @@ fn filled(known: &[(usize, State)]) -> Vec<(usize, State)> {
     states
 }
 
-/// Velocity as a speed, backwards below zero, and how far its direction is off the heading, radians.
+/// Velocity as a speed, negative backwards, and the angle between its direction and the heading, radians.
 fn along(state: &State) -> (f64, f64) {
     let (v, speed) = (state.velocity(), state.speed_mps());
     if speed < 1e-9 {
@@ -253,7 +254,7 @@ fn along(state: &State) -> (f64, f64) {
     if slip.abs() > FRAC_PI_2 { (-speed, wrap_angle(slip + PI)) } else { (speed, slip) }
 }
 
-/// Radians to the billionth: at some distance less would be seen.
+/// Radians with nine decimals: fewer would be visible at a distance.
 fn angle(angle_rad: f64) -> String {
     ((wrap_angle(angle_rad) * 1e9).round() / 1e9 + 0.0).to_string()
 }
@@ -292,14 +293,14 @@ fn planning_problem(problem: &PlanningTask, id: i64, out: &mut Markup) {
     exact("orientation", angle(start.heading_rad), out);
     exact("yawRate", 0, out);
     exact("slipAngle", angle(slip), out);
-    // The schema has no other time here.
+    // The schema allows no other time here.
     exact("time", 0, out);
     out.close();
     out.open("goalState", &[]);
     let goal = &problem.goal;
     let latest = problem.first_step + HORIZON_STEPS;
     let (from, to) = match goal.time_s.map(|time_s| (time_s / STEP_S).round().max(1.0) as usize) {
-        // One that must be met early may be met from the beginning on.
+        // An early goal gets less tolerance: its time begins two steps after the first one at the earliest.
         Some(step) => {
             let off = OFF.2.min(step.saturating_sub(problem.first_step + 2));
             (step - off, step + off)

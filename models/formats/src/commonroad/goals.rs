@@ -8,11 +8,11 @@ use crate::polyline;
 use scene::map::LaneMap;
 use scene::{Agent, AgentType, Conditions, Goal, MAX_COORDINATE_M, State, Subtype, Track, Vec2, wrap_angle};
 
-/// Greatest speed of a goal, and when it can be due, m/s and s.
+/// Greatest speed of a goal, m/s, and range of its time, s.
 const MAX_SPEED_MPS: f64 = 60.0;
 const DUE_S: (f64, f64) = (0.5, 80.0);
 
-/// The road user that a problem is about: where it starts, and what it must reach; whether that was a region.
+/// The road user of a planning problem, with its start and goal; whether the goal was a region.
 pub(super) fn agent(
     problem: &PlanningProblem,
     (map, lanes): (&LaneMap, &Lanes),
@@ -32,7 +32,7 @@ pub(super) fn agent(
     (agent, is_region)
 }
 
-/// Conditions of a road user that starts elsewhere than the problem states: a position too far from its start
+/// Conditions of a road user that does not start where the problem states: a position too far from its start
 /// is dropped.
 pub(super) fn from_start(mut conditions: Conditions, driven: &Agent) -> Conditions {
     let start = driven.track.states.iter().flatten().next().map(State::position);
@@ -45,18 +45,18 @@ fn is_near(place: Vec2, start: Vec2) -> bool {
     (place - start).norm() <= MAX_GOAL_DISTANCE_M
 }
 
-/// The middle of what is to be reached; whether there was more than a point of it.
+/// The middle of the goal region; whether it was more than a point.
 fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Goal, bool) {
     let middle = |(from, to): Range| (from + to) / 2.0;
     let is_wide = |range: Option<Range>| range.is_some_and(|(from, to)| from != to);
-    // Without an earliest time, the latest one counts.
+    // Without an earliest time, the latest time counts.
     let time_s = goal.time.map(|(from, to)| {
         let at = if from <= clock.first as f64 + 1.0 { to } else { middle((from, to)) };
         clock.seconds(at)
     });
     let time_s = time_s.filter(|time_s| *time_s > 0.0).map(|time_s| time_s.clamp(DUE_S.0, DUE_S.1));
     let heading_rad = goal.heading_rad.map(|(from, to)| {
-        // The shorter way round, unless the file accepts any heading.
+        // The shorter rotation, unless the file accepts any heading.
         wrap_angle(from + (to - from) / 2.0)
     });
     let all_round = goal.heading_rad.is_some_and(|(from, to)| to - from > 6.0);
@@ -74,7 +74,8 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
     (Goal { position, heading_rad: heading_rad.filter(|_| !all_round), speed_mps, time_s }, is_region)
 }
 
-/// The point in the middle of any of these lanelets that is nearest to where one would be without turning.
+/// The point on the middle line of any of these lanelets that is nearest to the place reached without
+/// turning.
 fn on_lanelets(ids: &[i64], there: Vec2, (map, lanes): (&LaneMap, &Lanes)) -> Option<Vec2> {
     let all = ids.iter().filter_map(|id| lanes.get(id)?.first()).map(|lane| &map.lanes[*lane].points.xy);
     let feet = all.map(|line| polyline::nearest(line, there));

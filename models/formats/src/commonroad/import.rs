@@ -1,4 +1,4 @@
-//! From a scenario to a scene.
+//! Reads a scenario as a scene.
 
 use super::document::{self, CommonRoadDocument};
 use super::motion::{Changed, Clock};
@@ -23,7 +23,7 @@ pub(super) const LICENCE: &str = "; licence ";
 /// Affiliation of a file whose planning problem this program made, because a scenario has one at least.
 pub(super) const MADE: &str = "planning problem made by DragTraffic";
 
-/// Reads a file, plain or gzip.
+/// Reads a file, plain or compressed with gzip.
 ///
 /// # Errors
 /// Those of [`document::read`]; `map-too-large`; the faults of a scene.
@@ -42,7 +42,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let mut planned = HashSet::new();
     for (i, problem) in document.problems.iter().enumerate() {
         let (mut agent, is_region) = goals::agent(problem, (&map, &lanes), clock);
-        // Some files also have the recorded track of the problem's road user.
+        // Some files also contain the recorded track of the problem's road user.
         let driven = document.obstacles.iter().find(|obstacle| obstacle.id == problem.id);
         match driven.and_then(|obstacle| motion::agent(obstacle, clock, &mut changed)) {
             Some(driven) => {
@@ -97,7 +97,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     checked(scene, warnings)
 }
 
-/// All places of a document.
+/// All positions of a document.
 fn places(document: &mut CommonRoadDocument) -> impl Iterator<Item = &mut Vec2> {
     let lanelets = document.lanelets.iter_mut().flat_map(|lanelet| {
         let stop = lanelet.stop.iter_mut().flatten().flat_map(|(a, b)| [a, b]);
@@ -113,7 +113,7 @@ fn places(document: &mut CommonRoadDocument) -> impl Iterator<Item = &mut Vec2> 
     lanelets.chain(signs).chain(states).chain(problems)
 }
 
-/// Moves all places so that a scene can have them, by whole metres; most files lie about their origin already.
+/// Moves all positions by whole metres into the range of a scene; most files already lie about their origin.
 fn about_the_middle(document: &mut CommonRoadDocument) -> Result<Vec2, ReadError> {
     let corners = places(document).fold(None, |corners: Option<(Vec2, Vec2)>, p| {
         Some(corners.map_or((*p, *p), |(low, high)| (low.inf(p), high.sup(p))))
@@ -130,8 +130,8 @@ fn about_the_middle(document: &mut CommonRoadDocument) -> Result<Vec2, ReadError
     Ok(middle)
 }
 
-/// The steps of the scene: to the last state or the end of the first goal, from the zero of the file where that is
-/// not too long before, else from the first state.
+/// The steps of the scene: to the last state or the end of the first goal. They begin at step zero of the
+/// file if that is not too long before the first state, otherwise at the first state.
 fn clock(document: &CommonRoadDocument, warnings: &mut Vec<ImportWarning>) -> Clock {
     let moving = document.obstacles.iter().filter(|obstacle| !obstacle.fixed);
     let starts = document.problems.iter().map(|problem| problem.start.step);
@@ -156,7 +156,7 @@ fn clock(document: &CommonRoadDocument, warnings: &mut Vec<ImportWarning>) -> Cl
     Clock { steps: steps.min(MAX_STEPS), ..clock }
 }
 
-/// The road users that a scene has room for. Of two with one id the first.
+/// The road users that a scene has room for; the first one of two with the same id.
 fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<ImportWarning>) -> Vec<Agent> {
     let count = agents.len();
     let mut ids = HashSet::new();

@@ -1,4 +1,4 @@
-//! Lanelets as a lane map.
+//! Reads lanelets as a lane map.
 
 use super::document::{CommonRoadDocument, Lanelet, Side};
 use super::words::{INTERSECTION, MAX_SPEED_SIGNS, STOP_SIGNS, lane_kind, line_type};
@@ -18,7 +18,7 @@ const BESIDE_M: f64 = 0.5;
 /// Lanes of each lanelet: with its direction, and against it.
 pub(super) type Lanes = HashMap<i64, Vec<usize>>;
 
-/// A map of the lanelets, and which lanes are theirs.
+/// A map of the lanelets, and the lanes of each lanelet.
 pub(super) fn lane_map(document: &CommonRoadDocument, warnings: &mut Vec<ImportWarning>) -> (LaneMap, Lanes) {
     let mut map = LaneMap::default();
     let lanes = draw(document, &mut map, warnings);
@@ -84,7 +84,7 @@ fn drives(users: &[String]) -> bool {
     users.iter().any(|user| !matches!(user.as_str(), "pedestrian" | "bicycle" | "bus" | "train"))
 }
 
-/// The middle of a lanelet as it is written, where its sides have as many points, and its width.
+/// The middle line of a lanelet, from the file's own points if both sides have as many; and its width.
 fn centre(lanelet: &Lanelet) -> (Vec<Vec2>, f64) {
     let (left, right) = (&lanelet.left.points, &lanelet.right.points);
     if left.len() == right.len() && left.len() <= MAX_POLYLINE_POINTS {
@@ -144,7 +144,7 @@ fn link(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) {
     }
 }
 
-/// A line between the same two places as another is the same line.
+/// Lines between the same two points are the same line.
 type Ends = [(i64, i64); 2];
 
 fn ends(points: &[Vec2]) -> Ends {
@@ -189,7 +189,7 @@ fn line_of(id: String, line_type: &str, side: &Side) -> TypedLine {
     TypedLine { id, line_type: line_type.to_owned(), points }
 }
 
-/// Draws the ground of vehicles, and its edges. False where there were too many to find edges.
+/// Draws the ground for vehicles, and its edges. False if there were too many areas to find edges.
 fn ground(lanelets: &[Lanelet], lanes: &Lanes, map: &mut LaneMap) -> bool {
     let (mut strips, mut ways) = (Vec::new(), Vec::new());
     let mut done = HashSet::new();

@@ -1,4 +1,4 @@
-//! Obstacles as road users, with a state each 0.1 s.
+//! Reads obstacles as road users, with a state each 0.1 s.
 
 use super::document::{Obstacle, ObstacleState};
 use super::shapes::Shape;
@@ -20,7 +20,7 @@ pub(super) struct Changed {
     pub cut: usize,
 }
 
-/// Times of the file beside those of the scene.
+/// Time of the file in relation to the time of the scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     /// Length of a step of the file, seconds.
@@ -32,23 +32,23 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Seconds from the first step on.
+    /// Seconds since the first step.
     pub fn seconds(self, step: f64) -> f64 {
         (step - self.first as f64) * self.step_s
     }
 
-    /// The step of the scene in which a step of the file is or after which it comes.
+    /// The step of the scene at or before a step of the file.
     pub fn step(self, step: i64) -> usize {
         (self.seconds(step as f64) / STEP_S + 1e-6).floor().clamp(0.0, MAX_STEPS as f64) as usize
     }
 
-    /// Steps of both are as long.
+    /// Whether the steps of both have the same length.
     pub fn is_even(self) -> bool {
         (self.step_s - STEP_S).abs() < 1e-9
     }
 }
 
-/// A road user; nothing where it has no place, no size or a size that no road user has.
+/// A road user; nothing if it has no position, no size or an impossible size.
 pub(super) fn agent(obstacle: &Obstacle, clock: Clock, changed: &mut Changed) -> Option<Agent> {
     let (agent_type, subtype) = road_user(&obstacle.word);
     changed.sets += usize::from(obstacle.sets);
@@ -78,7 +78,8 @@ pub(super) fn agent(obstacle: &Obstacle, clock: Clock, changed: &mut Changed) ->
     Some(agent)
 }
 
-/// States of the middle of the box, by rising step of the file. What is missing is worked out from the places.
+/// States of the centre of the box, by rising step of the file. Missing values are derived from the
+/// positions.
 fn states(timed: &[ObstacleState], shape: Shape) -> Vec<(i64, State)> {
     let mut sorted: Vec<ObstacleState> = timed.to_vec();
     sorted.sort_by_key(|state| state.step);
@@ -98,7 +99,7 @@ fn states(timed: &[ObstacleState], shape: Shape) -> Vec<(i64, State)> {
     sorted.iter().enumerate().map(state).collect()
 }
 
-/// A state each 0.1 s, straight between those of the file, from the step given on.
+/// A state each 0.1 s, interpolated linearly between those of the file, and the step of the first one.
 fn resampled(states: &[(i64, State)], clock: Clock) -> (usize, Vec<Option<State>>) {
     let (Some((first, _)), Some((last, _))) = (states.first(), states.last()) else { return (0, Vec::new()) };
     let begin = (clock.seconds(*first as f64) / STEP_S - 1e-6).ceil().max(0.0) as usize;
@@ -114,7 +115,7 @@ fn resampled(states: &[(i64, State)], clock: Clock) -> (usize, Vec<Option<State>
         if share < 1e-6 {
             return Some(*from);
         }
-        // Between two steps of the file that follow each other; a longer gap stays one.
+        // Only between two consecutive steps of the file; a longer gap stays a gap.
         let (next, to) = states.get(at + 1)?;
         (next - step == 1).then(|| between(from, to, share))
     };

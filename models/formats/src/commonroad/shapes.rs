@@ -6,7 +6,7 @@ use crate::tree::XmlNode;
 use scene::geometry::rotate;
 use scene::{Vec2, wrap_angle};
 
-/// Farthest a coordinate of a file may lie from its origin, metres.
+/// Greatest distance of a coordinate of a file from its origin, metres.
 const MAX_SOURCE_M: f64 = 1e8;
 
 /// A shape as the box around it.
@@ -16,9 +16,9 @@ pub(super) struct Shape {
     pub heading_rad: f64,
     pub length_m: f64,
     pub width_m: f64,
-    /// A place with an extent, not a point.
+    /// Whether the place has an extent.
     pub is_area: bool,
-    /// Not a box itself.
+    /// Whether the shape is not a box itself.
     pub approximated: bool,
 }
 
@@ -88,7 +88,7 @@ fn shape(node: &XmlNode) -> Result<Option<Shape>, ReadError> {
     }))
 }
 
-/// The box along the axes around points.
+/// The axis-aligned box around points.
 fn around(points: &[Vec2]) -> Option<Shape> {
     let (first, rest) = points.split_first()?;
     let (low, high) = rest.iter().fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));

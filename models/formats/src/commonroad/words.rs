@@ -1,4 +1,4 @@
-//! The words of CommonRoad beside those of a scene.
+//! The words of CommonRoad and their counterparts in a scene.
 
 use crate::sides::LaneletKind;
 use scene::map::LaneType;
@@ -31,9 +31,9 @@ const LANE_TYPES: [(&str, LaneletKind); 18] = [
     ("country", LaneletKind::Lane(LaneType::SurfaceStreet)),
     ("driveWay", LaneletKind::Lane(LaneType::SurfaceStreet)),
 ];
-/// Type of what leads through a junction.
+/// Type of a lanelet through a junction.
 pub(super) const INTERSECTION: &str = "intersection";
-/// Type of which nothing is known.
+/// Type of a lanelet without known type.
 pub(super) const UNKNOWN: &str = "unknown";
 
 /// Use of a lanelet with these types and users.
@@ -66,7 +66,7 @@ pub(super) fn lane_word(lane_type: LaneType) -> &'static str {
     }
 }
 
-/// Words for a marking, and what a line of it is called here.
+/// Words for a marking, and the line type of each in a scene.
 const MARKINGS: [(&str, &str); 8] = [
     ("dashed", "broken_single_white"),
     ("solid", "solid_single_white"),
@@ -83,7 +83,7 @@ pub(super) fn line_type(marking: &str) -> Option<&'static str> {
     MARKINGS.iter().find(|(word, _)| *word == marking).map(|(_, line)| *line)
 }
 
-/// The marking of such a line.
+/// The marking of a line type.
 pub(super) fn marking(line_type: &str) -> &'static str {
     match line_type {
         "broken_single_white" | "broken_single_yellow" | "broken_double_yellow" => "dashed",
@@ -94,10 +94,10 @@ pub(super) fn marking(line_type: &str) -> &'static str {
     }
 }
 
-/// Speed limit signs of all countries that the format knows.
+/// Speed limit signs of all countries that the format covers.
 pub(super) const MAX_SPEED_SIGNS: [&str; 10] =
     ["274", "274.1", "R2-1", "r301", "3.24", "R15", "C43", "B14", "B31", "\u{3a1}-32"];
-/// Signs at which one stops.
+/// Stop signs.
 pub(super) const STOP_SIGNS: [&str; 3] = ["206", "R1-1", "r2"];
 
 /// Signal state of a colour.
@@ -112,7 +112,7 @@ pub(super) fn signal_state(color: &str) -> Option<SignalState> {
     })
 }
 
-/// The colour of what a light shows.
+/// The colour of a signal state.
 pub(super) fn color(state: SignalState) -> &'static str {
     match state {
         SignalState::Unknown => "inactive",
@@ -122,7 +122,7 @@ pub(super) fn color(state: SignalState) -> &'static str {
     }
 }
 
-/// Words for road users. The first of a kind is written.
+/// Words for road users. The first word of a kind is written.
 const ROAD_USERS: [(&str, AgentType, Subtype); 13] = [
     ("car", AgentType::Vehicle, Subtype::Car),
     ("truck", AgentType::Vehicle, Subtype::Truck),
@@ -145,7 +145,7 @@ pub(super) fn road_user(word: &str) -> (AgentType, Subtype) {
     found.map_or((AgentType::Other, Subtype::Unknown), |(_, agent_type, subtype)| (*agent_type, *subtype))
 }
 
-/// Word of a road user, and whether it keeps the subtype.
+/// Word of a road user, and whether it preserves the subtype.
 pub(super) fn road_user_word(agent_type: AgentType, subtype: Subtype) -> (&'static str, bool) {
     let of_type = || ROAD_USERS.iter().filter(|(_, known, _)| *known == agent_type);
     let exact = of_type().find(|(.., known)| *known == subtype);

@@ -1,15 +1,15 @@
-//! The frame of MCAP files (its specification, version 0): schemas and channels, messages in compressed chunks, and
-//! an index behind them. Checksums, which are optional, stand for none.
+//! The container of MCAP files (its specification, version 0): schemas and channels, messages in compressed
+//! chunks, and an index after them. Optional checksums are zero.
 
 use std::collections::BTreeMap;
 use std::io;
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
-/// Bytes of messages in a chunk, about.
+/// Approximate bytes of messages in a chunk.
 const CHUNK: usize = 1 << 20;
 #[cfg(not(target_family = "wasm"))]
 const ZSTD_LEVEL: i32 = 3;
-/// Name of the chunk compression, as the format has it.
+/// Name of the chunk compression in the format.
 const PACKING: &str = if cfg!(target_family = "wasm") { "" } else { "zstd" };
 
 #[cfg(not(target_family = "wasm"))]
@@ -47,7 +47,7 @@ impl Content {
         self
     }
 
-    /// With its length before it.
+    /// Adds a text, preceded by its length.
     fn text(self, text: &str) -> Self {
         self.list(text.as_bytes())
     }
@@ -80,14 +80,14 @@ impl Content {
 struct Chunk {
     records: Vec<u8>,
     times_ns: Option<(u64, u64)>,
-    /// Time and place of each message, by channel.
+    /// Time and offset of each message, by channel.
     places: BTreeMap<u16, Vec<(u64, u64)>>,
 }
 
 /// A file that is being written.
 pub(super) struct McapWriter {
     bytes: Vec<u8>,
-    /// Schemas and channels, once more for the end of the file.
+    /// Schemas and channels, repeated at the end of the file.
     known: Vec<u8>,
     schemas: u16,
     counts: BTreeMap<u16, u64>,
@@ -97,7 +97,7 @@ pub(super) struct McapWriter {
     metadata_indexes: Vec<Vec<u8>>,
 }
 
-/// The span of times with one more.
+/// The span of times extended by one more.
 fn with(times_ns: Option<(u64, u64)>, time_ns: u64) -> Option<(u64, u64)> {
     Some(times_ns.map_or((time_ns, time_ns), |(first, last)| (first.min(time_ns), last.max(time_ns))))
 }
@@ -184,7 +184,7 @@ impl McapWriter {
         Ok(())
     }
 
-    /// Words about the whole file.
+    /// Metadata of the whole file.
     pub fn metadata(&mut self, name: &str, words: &BTreeMap<String, String>) {
         let start = self.bytes.len() as u64;
         self.bytes.extend(Content::default().text(name).texts(words).record(0x0c));

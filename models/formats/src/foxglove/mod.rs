@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io;
 
-/// A scene as a log of messages, ten a second.
+/// A scene as a log of messages, ten per second.
 pub struct Mcap;
 
 const SCENE_UPDATE: &str = include_str!("scene_update.schema.json");
@@ -55,7 +55,7 @@ impl Format for Mcap {
 
 const STEP_NS: u64 = 100_000_000;
 
-/// A time as messages have it.
+/// A time in the form of messages.
 fn time(step: usize) -> Value {
     let ns = step as u64 * STEP_NS;
     json!({"sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000})

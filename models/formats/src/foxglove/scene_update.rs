@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 /// The frame of all entities.
 const FRAME: &str = "scene";
-/// Of lines of `foxglove.LinePrimitive`.
+/// Type of lines in `foxglove.LinePrimitive`.
 const STRIP: u8 = 0;
 const LOOP: u8 = 1;
 /// Deletes all entities of a topic.
@@ -25,7 +25,7 @@ pub(super) fn transform(scene: &Scene) -> Value {
     })
 }
 
-/// A turn about the upright axis.
+/// A rotation about the vertical axis.
 fn turn(angle_rad: f64) -> Value {
     let (sin, cos) = (angle_rad / 2.0).sin_cos();
     json!({"x": 0.0, "y": 0.0, "z": sin, "w": cos})
@@ -75,7 +75,7 @@ fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> Value {
     })
 }
 
-/// The road: an entity for each sort of line.
+/// The road: an entity for each kind of line.
 pub(super) fn map(map: &LaneMap) -> Value {
     let areas = |list: &[Area], shade: [u8; 3]| -> Vec<Value> {
         list.iter().map(|area| line(&area.polygon.xy, true, 0.2, colour(shade, 1.0))).collect()
@@ -154,7 +154,7 @@ pub(super) fn users(tracks: &[(&Agent, Shown<'_>)], step: usize) -> Value {
     update(step, &entities)
 }
 
-/// A road user as a box that stands on the ground; heights of recordings are those of its middle.
+/// A road user as a box that stands on the ground; recorded heights are those of its centre.
 fn user(agent: &Agent, shown: &Shown<'_>, state: &State, z_m: Option<f64>, step: usize) -> Value {
     let usual = Size::default_for(shown.agent_type, agent.subtype);
     let height_m = shown.size.height_m.or(usual.height_m).unwrap_or(1.7);

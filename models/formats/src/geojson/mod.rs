@@ -1,7 +1,7 @@
-//! GeoJSON (RFC 7946) for maps and notebooks: map, road users and their futures, as features.
+//! GeoJSON (RFC 7946) for maps and notebooks: map, road users and their futures as features.
 //!
-//! Positions are metres of the scene's source, because most sources have no place on the globe: `frame` says so. Where
-//! the source names its coordinate reference system, that name stands there.
+//! Positions are metres of the scene's source, because most sources have no geographic position: `frame`
+//! states this. If the source names its coordinate reference system, `frame` has that name.
 
 use crate::format::{
     ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one_scene, written_only,
@@ -86,7 +86,7 @@ fn about(scene: &Scene) -> Map<String, Value> {
     about
 }
 
-/// Writes feature after feature, so that the collection is never in memory as a whole.
+/// Writes feature after feature, so that the whole collection is never in memory.
 fn write(scene: &Scene, options: &ExportOptions, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
     for (key, value) in about(scene) {
@@ -108,7 +108,7 @@ struct Features<'a> {
     scene: &'a Scene,
 }
 
-/// To a millimetre.
+/// Rounds to a millimetre.
 fn short(value: f64) -> f64 {
     (value * 1e3).round() / 1e3 + 0.0
 }
@@ -123,7 +123,7 @@ impl Features<'_> {
         json!([short(p.x), short(p.y)])
     }
 
-    /// A line of two positions at least, else a point: RFC 7946 has no shorter lines.
+    /// A line of at least two positions, otherwise a point: RFC 7946 has no shorter lines.
     fn line(&self, points: &[Vec2]) -> Value {
         match points {
             [p] => json!({"type": "Point", "coordinates": self.position(*p)}),
@@ -217,7 +217,7 @@ impl Features<'_> {
         feature(format!("signal/{index}"), geometry.unwrap_or(Value::Null), about)
     }
 
-    /// Steps and states as a line, with what each vertex is.
+    /// Steps and states as a line, with the properties of each vertex.
     fn motion(&self, states: &[(usize, State)]) -> (Value, Value) {
         let points: Vec<Vec2> = states.iter().map(|(_, state)| state.position()).collect();
         let list = |of: &dyn Fn(&State) -> f64| -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! A scenario as it stands in its file.
+//! A scenario in the form of its file.
 
 use crate::limits::{MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::lists::bounded;

@@ -1,4 +1,4 @@
-//! From a scene to a scenario, in the frame of its source.
+//! Writes a scene as a scenario, in the frame of its source.
 
 use super::document::{Document, Light, Lights, Metadata, Object, Point, Prediction, Road};
 use super::format::Flavour;
@@ -19,7 +19,7 @@ const UNSEEN: f64 = -10_000.0;
 /// Writes a scene.
 ///
 /// # Errors
-/// Those of JSON, which has no place for what is no number.
+/// Those of JSON, which has no NaN or infinite numbers.
 pub(super) fn write(scene: &Scene, options: &ExportOptions, flavour: Flavour) -> io::Result<Exported> {
     let mut losses = BTreeSet::new();
     let frame = SourceFrame { origin: &scene.meta.origin, flat: flavour == Flavour::Nocturne };
@@ -62,11 +62,11 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions, flavour: Flavour) ->
     Ok(Exported { bytes, losses: losses.into_iter().collect() })
 }
 
-/// Places and directions as the source has them.
+/// Converts positions and directions to the source's frame.
 #[derive(Clone, Copy)]
 struct SourceFrame<'a> {
     origin: &'a Origin,
-    /// Without heights, ids and kinds of map elements; headings in degrees.
+    /// Whether to omit heights, ids and kinds of map elements, and to write headings in degrees.
     flat: bool,
 }
 
@@ -127,7 +127,7 @@ fn object(agent: &Agent, shown: &Shown<'_>, id: i64, steps: usize, frame: Source
     }
 }
 
-/// The map, the numbers of its lanes, and whether some of it got other numbers than its ids.
+/// The map, the numbers of its lanes, and whether some elements got numbers other than their ids.
 fn roads(scene: &Scene, frame: SourceFrame<'_>) -> (Vec<Road>, HashMap<String, i64>, bool) {
     let map = &scene.map;
     let lines = || map.road_lines.iter().chain(&map.road_edges);
@@ -182,7 +182,7 @@ fn roads(scene: &Scene, frame: SourceFrame<'_>) -> (Vec<Road>, HashMap<String, i
     (roads, lanes, numbers.renumbered)
 }
 
-/// Lights by their lane; a lane has one.
+/// Lights by their lane; each lane has at most one.
 fn lights(
     signals: &[Signal],
     lanes: &HashMap<String, i64>,

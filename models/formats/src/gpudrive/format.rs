@@ -1,4 +1,4 @@
-//! GPUDrive and Nocturne as formats among others.
+//! GPUDrive and Nocturne as formats.
 
 use super::{export, import};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene, only};
@@ -8,7 +8,8 @@ use crate::unpack;
 use scene::Scene;
 use std::io;
 
-/// Scenarios of one of the two engines. Both are read by either; they are written as their engine reads them.
+/// Scenarios of one of the two engines. Files of both are read under either; a file is written for its own
+/// engine.
 pub(crate) struct EngineFormat {
     id: &'static str,
     name: &'static str,
@@ -19,7 +20,7 @@ pub(crate) struct EngineFormat {
 /// The engine that reads a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flavour {
-    /// With heights, ids and what the map elements are, headings in radians.
+    /// With heights, ids and kinds of map elements, headings in radians.
     GpuDrive,
     /// In the plane, headings in degrees.
     Nocturne,
@@ -48,7 +49,7 @@ pub(crate) static NOCTURNE: EngineFormat = EngineFormat {
 fn flavour(head: &[u8]) -> Option<Flavour> {
     let object = head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
     let has = |name: &str| head.windows(name.len()).any(|part| part == name.as_bytes());
-    // Of a long recording nothing but the places of the first object is seen.
+    // The head of a long recording contains only the positions of the first object.
     let places = has("\"position\"") && has("\"x\"") && !has("\"dragtraffic.scene\"");
     let known = has("\"goalPosition\"") || (has("\"roads\"") && has("\"geometry\"")) || places;
     if !object || !has("\"objects\"") || !known {

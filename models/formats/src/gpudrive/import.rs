@@ -1,4 +1,4 @@
-//! From a scenario to a scene.
+//! Reads a scenario as a scene.
 
 use super::document::{self, Document, Light, Object, Point, Road};
 use crate::format::{EGO, ImportOptions};
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;
-/// Numbers of the map elements by kind: where the words of lines and edges begin.
+/// Numbers of the map elements by kind: the first ones of lines and edges.
 pub(super) const FIRST_LINE: i64 = 5;
 pub(super) const FIRST_EDGE: i64 = 14;
 
@@ -30,7 +30,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     let steps = document.objects.iter().map(|object| object.position.len()).max().unwrap_or(0);
     let lit = document.tl_states.0.iter().map(|(_, light)| light.state.len()).max().unwrap_or(0);
     let steps = steps.max(lit).max(1);
-    // Files of Nocturne, which have degrees, are in the plane.
+    // Files of Nocturne, which have degrees, have no heights.
     let flat = document.scenario_id.is_none()
         && document.objects.iter().flat_map(|object| &object.position).all(|p| p.z.is_none());
     let mut ids = Ids::default();
@@ -67,7 +67,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
             tracks_to_predict: predict,
             ..Meta::default()
         },
-        // Recordings of the Waymo set have a second of past.
+        // Recordings of the Waymo data set begin one second before the present.
         time: Timing { steps, now_step: if steps == 91 { 10 } else { 0 } },
         map: LaneMap::default().into(),
         signals,

@@ -1,4 +1,4 @@
-//! JSON of GPUDrive and of Nocturne before it: what a Waymo scenario has, without links of lanes.
+//! JSON of GPUDrive and of its predecessor Nocturne: the content of a Waymo scenario without links of lanes.
 
 mod document;
 mod export;

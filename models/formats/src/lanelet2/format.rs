@@ -1,12 +1,13 @@
-//! Lanelet2 as users import it.
+//! Lanelet2 as an import format.
 
 use super::import;
 use crate::map_file::MapFile;
 
-/// A Lanelet2 map (`.osm`), plain or gzip: a scene with a map and signals, without road users. Points lie where
-/// `local_x` and `local_y` say, else where their degrees are in a transverse Mercator projection about the map.
+/// A Lanelet2 map (`.osm`), plain or compressed with gzip: a scene with a map and signals, without road
+/// users. Positions come from `local_x` and `local_y`, otherwise from the degrees in a transverse Mercator
+/// projection about the map.
 ///
-/// An extract of OpenStreetMap begins alike.
+/// An extract of OpenStreetMap has the same beginning.
 pub(crate) static LANELET2: MapFile = MapFile {
     id: "lanelet2",
     name: "Lanelet2 map",

@@ -1,4 +1,4 @@
-//! From a Lanelet2 map to a scene about the origin.
+//! Reads a Lanelet2 map as a scene about the origin.
 
 use super::lanelets::{Lanelet, is, lanelets};
 use super::osm::{self, Osm, Tags};
@@ -18,7 +18,7 @@ use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TY
 use scene::{Origin, Vec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Heads up to this far apart stand at one junction, metres.
+/// Greatest distance between signal heads of one junction, metres.
 const JUNCTION_M: f64 = 60.0;
 
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
@@ -32,7 +32,7 @@ pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead,
         return Err(ReadError::other_content(message));
     }
     let asked = around;
-    // In a file of degrees the circle has its place once they are metres.
+    // In a file of degrees, the circle gets its position once they are metres.
     let around = match (around, &osm.projection) {
         (Some(around), Some(projection)) => {
             let middle = projection.metres(around.y, around.x);
@@ -70,7 +70,7 @@ pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead,
     Ok(MapRead { name: String::new(), map: map.into(), signals, origin, warnings, part })
 }
 
-/// Moves all points so that the middle of the lines that lanelets have is the origin, by whole metres.
+/// Moves all points by whole metres, so that the middle of the lanelets' lines is the origin.
 fn about_the_middle(osm: &mut Osm, around: Option<Around>) -> Result<Vec2, ReadError> {
     let members = osm.relations.iter().filter(|r| is(&r.tags, "type", "lanelet")).flat_map(|r| &r.members);
     let nodes = members.filter_map(|member| osm.ways.get(&member.id)).flat_map(|way| &way.nodes);
@@ -88,7 +88,7 @@ fn about_the_middle(osm: &mut Osm, around: Option<Around>) -> Result<Vec2, ReadE
     Ok(middle)
 }
 
-/// Draws lanes and crosswalks. Gives the lanes of each lanelet: with its direction, and against it.
+/// Draws lanes and crosswalks. Returns the lanes of each lanelet: with its direction, and against it.
 fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
     let mut ids = HashSet::new();
     let mut lanes = Vec::new();
@@ -131,7 +131,7 @@ fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
     lanes
 }
 
-/// A limit such as `50`, `50 km/h` or `30 mph`, m/s.
+/// A limit such as `50`, `50 km/h` or `30 mph`, in m/s.
 fn speed(text: &str) -> Option<f64> {
     let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
     let value: f64 = text.get(..end)?.parse().ok()?;
@@ -144,7 +144,7 @@ fn speed(text: &str) -> Option<f64> {
     (limit > 0.0 && limit <= 100.0).then_some(limit)
 }
 
-/// The limit of a sign such as `de274-60`, or of a type that is a speed itself, m/s.
+/// The limit of a sign such as `de274-60`, or of a type that is itself a speed, in m/s.
 fn sign_limit(sign_type: &str) -> Option<f64> {
     let text = sign_type.trim().to_ascii_lowercase();
     let number =
@@ -164,10 +164,10 @@ fn sign_limit(sign_type: &str) -> Option<f64> {
     speed(&text)
 }
 
-/// Lanelets follow each other where the ends of both sides are the same points, and lie side by side where they
+/// Lanelets follow each other if the ends of both sides are the same points, and lie side by side if they
 /// share a line.
 fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
-    // Starts and ends of lanes, with the side that is on the left there.
+    // Starts and ends of lanes, with the side that is to the left there.
     let mut starts: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
     let mut ends: Vec<(usize, (i64, i64))> = Vec::new();
     let mut on_right: HashMap<i64, Vec<usize>> = HashMap::new();
@@ -189,7 +189,7 @@ fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
         }
     }
     for (lane, end) in ends {
-        // Nobody goes on from a road to where people only walk, or back.
+        // Links between roads and ways for pedestrians only are left out.
         let walked = |lane: usize| map.lanes[lane].lane_type == LaneType::Sidewalk;
         let follows = |next: &&usize| **next != lane && walked(**next) == walked(lane);
         let following: Vec<usize> = starts.get(&end).into_iter().flatten().filter(follows).copied().collect();
@@ -211,7 +211,7 @@ fn link(lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) {
                 let points = &map.lanes[i].points.xy;
                 points[points.len() - 1] - points[0]
             });
-            // Of lanes that share a line some go the other way.
+            // Some of the lanes that share a line have the opposite direction.
             if ways[0].dot(&ways[1]) <= 0.0 || !travelled(&map.lanes[left]) || !travelled(&map.lanes[right]) {
                 continue;
             }
@@ -296,7 +296,7 @@ fn beside(lane: &[Vec2], line: &[Vec2]) -> (usize, usize) {
     (ends.0.min(ends.1), ends.0.max(ends.1))
 }
 
-/// Draws the ground of vehicles, and its edges.
+/// Draws the ground for vehicles, and its edges.
 fn ground(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> bool {
     let by_id: HashMap<String, usize> =
         map.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
@@ -324,7 +324,7 @@ fn ground(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> bool {
     })
 }
 
-/// Finds heads of lights, and draws stop signs.
+/// Finds signal heads, and draws stop signs.
 fn rules(osm: &Osm, lanelets: &[Lanelet<'_>], lanes: &[Vec<usize>], map: &mut LaneMap) -> Vec<SignalHead> {
     let all = osm.relations.iter().filter(|r| is(&r.tags, "type", "regulatory_element"));
     let by_id: HashMap<i64, &osm::OsmRelation> = all.map(|rule| (rule.id, rule)).collect();

@@ -1,4 +1,4 @@
-//! Lanelets: their sides in the direction of travel, their middle, what they are for.
+//! Lanelets: their sides in the direction of travel, their middle line, and their use.
 
 use super::osm::{Osm, OsmRelation, Tags};
 use crate::sides::{self, LaneletKind};
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// One lanelet.
 pub(super) struct Lanelet<'a> {
     pub id: i64,
-    /// Ids of the lines of its left and its right side, which are several where the sides are drawn in pieces.
+    /// Ids of the lines of its left and its right side; several if a side is drawn in pieces.
     pub ways: [Vec<i64>; 2],
     /// First and last points of its left and right side, as ids.
     pub ends: [(i64, i64); 2],
@@ -21,7 +21,7 @@ pub(super) struct Lanelet<'a> {
 }
 
 impl Lanelet<'_> {
-    /// Traffic goes both ways.
+    /// Whether traffic goes both ways.
     pub fn two_way(&self) -> bool {
         self.relation.tags.get("one_way").is_some_and(|value| value == "no" || value == "false")
     }
@@ -31,13 +31,13 @@ impl Lanelet<'_> {
         sides::middle(&self.left, &self.right)
     }
 
-    /// Right and left side with as many points.
+    /// Right and left side with the same number of points.
     pub fn sides(&self) -> (Vec<Vec2>, Vec<Vec2>) {
         sides::matched(&self.left, &self.right)
     }
 }
 
-/// All lanelets with two sides, and how many have none.
+/// All lanelets with two sides, and the number of those without.
 pub(super) fn lanelets(osm: &Osm) -> (Vec<Lanelet<'_>>, usize) {
     let all = || osm.relations.iter().filter(|relation| is(&relation.tags, "type", "lanelet"));
     let mut paired: Vec<(&OsmRelation, SidePair)> =
@@ -59,10 +59,10 @@ pub(super) fn is(tags: &Tags, key: &str, value: &str) -> bool {
     tags.get(key).is_some_and(|found| found == value)
 }
 
-/// A side: the points of its lines, as ids and places.
+/// A side: the points of its lines, as ids and positions.
 type SideLine = (Vec<i64>, Vec<Vec2>);
 
-/// The lines of a side as one: each goes on where another ends, whichever way it is drawn.
+/// The lines of a side joined to one: each begins where another ends, in either direction.
 fn side(osm: &Osm, ways: &[i64]) -> Option<SideLine> {
     let nodes = |id: &i64| {
         let known = osm.ways.get(id)?.nodes.iter().filter(|node| osm.nodes.contains_key(node));
@@ -108,7 +108,7 @@ struct SidePair {
 }
 
 impl SidePair {
-    /// Sides are drawn in any direction: the ends of those that run the same way are near each other.
+    /// Sides are drawn in any direction: the ends of two that run the same way are near each other.
     fn of(osm: &Osm, relation: &OsmRelation) -> Option<Self> {
         let ways: [Vec<i64>; 2] = [relation.all("left").collect(), relation.all("right").collect()];
         let (left, right) = (side(osm, &ways[0])?, side(osm, &ways[1])?);
@@ -129,8 +129,8 @@ impl SidePair {
         [end(left, right), end(left_end, right_end)]
     }
 
-    /// In a turn about a point the ends of either pairing are as near: the one with which more other lanelets begin or
-    /// end where this one does is right. `ends` counts the ends of all lanelets.
+    /// In a turn about a point, both pairings of the ends are equally near. The right one is that with which
+    /// more other lanelets begin or end where this one does. `ends` counts the ends of all lanelets.
     fn meet(&mut self, ends: &HashMap<End, usize>) {
         let shared = |own: [End; 2], by: usize| {
             own.iter().filter(|end| ends.get(end).is_some_and(|count| *count > by)).count()
@@ -175,7 +175,7 @@ fn turn((ids, places): &mut SideLine) {
     places.reverse();
 }
 
-/// Road users that a lanelet is for.
+/// Road users that may use a lanelet.
 #[derive(Clone, Copy, Default)]
 struct LaneletUsers {
     cars: bool,
@@ -185,7 +185,8 @@ struct LaneletUsers {
 }
 
 impl LaneletUsers {
-    /// Those stated; a finer word counts before a coarser one, and who is not stated does not pass.
+    /// The stated users; a more specific word overrides a general one, and users that are not stated may not
+    /// pass.
     fn stated(participants: &[(String, bool)]) -> Self {
         let passes = |words: &[&str]| {
             let said = |word: &&str| participants.iter().find(|(who, _)| who == word).map(|(_, yes)| *yes);
@@ -199,7 +200,7 @@ impl LaneletUsers {
         }
     }
 
-    /// Those of a subtype by the rules of Lanelet2. A subtype that they do not know is for nobody.
+    /// The users of a subtype by the rules of Lanelet2. A subtype outside these rules is for nobody.
     fn of_subtype(subtype: &str) -> Self {
         let [driven, ridden, walked] = match subtype {
             "" | "highway" => [true, false, false],
@@ -224,7 +225,7 @@ fn kind(relation: &OsmRelation) -> Option<LaneletKind> {
     let lane_type = match passing {
         LaneletUsers { walkers: true, .. } if subtype == "crosswalk" => return Some(LaneletKind::Crosswalk),
         LaneletUsers { cars: true, .. } if subtype == "highway" => LaneType::Freeway,
-        // Who else may pass a bus lane does not make it a lane for all.
+        // Other users of a bus lane do not make it a lane for all.
         LaneletUsers { buses: true, .. } if subtype == "bus_lane" => LaneType::BusLane,
         LaneletUsers { cars: true, .. } => LaneType::SurfaceStreet,
         LaneletUsers { buses: true, .. } => LaneType::BusLane,

@@ -1,4 +1,4 @@
-//! Lanelet2 maps: pieces of lane between two lines, in the XML of OpenStreetMap.
+//! Lanelet2 maps: sections of lane between two lines, in the XML of OpenStreetMap.
 
 pub(crate) mod format;
 mod import;

@@ -1,4 +1,4 @@
-//! A file of lanelets: points, lines of points, and relations of them.
+//! A file of lanelets: points, lines of points, and relations between them.
 
 use crate::around::Chosen;
 use crate::osm_items::{Member, OsmElement, each};
@@ -28,15 +28,15 @@ const KEYS: [&str; 11] = [
     "speed_limit:vehicle",
     "sign_type",
 ];
-/// Begins the keys of the tags that state who may pass.
+/// Prefix of the tags that state who may pass.
 const PARTICIPANT: &str = "participant";
 /// Most of these tags of one relation.
 const MAX_PARTICIPANTS: usize = 16;
 /// Most characters of a value.
 const VALUE_CHARS: usize = 60;
-/// Points this far outside of the circle of a part are still taken, metres.
+/// Distance outside the circle of a part up to which points are read, metres.
 const BESIDE_M: f64 = 60.0;
-/// Farthest a local coordinate may lie from its origin, metres.
+/// Greatest distance of a local coordinate from its origin, metres.
 const MAX_SOURCE_M: f64 = 1e8;
 
 /// Tags by key.
@@ -55,7 +55,7 @@ pub(super) struct OsmRelation {
     pub id: i64,
     pub members: Vec<Member>,
     pub tags: Tags,
-    /// Road users that are stated to pass, or not: what follows `participant:`.
+    /// Road users that may or may not pass: the text after `participant:`.
     pub participants: Vec<(String, bool)>,
 }
 
@@ -74,20 +74,20 @@ impl OsmRelation {
 /// A file.
 #[derive(Debug, Default)]
 pub(super) struct Osm {
-    /// Metres, in the frame of the file or of [`Osm::projection`].
+    /// Positions in metres, in the frame of the file or of [`Osm::projection`].
     pub nodes: HashMap<i64, Vec2>,
     pub ways: HashMap<i64, OsmWay>,
     /// In the order of the file.
     pub relations: Vec<OsmRelation>,
-    /// Present if the file has only degrees.
+    /// Set if the file has only degrees.
     pub projection: Option<TransverseMercator>,
 }
 
-/// Reads a file, plain or gzip.
+/// Reads a file, plain or compressed with gzip.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
-/// `invalid-field` for what is no number, `map-too-large`.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of
+/// file, `invalid-field` for what is no number, `map-too-large`.
 pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadError> {
     let near = Near::of(file, chosen)?;
     let mut osm = Osm::default();
@@ -120,7 +120,7 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadEr
         at_most(references, MAX_REFERENCES, what::REFERENCES)
     })?;
     osm.nodes = local;
-    // Points without metres are placed only where none has them: two frames do not mix.
+    // Degrees are used only if no point has metres: two frames do not mix.
     let places = || degrees.values().copied();
     let projection = TransverseMercator::of_no_land(places()).or_else(|| TransverseMercator::about(places()));
     let projection = projection.filter(|_| osm.nodes.is_empty() && !degrees.is_empty());
@@ -131,7 +131,7 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadEr
     Ok(osm)
 }
 
-/// What of a file belongs to lanelets near the circle of a part.
+/// Elements of a file that belong to lanelets near the circle of a part.
 struct Near {
     nodes: HashSet<i64>,
     ways: HashSet<i64>,
@@ -139,7 +139,7 @@ struct Near {
 }
 
 impl Near {
-    /// Nothing where all is read.
+    /// Nothing if the whole file is read.
     fn of(file: &dyn Source, chosen: &mut Chosen) -> Result<Option<Self>, ReadError> {
         if !chosen.is_part() {
             return Ok(None);
@@ -179,7 +179,7 @@ impl Near {
             }
             Ok(())
         })?;
-        // The rules of the lanelets name signs and lines.
+        // The rules of the lanelets refer to signs and lines.
         each(file, |item| {
             if item.kind == "relation" && relations.contains(&item.id) {
                 ways.extend(item.members.iter().filter(|m| m.sort == "way").map(|member| member.id));

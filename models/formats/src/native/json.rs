@@ -16,28 +16,28 @@ use std::io::{self, BufReader, Read};
 /// Longest message: it may quote the document.
 const MAX_DETAIL: usize = 300;
 
-/// Parses JSON into any document type. A list is never taken for an object.
+/// Parses JSON as any document type. A list is never read as an object.
 ///
 /// # Errors
-/// `malformed-json` with line and column for text that is not JSON (including NaN, numbers beyond
-/// f64 and nesting over 128); `invalid-field` with a JSON pointer for a wrong type, an unknown,
-/// missing or repeated member.
+/// `malformed-json` with line and column for text that is not JSON (including NaN, numbers beyond f64 and
+/// nesting over 128); `invalid-field` with a JSON pointer for a wrong type, or an unknown, missing or
+/// repeated member.
 pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
     parse(|| Ok(Deserializer::from_slice(bytes)))
 }
 
-/// Most bytes of a document that is read as a whole, which is faster.
+/// Most bytes of a document that is read into memory first, which is faster.
 const WHOLE_BYTES: u64 = 8 << 20;
-/// Memory to detect a longer text, and to hold a long one while it is parsed.
+/// Memory for detecting a longer text, and for holding a long one while it is parsed.
 const WHOLE_MEMORY: u64 = 24 << 20;
 /// Memory of a value, bytes: eight, and half as much while its list grows.
 const VALUE_MEMORY: u64 = 12;
 
 /// The text of a document.
 pub(super) enum Text<'a> {
-    /// All of it.
+    /// The whole text.
     Whole(Vec<u8>),
-    /// More than should be in memory beside what becomes of it.
+    /// A text that is too long to be in memory beside its result.
     Long(Long<'a>),
 }
 
@@ -45,7 +45,7 @@ pub(super) enum Text<'a> {
 pub(super) struct Long<'a>(&'a dyn Source);
 
 impl<'a> Text<'a> {
-    /// Of a file.
+    /// The text of a file.
     ///
     /// # Errors
     /// `malformed-file` when it cannot be read.
@@ -61,7 +61,7 @@ impl<'a> Text<'a> {
 }
 
 impl<'a> Long<'a> {
-    /// From the beginning.
+    /// Reads the text from its beginning.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -82,7 +82,8 @@ impl<'a> Long<'a> {
     }
 }
 
-/// Ends a text that has more values than a scene: there is a comma between any two of a list.
+/// Ends a text that has more values than a scene, by counting commas: there is one between any two values of
+/// a list.
 pub(super) struct ValueLimiter<R> {
     inner: R,
     commas: u64,
@@ -109,9 +110,9 @@ fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     let mut parser = open()?;
     match T::deserialize(Objects(&mut parser)).and_then(|value| parser.end().map(|()| value)) {
         Ok(value) => Ok(value),
-        // The plain parser is twice as fast; the one that tracks places runs only for a fault.
+        // The plain parser is twice as fast; the one that tracks places runs only after a fault.
         Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
-        // A word that is none of a kind, such as null, is a fault of the text to the plain parser.
+        // For a wrong word, such as null, the plain parser reports a fault of the text.
         Err(error) if error.classify() == Category::Data || lacks_a_word(&error) && is_json(open()?) => {
             Err(locate::<R, T>(open()?, &error))
         }
@@ -119,7 +120,7 @@ fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     }
 }
 
-/// Where one of a kind's words is expected, the plain parser refuses other values as broken text.
+/// If one of a set of words is expected, the plain parser reports other values as broken text.
 fn lacks_a_word(error: &serde_json::Error) -> bool {
     error.classify() == Category::Syntax && error.to_string().starts_with("expected value")
 }
@@ -139,7 +140,7 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     FieldProblem::new(pointer, code::INVALID_FIELD, parser_words(&detail)).into()
 }
 
-/// The message without serde_json's own " at line 1 column 2", which `RefusalKind` carries as numbers.
+/// The message without serde_json's own " at line 1 column 2", which `RefusalKind` holds as numbers.
 fn reason(error: &serde_json::Error) -> String {
     let text = error.to_string();
     match text.rfind(" at line ") {
@@ -148,7 +149,7 @@ fn reason(error: &serde_json::Error) -> String {
     }
 }
 
-/// The message in words of the document instead of Rust's, at most 300 characters long.
+/// The message in terms of the document instead of Rust's, with at most 300 characters.
 fn plain_words(error: &serde_json::Error) -> String {
     let text = reason(error);
     let words = [

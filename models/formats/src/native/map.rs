@@ -7,7 +7,7 @@ use scene::map::LaneType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// One more than a map may have: enough to be refused for, however many a document holds.
+/// One more than the limit of a map, so that longer lists are refused however long they are.
 const LINES: usize = MAX_POLYLINES + 1;
 /// Most links, neighbours or boundaries of one lane.
 const LINKS: usize = 4_096;
@@ -208,7 +208,7 @@ pub struct MapDoc {
     pub drivable: Vec<DrivableDoc>,
 }
 
-/// A map, or the hash of one that the reader knows already.
+/// A map, or the hash of a map that the reader already has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "MapWire", untagged)]
 pub enum MapField {

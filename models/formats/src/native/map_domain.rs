@@ -1,4 +1,4 @@
-//! Map documents to and from the domain's lane map.
+//! Converts map documents to the domain's lane map and back.
 
 use super::map::{
     AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, RoadEdgeDoc,
@@ -14,7 +14,7 @@ use scene::{ContentHash, LaneMap, Shared};
 use std::collections::HashSet;
 
 impl MapField {
-    /// The map itself; `resolve` looks a hash up.
+    /// The map itself; `resolve` returns the map of a hash.
     pub(crate) fn into_map(
         self,
         resolve: impl FnOnce(&ContentHash) -> Option<Shared<LaneMap>>,
@@ -115,7 +115,7 @@ impl MapDoc {
         }
     }
 
-    /// Ids of stop signs, which `Scene::checked` does not look at.
+    /// Checks ids of stop signs, which `Scene::checked` does not check.
     fn check_sign_ids(&self, problems: &mut Problems) {
         let mut seen = HashSet::new();
         for (i, sign) in self.stop_signs.iter().enumerate() {

@@ -46,16 +46,16 @@ pub fn read(bytes: &[u8]) -> Result<Scene, ReadError> {
     read_doc(bytes)?.into_scene(|_| None)
 }
 
-/// Reads a scene document without turning it into a scene yet.
+/// Reads a scene document without converting it to a scene.
 ///
 /// # Errors
-/// `malformed-json`, `invalid-field`, or `unsupported-version` when members are unknown because the
-/// document is of a later version.
+/// `malformed-json`, `invalid-field`, or `unsupported-version` when members are unknown because the document
+/// is of a later version.
 pub fn read_doc(bytes: &[u8]) -> Result<SceneDoc, ReadError> {
     from_json::<SceneDoc>(bytes).map_err(|error| of_version(error, || serde_json::from_slice(bytes).ok()))
 }
 
-/// As [`read`], of a document that may be too long to be in memory beside its scene.
+/// As [`read`], for a document that may be too long to be in memory beside its scene.
 ///
 /// # Errors
 /// Those of [`read`], and `malformed-file` when it cannot be read.
@@ -74,7 +74,7 @@ struct VersionHead {
     version: u64,
 }
 
-/// Says of a document with unknown members that it is of a later version, where it is.
+/// If a document with unknown members is of a later version, refuses the version instead.
 fn of_version(error: ReadError, head: impl FnOnce() -> Option<VersionHead>) -> ReadError {
     if error.kind != RefusalKind::Invalid {
         return error;
@@ -89,12 +89,12 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 
 /// Writes a document. Equal documents give equal bytes.
 pub fn write_doc(doc: &SceneDoc) -> Vec<u8> {
-    // Documents have string keys and plain values; serde_json writes those without fail.
+    // Documents have string keys and plain values; serde_json never fails on those.
     serde_json::to_vec(doc).unwrap_or_default()
 }
 
-/// JSON Schema (2020-12) of the document. It can say types, ranges of numbers and member names;
-/// uniqueness of ids, equal column lengths and the like are left to the reader.
+/// JSON Schema (2020-12) of the document. It covers types, ranges of numbers and member names; the reader
+/// checks the uniqueness of ids, equal column lengths and the like.
 pub fn schema() -> schemars::Schema {
     let mut generator = schemars::generate::SchemaSettings::draft2020_12().into_generator();
     generator.root_schema_for::<SceneDoc>()

@@ -1,4 +1,4 @@
-//! Relations of goals from document to domain.
+//! Converts relations of goals from document to domain.
 
 use super::conditions::{GoalDoc, GoalRelationDoc, PLACES};
 use crate::problem::Problems;
@@ -7,8 +7,8 @@ use scene::relation::{AFTER_S, GAP_M, GAP_S, LANES_LEFT, SLOWER_MPS};
 use scene::{GoalRelation, RelativePlace};
 
 impl GoalRelationDoc {
-    /// Checks every member, and that the rest of the goal says nothing that the relation replaces. `pointer` is where
-    /// this document lies. Whether `to` exists is for the scene to check.
+    /// Checks every member, and that the rest of the goal has no member that the relation replaces. `pointer`
+    /// is the place of this document. The scene checks whether `to` exists.
     pub(super) fn resolve(
         &self,
         pointer: &str,
@@ -47,7 +47,7 @@ impl GoalRelationDoc {
         })
     }
 
-    /// Refuses members beside each other of which one says what the other replaces.
+    /// Refuses members that the relation replaces.
     fn refuse_replaced(&self, pointer: &str, goal: &GoalDoc, passing: bool, problems: &mut Problems) {
         if passing {
             let has_place = goal.x_m.is_some() || goal.ahead_m.is_some();

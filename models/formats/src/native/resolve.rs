@@ -1,4 +1,5 @@
-//! Conditions from document to domain: every field checked, goals turned into the scene frame.
+//! Converts conditions from document to domain: every field is checked, and goals are converted to the scene
+//! frame.
 
 use super::conditions::{ConditionsDoc, GoalDoc, GoalFrame, GoalRelationDoc, StartDoc, VelocityDoc, ViaDoc};
 use crate::problem::{FieldProblem, Problems, code};
@@ -12,7 +13,7 @@ use scene::{
 use serde::Serialize;
 
 pub use crate::limits::MAX_GOAL_DISTANCE_M;
-/// Farthest a coordinate may lie from the scene's origin, metres.
+/// Greatest distance of a coordinate from the scene's origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 /// Below this speed a velocity gives no heading, m/s.
 const HEADING_SPEED_MPS: f64 = 0.05;
@@ -32,7 +33,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// The table's column for a type; `other` is held to the vehicle's.
+    /// The ranges of a type; `other` has those of vehicles.
     pub fn of(agent_type: AgentType) -> Self {
         match agent_type {
             AgentType::Vehicle | AgentType::Other => {
@@ -46,7 +47,7 @@ impl Ranges {
     }
 }
 
-/// The window that a goal's time must lie in.
+/// Time window of a goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Scene time of the start, seconds.
@@ -67,19 +68,20 @@ impl Default for Window {
 pub struct Context {
     /// The road user's own type.
     pub agent_type: AgentType,
-    /// Its logged state at the window's start, when there is one.
+    /// Its logged state at the window's start, if there is one.
     pub start: Option<State>,
     /// Bounds of the goal's time.
     pub window: Window,
 }
 
 impl ConditionsDoc {
-    /// Checks every field and turns the goal into the scene frame. `pointer` is where this document
-    /// lies in the request, such as `/conditions/12`.
+    /// Checks every field and converts the goal to the scene frame. `pointer` is the place of this document
+    /// in the request, such as `/conditions/12`.
     ///
     /// # Errors
-    /// All faults, but for ids of road edges and of other road users, which need a scene: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
-    /// of frame `agent` has no start pose to be measured from.
+    /// All faults except those that need a scene (ids of road edges and of other road users):
+    /// `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal of frame `agent` has
+    /// no start pose as its reference.
     pub fn resolve(&self, pointer: &str, context: &Context) -> Result<Conditions, Vec<FieldProblem>> {
         let mut problems = Problems::default();
         if self.agent_type == Some(AgentType::Other) {
@@ -131,7 +133,8 @@ impl ConditionsDoc {
         }
     }
 
-    /// Via points, each in reach of the start and later than the one before; `due_s` is the goal's time.
+    /// Via points, each within reach of the start and later than the previous one; `due_s` is the goal's
+    /// time.
     fn vias(
         &self,
         pointer: &str,
@@ -293,7 +296,7 @@ impl ConditionReader {
         Goal { position, heading_rad: turn.map(|t| wrap(heading + t)), speed_mps, time_s: None }
     }
 
-    /// Speed, and the direction of a velocity that is fast enough to have one.
+    /// Speed, and the direction of a velocity that is fast enough to define one.
     fn speed(
         &self,
         pointer: &str,
@@ -370,7 +373,7 @@ fn angle(pointer: &str, value: Option<f64>, problems: &mut Problems) -> Option<f
     value.filter(|v| problems.range(pointer, ANGLE_RAD, *v)).map(wrap)
 }
 
-/// Wraps an angle, leaving those within [-pi, pi) bit for bit.
+/// Wraps an angle; one within [-pi, pi) is unchanged, bit for bit.
 fn wrap(value: f64) -> f64 {
     let inside = (-std::f64::consts::PI..std::f64::consts::PI).contains(&value);
     if inside { value + 0.0 } else { wrap_angle(value) }

@@ -1,4 +1,4 @@
-//! Small pieces that the documents share: points, members kept as they are, rounding.
+//! Small parts that documents share: points, members of any JSON, rounding.
 
 use crate::problem::{FieldProblem, code};
 use crate::refusals::outside;
@@ -32,12 +32,12 @@ pub struct PointDoc {
 }
 
 impl PointDoc {
-    /// From the domain's pair of plane position and height.
+    /// A point from the domain's position in the plane and height.
     pub fn new(xy: Vec2, z: Option<f64>) -> Self {
         Self { x: xy.x, y: xy.y, z }
     }
 
-    /// Plane position.
+    /// Position in the plane.
     pub fn xy(self) -> Vec2 {
         Vec2::new(self.x, self.y)
     }
@@ -227,7 +227,7 @@ pub fn round_rad(value: f64) -> f64 {
     if rounded.abs() > std::f64::consts::PI { 3.1415_f64.copysign(rounded) } else { rounded }
 }
 
-/// Checks that an integer is one that JavaScript can hold.
+/// Checks that JavaScript can hold an integer exactly.
 pub(crate) fn check_integer(pointer: &str, value: u64) -> Result<u64, FieldProblem> {
     if value <= MAX_SAFE_INTEGER {
         return Ok(value);

@@ -1,4 +1,4 @@
-//! SQLite files of others, read from memory: no file beside them is opened, nothing of theirs is executed, and rows,
+//! Reads SQLite files of others from memory: no other file is opened, nothing in them is executed, and rows,
 //! bytes and steps are bounded by the size of the file.
 
 use crate::limits::MAX_DECODED_BYTES;
@@ -14,16 +14,17 @@ use std::cell::Cell;
 use std::collections::HashMap;
 use std::io::{self, Read};
 
-/// What a file of SQLite begins with.
+/// First bytes of an SQLite file.
 pub(super) const MAGIC: &[u8] = b"SQLite format 3\0";
-/// Zeros behind the file: SQLite may read past the end of a broken one, by less than its largest page.
+/// Zero bytes after the file: SQLite may read past the end of a broken one, by less than its largest page.
 const BEHIND: u64 = 64 << 10;
-/// Steps of SQLite's machine for a byte of the file, and for any file. A row of the tables takes some tens.
+/// Steps of SQLite's virtual machine per byte of the file, and for any file. A row of the tables takes some
+/// tens.
 const STEPS_A_BYTE: u64 = 4;
 const STEPS_ANYWAY: u64 = 2_000_000;
-/// Steps after which they are counted.
+/// Steps between two checks of their count.
 const STEPS_AT_A_TIME: i32 = 1_000;
-/// Bytes of a value, columns of a table and depth of an expression, at most.
+/// Greatest length of a value, number of columns of a table and depth of an expression.
 const LIMITS: [(Limit, i32); 4] = [
     (Limit::SQLITE_LIMIT_LENGTH, 16 << 20),
     (Limit::SQLITE_LIMIT_COLUMN, 200),
@@ -53,16 +54,16 @@ impl Database {
         Ok(Self { connection, tables, bytes_left: Cell::new(2 * size) })
     }
 
-    /// Whether there is such a table.
+    /// Whether the table exists.
     pub fn has(&self, table: &str) -> bool {
         self.tables.contains_key(table)
     }
 
-    /// Hands over the rows of a table: its row id, then these columns. A column that is not there is empty.
+    /// Passes on the rows of a table: the row id, then these columns. A missing column is empty.
     ///
     /// # Errors
-    /// `cannot-represent` for a table that is not there, `malformed-file` for a broken one, `out-of-range` for more
-    /// than the file can hold.
+    /// `cannot-represent` for a missing table, `malformed-file` for a broken one, `out-of-range` for more
+    /// rows than the file can hold.
     pub fn rows(
         &self,
         table: &str,
@@ -109,7 +110,7 @@ impl DatabaseRow<'_> {
         self.row.get_ref(column + 1).unwrap_or(ValueRef::Null)
     }
 
-    /// A text or blob; nothing where there is another value.
+    /// A text or blob; nothing for other values.
     pub fn bytes(&self, column: usize) -> &[u8] {
         match self.value(column) {
             ValueRef::Text(bytes) | ValueRef::Blob(bytes) => bytes,
@@ -122,7 +123,7 @@ impl DatabaseRow<'_> {
         String::from_utf8_lossy(self.bytes(column)).into_owned()
     }
 
-    /// A number; NaN where there is none.
+    /// A number; NaN for other values.
     pub fn number(&self, column: usize) -> f64 {
         match self.value(column) {
             ValueRef::Real(value) => value,
@@ -136,7 +137,7 @@ impl DatabaseRow<'_> {
         Some(self.number(column)).filter(|value| value.is_finite() && *value > 0.0)
     }
 
-    /// A whole number; GeoPackages have them as numbers and as texts too.
+    /// An integer; GeoPackages store them as numbers and as texts.
     pub fn whole(&self, column: usize) -> Option<i64> {
         match self.value(column) {
             ValueRef::Integer(value) => Some(value),
@@ -147,7 +148,7 @@ impl DatabaseRow<'_> {
     }
 }
 
-/// Bytes of a file once decoded, counted up to one more than the bound.
+/// Bytes of a decoded file, counted up to one more than the limit.
 fn size(file: &dyn Source) -> io::Result<u64> {
     io::copy(&mut file.open()?.take(MAX_DECODED_BYTES + 1), &mut io::sink())
 }
@@ -165,7 +166,7 @@ fn opened(file: &dyn Source, size: u64) -> rusqlite::Result<(Connection, HashMap
     let mut input = file.open().map_err(unread)?;
     let mut head = Vec::new();
     input.by_ref().take(100).read_to_end(&mut head).map_err(unread)?;
-    // A log of changes that lies in a file of its own is not opened; without this SQLite asks for one.
+    // A separate write-ahead log is not opened; without this change SQLite requires one.
     head.get_mut(18..20).into_iter().flatten().for_each(|version| *version = 1);
     let whole = io::Cursor::new(head).chain(input).take(size).chain(io::repeat(0));
     let bytes = usize::try_from(size + BEHIND).unwrap_or(usize::MAX);
@@ -181,7 +182,7 @@ fn opened(file: &dyn Source, size: u64) -> rusqlite::Result<(Connection, HashMap
     Ok((connection, tables))
 }
 
-/// Tables with their columns. Views, virtual tables and columns that are computed are none.
+/// Tables with their columns, without views, virtual tables and computed columns.
 fn tables(connection: &Connection) -> rusqlite::Result<HashMap<String, Vec<String>>> {
     let query = "SELECT name FROM sqlite_master WHERE type = 'table' AND rootpage > 0";
     let names: Vec<String> =
@@ -197,7 +198,7 @@ fn tables(connection: &Connection) -> rusqlite::Result<HashMap<String, Vec<Strin
     names.into_iter().map(columns).collect()
 }
 
-/// A name as SQL has it.
+/// A name quoted for SQL.
 fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }

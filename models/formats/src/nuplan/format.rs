@@ -1,4 +1,4 @@
-//! nuPlan as users import it.
+//! nuPlan as an import format.
 
 use super::database::{Database, MAGIC};
 use super::log::SWEEPS;
@@ -13,7 +13,7 @@ use crate::source::Source;
 use scene::{Origin, Scene, Vec2};
 use std::io;
 
-/// A log with or without the map of its city; a map alone is a scene without road users.
+/// A log with or without the map of its city; a map alone gives a scene without road users.
 pub(crate) struct NuPlanLog;
 
 impl Format for NuPlanLog {
@@ -70,7 +70,7 @@ impl Format for NuPlanLog {
 fn place(database: &Database, options: &ImportOptions) -> Result<Imported, ReadError> {
     let city = CityMap::read(database, None)?;
     let around = options.around.map(|around| {
-        // Degrees are no place in metres of a zone.
+        // Degrees are not a position in metres of a zone.
         let degrees = around.x.abs() <= 180.0 && around.y.abs() <= 90.0;
         let at = if degrees { city.zone.metres(around.y, around.x) } else { Vec2::new(around.x, around.y) };
         Around { x: at.x, y: at.y, ..around }

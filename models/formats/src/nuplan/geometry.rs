@@ -8,7 +8,7 @@ const POLYGON: u32 = 3;
 const LINES: u32 = 5;
 const POLYGONS: u32 = 6;
 
-/// Lines and polygons of a geometry; of a polygon the first ring is its outline, the others are holes.
+/// Lines and polygons of a geometry; the first ring of a polygon is its outline, the others are holes.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Geometry {
     pub lines: Vec<Vec<Vec2>>,
@@ -16,7 +16,7 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// The geometry of a blob; nothing for one that is empty, broken or of another kind.
+    /// The geometry of a blob; nothing for an empty or broken blob, or another kind.
     pub fn of(blob: &[u8]) -> Option<Self> {
         let (head, rest) = blob.split_at_checked(8)?;
         let flags = *head.get(3)?;
@@ -48,7 +48,7 @@ impl Geometry {
                 let mut rings = Vec::new();
                 for _ in 0..bytes.count()? {
                     let mut ring = bytes.points(numbers)?;
-                    // Rings are closed there, and open in a scene.
+                    // Rings are closed in the file, and open in a scene.
                     if ring.len() > 1 && ring.first() == ring.last() {
                         ring.pop();
                     }
@@ -62,7 +62,7 @@ impl Geometry {
     }
 }
 
-/// What is left of a geometry.
+/// The unread rest of a geometry.
 struct WkbBytes<'a> {
     rest: &'a [u8],
     little: bool,
@@ -83,7 +83,7 @@ impl WkbBytes<'_> {
         self.take().map(u32::from_le_bytes)
     }
 
-    /// Kind of the geometry that begins here, and numbers of a point.
+    /// Kind of the geometry that begins here, and number of coordinates per point.
     fn kind(&mut self) -> Option<(u32, usize)> {
         self.little = self.take::<1>()? != [0];
         let kind = self.count()?;
@@ -97,7 +97,7 @@ impl WkbBytes<'_> {
         Some((kind % 1_000, 2 + usize::from(z) + usize::from(m)))
     }
 
-    /// Points that are finite, as far as they go: no memory is taken for a count alone.
+    /// The finite points that the data contain: a count alone never allocates memory.
     fn points(&mut self, numbers: usize) -> Option<Vec<Vec2>> {
         let mut points = Vec::new();
         for _ in 0..self.count()? {
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(read.lines, [[Vec2::new(1.0, 2.0), Vec2::new(3.0, 4.0)]]);
         let envelope = [numbers(&[0.0; 4]), line.clone()].concat();
         assert_eq!(Geometry::of(&blob(0b11, &envelope)).unwrap(), read);
-        // With heights (1002), the largest byte first.
+        // With heights (1002), big-endian.
         let reversed = |values: &[f64]| values.iter().flat_map(|v| v.to_be_bytes()).collect::<Vec<_>>();
         let high = [&[0, 0, 0, 3, 0xea, 0, 0, 0, 2][..], &reversed(&[1.0, 2.0, 9.0, 3.0, 4.0, 9.0])].concat();
         assert_eq!(Geometry::of(&blob(0, &high)).unwrap(), read);

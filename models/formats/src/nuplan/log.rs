@@ -1,4 +1,4 @@
-//! The tables of a log that scenes are made of.
+//! The tables of a log that a scene needs.
 
 use super::database::{Database, DatabaseRow};
 use crate::frame::yaw;
@@ -9,10 +9,10 @@ use scene::{SignalState, Vec2};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// A table that every log has, and this data set alone.
+/// A table that every log of this data set has, and no other file.
 pub(super) const SWEEPS: &str = "lidar_pc";
 
-/// Where a road user or the ego is, in metres of the city's zone.
+/// Pose of a road user or the ego, in metres of the city's zone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LogPose {
     pub at: Vec2,
@@ -22,7 +22,7 @@ pub(super) struct LogPose {
     pub velocity: Vec2,
 }
 
-/// A sweep of the lidar, at which everything was seen.
+/// A lidar sweep, with everything that was seen at its time.
 pub(super) struct LogSweep {
     /// Microseconds.
     pub time: i64,
@@ -66,17 +66,17 @@ pub(super) struct LogTag {
     pub track: Option<usize>,
 }
 
-/// Things with the numbers of their sweeps, in the order of these.
+/// Things with the indices of their sweeps, sorted by these.
 pub(super) struct BySweep<T>(Vec<(usize, T)>);
 
 impl<T> BySweep<T> {
-    /// The order of rows is that of the file where sweeps are equal.
+    /// Things of equal sweeps keep the order of the file.
     fn of(mut list: Vec<(usize, T)>) -> Self {
         list.sort_by_key(|(sweep, _)| *sweep);
         Self(list)
     }
 
-    /// Those of some sweeps.
+    /// The things of some sweeps.
     pub fn within(&self, sweeps: &Range<usize>) -> &[(usize, T)] {
         let [from, to] =
             [sweeps.start, sweeps.end].map(|end| self.0.partition_point(|(sweep, _)| *sweep < end));
@@ -86,7 +86,7 @@ impl<T> BySweep<T> {
 
 /// A log.
 pub(super) struct LogTables {
-    /// City whose map belongs to it.
+    /// City, which selects the map.
     pub city: String,
     pub zone: Option<UtmZone>,
     pub scenes: Vec<LogScene>,
@@ -138,7 +138,7 @@ impl LogTables {
                     at: Vec2::new(row.number(1), row.number(2)),
                     z_m: row.number(3),
                     heading_rad,
-                    // The ego's speed is in its own frame.
+                    // The file has the ego's velocity in its own frame.
                     velocity: rotate(Vec2::new(row.number(8), row.number(9)), heading_rad),
                 };
                 if let Some(sweep) = self.sweeps.get_mut(*sweep) {
@@ -226,9 +226,9 @@ impl LogTables {
 struct SweepOrder {
     times: Vec<i64>,
     scenes: Vec<LogScene>,
-    /// Number of a sweep by its token.
+    /// Index of a sweep by its token.
     numbers: HashMap<Vec<u8>, usize>,
-    /// Sweeps of a pose of the ego.
+    /// Sweeps of an ego pose.
     poses: HashMap<Vec<u8>, Vec<usize>>,
 }
 
@@ -254,7 +254,7 @@ impl SweepOrder {
             let scene = *tokens.entry(row.bytes(1).to_vec()).or_insert(count);
             rows.push(SweepRow { scene, time, token: row.bytes(0).to_vec(), pose: row.bytes(2).to_vec() });
         })?;
-        // Scenes in the order in which they begin.
+        // Scenes in the order of their beginnings.
         let mut begins = vec![i64::MAX; tokens.len()];
         rows.iter().for_each(|row| begins[row.scene] = begins[row.scene].min(row.time));
         rows.sort_by(|a, b| {
@@ -286,7 +286,7 @@ impl SweepOrder {
     }
 }
 
-/// A token as the data set's own tools show it.
+/// A token in the form of the data set's own tools.
 fn hex(token: &[u8]) -> String {
     token.iter().map(|byte| format!("{byte:02x}")).collect()
 }

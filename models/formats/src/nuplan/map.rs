@@ -23,24 +23,24 @@ const CONNECTORS: &str = "lane_connectors";
 const BOUNDARIES: &str = "boundaries";
 const CROSSINGS: &str = "crosswalks";
 const STOPS: &str = "stop_polygons";
-/// Tables of what vehicles may drive on.
+/// Tables of drivable areas.
 const GROUND: [&str; 4] =
     ["lane_groups_polygons", "intersections", "generic_drivable_areas", "carpark_areas"];
-/// Type of the stop polygons that stand for signs.
+/// Type of stop polygons that represent signs.
 const STOP_SIGN: i64 = 1;
-/// A stop polygon is of the lanes that end within or this far from it, metres.
+/// A stop polygon applies to the lanes that end within it or this close to it, metres.
 const STOPS_WITHIN_M: f64 = 2.0;
-/// Most stop signs of a part, and corners of one.
+/// Most stop signs of a part, and most corners of a polygon.
 const MOST_STOPS: usize = 500;
 const MOST_CORNERS: usize = 32;
-/// Widths that lanes can have, metres.
+/// Range of lane widths, metres.
 const WIDTHS_M: (f64, f64) = (1.5, 8.0);
-/// Limits that lanes can have, m/s.
+/// Range of speed limits, m/s.
 const LIMITS_MPS: std::ops::RangeInclusive<f64> = 0.5..=60.0;
-/// Lines and areas are kept to this, with pieces no longer than, metres.
+/// Tolerance of simplified lines and areas, and their longest segment, metres.
 const KEPT_M: (f64, f64) = (0.02, 40.0);
 
-/// A lane or connector by its number; both tables count on their own.
+/// A lane or connector by its number; each table has its own numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum LaneKey {
     Lane(i64),
@@ -52,7 +52,7 @@ struct LaneFeature {
     line: Vec<Vec2>,
     width_m: Option<f64>,
     limit_mps: Option<f64>,
-    /// Group of lanes side by side, and the place in it, from the left.
+    /// Group of adjacent lanes, and the index in it, from the left.
     group: Option<(i64, i64)>,
     /// Boundaries to the left and right.
     sides: [Option<i64>; 2],
@@ -78,7 +78,7 @@ pub(super) struct CityMap {
     ground: Vec<CityArea>,
 }
 
-/// A part of a city as a scene has it.
+/// The part of a city that a scene contains.
 pub(super) struct CityPart {
     pub map: LaneMap,
     /// Ids of lanes in the scene.
@@ -89,7 +89,7 @@ pub(super) struct CityPart {
 }
 
 impl CityMap {
-    /// Reads a map; where it does not name its zone, `zone` is taken.
+    /// Reads a map; if it does not name its zone, `zone` is used.
     ///
     /// # Errors
     /// Those of [`Database`], `cannot-represent` for a map without a known projection.
@@ -172,12 +172,12 @@ impl CityMap {
         Ok(city)
     }
 
-    /// Of all lanes; `None` without any.
+    /// Extent of all lanes; `None` without any.
     pub fn extent(&self) -> Option<Extent> {
         Extent::about(self.lanes.iter().flat_map(|lane| &lane.line).copied())
     }
 
-    /// What is chosen of the city, about an origin.
+    /// The chosen part of the city, about an origin.
     pub fn part(&self, origin: Vec2, mut chosen: Chosen) -> CityPart {
         let (mut ids, mut map) = (Ids::default(), LaneMap::default());
         let placed = |line: &[Vec2]| -> Vec<Vec2> {
@@ -205,7 +205,7 @@ impl CityMap {
             kept.push(lane);
         }
         link(&mut map, &kept, &lanes);
-        // What lies beside the lanes is chosen without counting.
+        // Things beside the lanes are chosen without being counted.
         let mut beside = chosen.clone();
         let mut lines = HashMap::new();
         for (lane, feature) in map.lanes.iter_mut().zip(&kept) {
@@ -219,7 +219,7 @@ impl CityMap {
                 };
                 let id = lines.entry(number).or_insert_with(|| {
                     let id = ids.take(&format!("boundary-{number}"));
-                    // The map says where a lane ends, not what is painted there.
+                    // The map has the sides of lanes, but not their paint.
                     let (line_type, points) = ("unknown".to_owned(), placed(line).into());
                     map.road_lines.push(TypedLine { id: id.clone(), line_type, points });
                     id
@@ -255,7 +255,7 @@ impl CityMap {
     }
 }
 
-/// The sign of a stop polygon: where the lanes end that lead into it.
+/// The sign of a stop polygon: where the lanes that lead into it end.
 fn stop_sign(
     kept: &[&LaneFeature],
     lanes: &HashMap<LaneKey, String>,
@@ -355,7 +355,7 @@ impl<'a> MapReader<'a> {
         geometry
     }
 
-    /// The polygons of a table, where it is there.
+    /// The polygons of a table, if it exists.
     fn grounds(&self, table: &str) -> Result<Vec<CityArea>, ReadError> {
         let mut list = Vec::new();
         if self.database.has(table) {

@@ -1,4 +1,5 @@
-//! From a log to scenes: road users where the lidar saw them, the ego where its pose is, the city round them.
+//! Turns a log into scenes: road users from the lidar sweeps, the ego from its poses, and the city around
+//! them.
 
 use super::database::Database;
 use super::log::{LogPose, LogScene, LogTables};
@@ -18,13 +19,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Licence of the data set.
 pub(super) const LICENCE: &str = "cc-by-nc-sa-4.0";
-/// The data set's car (Chrysler Pacifica): length, width and height, and how far its middle is ahead of the rear axle,
-/// which its poses are of, metres.
+/// The data set's car (Chrysler Pacifica): length, width and height, and the distance of its centre ahead of
+/// the rear axle, to which its poses refer, metres.
 const EGO_SIZE_M: [f64; 3] = [5.176, 2.297, 1.777];
 const EGO_AHEAD_M: f64 = 1.461;
-/// Seconds of a unit of the tables' times.
+/// Seconds per unit of the tables' times.
 const TICK_S: f64 = 1e-6;
-/// Most kinds of situations that a scene names.
+/// Most kinds of situations in the tags of a scene.
 const MAX_TAGS: usize = 32;
 /// Prefix of the tag that names a scene's city.
 const CITY: &str = "city:";
@@ -119,7 +120,7 @@ impl NuPlan {
         Recording { said, users: all, futures: Vec::new() }
     }
 
-    /// Lays the city under a scene, as far as the ego reaches, with the lights of its connectors.
+    /// Adds the city to a scene, as far as the ego gets, with the lights of its connectors.
     fn lay_map(
         &self,
         city: &CityMap,
@@ -148,7 +149,7 @@ impl NuPlan {
             let mut seen = seen.into_iter().peekable();
             while let Some((sweep, state)) = seen.next() {
                 states.push((time_s(sweep), state));
-                // At sweeps without a state of it the light is unknown.
+                // The light is unknown at sweeps without a state.
                 if seen.peek().is_none_or(|(next, _)| *next > sweep + 1) && sweep + 1 < scene.sweeps.end {
                     states.push((time_s(sweep + 1), SignalState::Unknown));
                 }

@@ -1,18 +1,20 @@
-//! How roads bend and where their lanes are moved aside, for the memory that they take and the ends of their sections.
+//! Bends and lateral offsets of roads, from which the memory for them and the ends of their sections are
+//! derived.
 
 use crate::xml::Element;
 use scene::Vec2;
 use scene::geometry::{self, Extent};
 
-/// Most memory for each metre of lane, bytes: points, borders and crossing edges.
+/// Most memory per metre of lane, bytes: points, borders and crossing edges.
 const LANE_MEMORY: f64 = 800.0;
-/// Memory for each metre of lane of roads that hardly bend, bytes: the lanes have fewer points. It holds for the first
-/// roads of a file alone, since each is compared with those before it.
+/// Memory per metre of lane of roads that hardly bend, bytes: their lanes have fewer points. It applies only
+/// to the first roads of a file, since each is compared with the previous ones.
 const STRAIGHT_MEMORY: f64 = 200.0;
 const STRAIGHT_ROADS: usize = 128;
-/// Memory for each pair of lanes of two such roads that may cross, bytes: their edges are cut where they do.
+/// Memory for each pair of lanes of two such roads that may cross, bytes: their edges are cut at the
+/// crossing.
 const CROSSING_MEMORY: f64 = 500.0;
-/// Widest lane that counts for where a road lies, metres.
+/// Greatest lane width for the extent of a road, metres.
 const LANE_M: f64 = 5.0;
 /// A road that hardly bends: greatest curvature, 1/m, and turn from its start to its end, radians: a whole ring, which
 /// crosses itself a few times at most. At each of its records it may bend over so many metres.
@@ -20,17 +22,17 @@ const STRAIGHT_CURVATURE: f64 = 0.01;
 const STRAIGHT_TURN_RAD: f64 = 6.5;
 const BEND_M: f64 = 20.0;
 
-/// How a road bends.
+/// Bends of a road.
 #[derive(Default)]
 pub(super) struct RoadBends {
     /// Greatest curvature, 1/m, and turn of all pieces, radians.
     curvature: f64,
     turn_rad: f64,
-    /// The piece that is open: start, direction in radians, length in metres.
+    /// The open segment: start, direction in radians, length in metres.
     piece: (Vec2, f64, f64),
-    /// Of all pieces.
+    /// Extent of all segments.
     extent: Option<Extent>,
-    /// Records at which lanes may bend.
+    /// Number of records at which lanes may bend.
     records: usize,
 }
 
@@ -63,13 +65,13 @@ impl RoadBends {
         }
     }
 
-    /// Widens the box by a place and what lies round it.
+    /// Extends the box by a position and its surroundings.
     fn reach(&mut self, place: Vec2, around_m: f64) {
         let around = Extent::of([place]).grown(around_m);
         self.extent = Some(self.extent.unwrap_or(around).joined(&around));
     }
 
-    /// Memory for each metre of the lanes of a road of this length, bytes.
+    /// Memory per metre of the lanes of a road of this length, bytes.
     fn lane_memory(&self, length_m: f64) -> f64 {
         if self.curvature > STRAIGHT_CURVATURE || self.turn_rad > STRAIGHT_TURN_RAD {
             return LANE_MEMORY;
@@ -84,7 +86,7 @@ impl RoadBends {
 pub(super) struct StraightRoads(Vec<(Extent, f64)>);
 
 impl StraightRoads {
-    /// Memory for the lanes of a road, bytes a metre, and for where it may cross those before it, bytes.
+    /// Memory for the lanes of a road, bytes per metre, and for its crossings with the previous ones, bytes.
     pub fn take(&mut self, bends: &RoadBends, length_m: f64, lanes: usize) -> (f64, f64) {
         let memory = bends.lane_memory(length_m);
         let counts = memory < LANE_MEMORY && self.0.len() < STRAIGHT_ROADS;
@@ -98,7 +100,7 @@ impl StraightRoads {
     }
 }
 
-/// A `<laneOffset>`: a cubic from its place on.
+/// A `<laneOffset>`: a cubic from its position on.
 #[derive(Clone, Copy)]
 pub(super) struct LaneOffset {
     pub s_m: f64,
@@ -111,7 +113,7 @@ impl LaneOffset {
         Self { s_m: value("s"), terms: ["a", "b", "c", "d"].map(value) }
     }
 
-    /// How far the next one begins from where this one has led, metres.
+    /// Distance between the beginning of the next one and the end of this one, metres.
     pub fn step_m(&self, next: &Self) -> f64 {
         let ds = next.s_m - self.s_m;
         let [a, b, c, d] = self.terms;

@@ -1,13 +1,13 @@
-//! The reference line of a road: straight pieces, with a short bend where another road goes on in another direction.
+//! The reference line of a road: straight segments, with a short bend if the next road has another direction.
 
 use super::roads::{Road, RoadLink, Roads};
 use crate::markup::{Markup, decimal};
 use scene::geometry::{direction, rotate};
 use scene::{Vec2, wrap_angle};
 
-/// A bend at an end takes so much of the road, metres.
+/// Length of a road that a bend at an end takes, metres.
 const BEND_M: f64 = 2.0;
-/// Headings that differ by less go on straight, radians.
+/// Smaller differences of headings count as straight, radians.
 const STRAIGHT_RAD: f64 = 1e-4;
 /// Parts in which the length of a bend is measured.
 const PARTS: usize = 16;
@@ -17,7 +17,7 @@ pub(super) struct Piece {
     start: Vec2,
     heading_rad: f64,
     length_m: f64,
-    /// Of a bend, along and across the heading: what stands before t, t² and t³ for t from 0 to 1.
+    /// Coefficients of a bend along and across the heading, for t, t² and t³ with t from 0 to 1.
     bend: Option<[Vec2; 3]>,
 }
 
@@ -26,7 +26,7 @@ fn heading(from: Vec2, to: Vec2) -> f64 {
     way.y.atan2(way.x)
 }
 
-/// Headings in which roads end and begin, where others go on.
+/// Headings at which roads end and begin if others continue them.
 fn own_heading(road: &Road<'_>, at_end: bool) -> Option<f64> {
     match (&road.line[..], at_end) {
         ([first, second, ..], false) => Some(heading(*first, *second)),
@@ -35,8 +35,8 @@ fn own_heading(road: &Road<'_>, at_end: bool) -> Option<f64> {
     }
 }
 
-/// The pieces of a road along its line. It begins in the direction in which the one before it ends; a way through a
-/// junction also ends as the next one begins.
+/// The segments of a road along its line. It begins in the direction in which the previous one ends; a way
+/// through a junction also ends in the direction of the next one.
 pub(super) fn pieces(road: &Road<'_>, drawn: &Roads<'_>) -> Vec<Piece> {
     let other = |link: Option<RoadLink>, at_end: bool| match link {
         Some(RoadLink::Road(other)) => own_heading(&drawn.roads[other], at_end),
@@ -74,7 +74,7 @@ pub(super) fn pieces(road: &Road<'_>, drawn: &Roads<'_>) -> Vec<Piece> {
     pieces
 }
 
-/// A cubic between two places with these headings.
+/// A cubic between two positions with these headings.
 fn bend(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64) -> Piece {
     let chord_m = (to - from).norm();
     let (way, end) = (rotate(to - from, -from_rad), direction(to_rad - from_rad) * chord_m);

@@ -1,4 +1,4 @@
-//! From a map to OpenDRIVE 1.7: each lane is a road of its own, so that nothing of its course is lost.
+//! Writes a map as OpenDRIVE 1.7: each lane is a road of its own, so that its geometry is preserved.
 
 use super::course;
 use super::roads::{Road, RoadLink, Roads, roads};
@@ -15,24 +15,24 @@ use scene::{MAX_COORDINATE_M, Scene, Vec2};
 use std::collections::{BTreeMap, HashMap};
 use std::io;
 
-/// A lane that is not as wide as the one before it becomes so over this length, metres.
+/// Length over which a lane takes the width of the previous one, metres.
 const TAPER_M: f64 = 10.0;
 /// Shortest road that is written, metres.
 const SHORTEST_M: f64 = 0.01;
-/// Lights, and stop signs of the German catalogue, on which OpenDRIVE's own leans.
+/// Lights, and stop signs of the German catalogue, on which OpenDRIVE's own is based.
 const LIGHT: &str = "1000001";
 const STOP_SIGN: &str = "206";
-/// Day of files that do not depend on when they were written.
+/// Date of all files, so that they do not depend on the time of writing.
 const DAY: &str = "1970-01-01T00:00:00";
 
-/// Side of the road that traffic keeps to: the word for it, and the number of the one lane of each road, which leads
-/// along its road on that side.
+/// Driving side: the word for it, and the number of the single lane of each road, which runs along its road
+/// on that side.
 #[derive(Clone, Copy)]
 struct WrittenSide {
     word: &'static str,
     lane: &'static str,
     side: &'static str,
-    /// From the reference line to the lane's outer border, in widths.
+    /// Direction from the reference line to the lane's outer border, in widths.
     outward: f64,
 }
 
@@ -47,7 +47,7 @@ pub(crate) fn light_id(signal: usize) -> String {
 /// Writes the map of a scene, in the scene's own frame.
 ///
 /// # Errors
-/// `InvalidInput` for a scene without a lane, since a map has one road at least.
+/// `InvalidInput` for a scene without a lane, since a map needs a road.
 pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let drawn = roads(&scene.map);
     if drawn.roads.iter().all(|road| length(&road.points) < SHORTEST_M) {
@@ -111,11 +111,11 @@ fn header(scene: &Scene, out: &mut Markup) {
 /// Objects beside each road.
 #[derive(Default)]
 struct Roadside {
-    /// Lights: position among the scene's, where traffic stops.
+    /// Lights: index among the scene's, and stop position.
     lights: BTreeMap<usize, Vec<(usize, Vec2)>>,
     stop_signs: BTreeMap<usize, Vec<(usize, Vec2)>>,
     crosswalks: BTreeMap<usize, Vec<usize>>,
-    /// Signals of nothing that is a road.
+    /// Number of signals that belong to no road.
     lost_signals: usize,
 }
 
@@ -152,7 +152,7 @@ fn middle(ring: &[Vec2]) -> Vec2 {
     ring.iter().sum::<Vec2>() / ring.len().max(1) as f64
 }
 
-/// Writes a road; gives how far its reference line is off the centre line, metres.
+/// Writes a road; returns the distance between its reference line and the centre line, metres.
 fn write_road(
     number: usize,
     (road, drawn): (&Road<'_>, &Roads<'_>),
@@ -217,7 +217,7 @@ fn speed(road: &Road<'_>, out: &mut Markup) {
     out.close();
 }
 
-/// Heights at the points of the lane, straight between them.
+/// Heights at the points of the lane, interpolated linearly.
 fn heights(road: &Road<'_>, out: &mut Markup) {
     let Some(z_m) = &road.lane.points.z_m else { return };
     let arc = arc_lengths(&road.lane.points.xy);
@@ -255,7 +255,8 @@ fn heights(road: &Road<'_>, out: &mut Markup) {
     out.close();
 }
 
-/// Widths along a road, straight between them: where, and how wide, metres. Roads that meet are equally wide there.
+/// Widths along a road, interpolated linearly: position and width, metres. Roads that meet have the same
+/// width there.
 fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
     let width = |road: &Road<'_>| road.lane.width_or_assumed_m();
     let at = |link: Option<RoadLink>| match link {
@@ -270,7 +271,7 @@ fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
     }
 }
 
-/// The one lane, whose middle is the reference line.
+/// The single lane, whose middle is the reference line.
 fn lanes((road, rule): (&Road<'_>, WrittenSide), drawn: &Roads<'_>, total: f64, out: &mut Markup) {
     let kind = match road.lane.lane_type {
         LaneType::BikeLane => "biking",
@@ -280,7 +281,7 @@ fn lanes((road, rule): (&Road<'_>, WrittenSide), drawn: &Roads<'_>, total: f64, 
         _ => "driving",
     };
     let widths = widths(road, drawn, total);
-    // From each place on: the width there, and what it grows by a metre.
+    // From each position: the width there, and its increase per metre.
     let pieces: Vec<(f64, f64, f64)> = widths
         .iter()
         .enumerate()
@@ -306,7 +307,7 @@ fn lanes((road, rule): (&Road<'_>, WrittenSide), drawn: &Roads<'_>, total: f64, 
         out.close();
     };
     out.open("laneSection", &[("s", "0")]);
-    // Sides stand in the order of the standard: left, centre, right.
+    // The standard requires the order left, centre, right.
     if rule.side == "right" {
         centre(out);
     }

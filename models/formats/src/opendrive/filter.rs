@@ -1,9 +1,9 @@
-//! Rewrites the parts of an OpenDRIVE file that a scene shows, within limits.
+//! Reduces an OpenDRIVE file to the parts that a scene shows, within limits.
 //!
-//! The crate that reads maps builds anything that a file requests, at any cost of time and memory. Each file
-//! is therefore filtered first, element by element. Parts that a scene shows are kept, counted and bounded by
-//! limits far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates
-//! move to the middle of the file's first road, because the crate keeps them in single precision.
+//! The crate that reads maps builds anything that a file requests, at any cost of time and memory. Therefore
+//! each file is filtered first, element by element. Parts that a scene shows are kept, counted and limited
+//! far above real maps. The rest (surfaces, boards, railways, external files) is dropped. Coordinates move to
+//! the middle of the file's first road, because the crate stores them in single precision.
 
 use super::bends::{LaneOffset, RoadBends, StraightRoads, number};
 use super::short::{self, JunctionLink, LaneLink, LinkedSection, Links, RoadEnd, RoadLinks};
@@ -26,41 +26,41 @@ const MAX_TAG: usize = 1 << 20;
 /// Most bytes and elements that are kept.
 const MAX_KEPT_BYTES: usize = 48 << 20;
 const MAX_KEPT: usize = 500_000;
-/// Most lanes of a map, all lane sections together, and of one lane section.
+/// Most lanes of a map in all lane sections, and of one lane section.
 const MAX_LANES: usize = 60_000;
 const MAX_SECTION_LANES: usize = 64;
 /// Most signals and references to them, and most objects.
 const MAX_SIGNALS: usize = 4_000;
 const MAX_OBJECTS: usize = 10_000;
-/// Longest reference lines, and longest lanes, all together, metres.
+/// Greatest total length of reference lines, and of lanes, metres.
 const MAX_LINES_M: f64 = 500_000.0;
 const MAX_LANES_M: f64 = 500_000.0;
-/// Most memory, bytes, for each lane of a section, each element and each byte that is kept, beside that for each
-/// metre of lane. It covers the fixed cost of a lane; nodes; the text and its copy in the tree.
+/// Most memory, bytes, for each lane of a section, each element and each kept byte, in addition to that per
+/// metre of lane. It covers the fixed cost of a lane, nodes, and the text with its copy in the tree.
 const LANE_OWN_MEMORY: f64 = 4_000.0;
 const ELEMENT_MEMORY: f64 = 700.0;
 const TEXT_MEMORY: f64 = 2.0;
-/// Most steps of reading: each record of a road is looked for at each metre of it.
+/// Most steps of reading: at each metre of a road, each of its records is searched.
 const MAX_STEPS: f64 = 4e8;
-/// Farthest a coordinate may lie from the origin of the file, metres.
+/// Greatest distance of a coordinate from the origin of the file, metres.
 const MAX_SOURCE_M: f64 = 1e8;
-/// A road ends so far beyond its reference line at most, metres.
+/// Greatest length of a road beyond its reference line, metres.
 const BEYOND_LINE_M: f64 = 1.0;
-/// A sort of marks that is no paint.
+/// A kind of marks that is not paint.
 const UNPAINTED: &str = "grass";
-/// Begins the length in a tag.
+/// Text before the length in a tag.
 const LENGTH: &str = " length=\"";
-/// A lane raised by so much is not driven onto from the one beside it, metres.
+/// A lane that is raised by this height cannot be entered from the adjacent one, metres.
 const RAISED_M: f64 = 0.05;
 
-/// Limits of speed change no nearer to each other, or to an end of a section, metres.
+/// Least distance between changes of the speed limit, and to an end of a section, metres.
 const LEAST_STRETCH_M: f64 = 1.0;
-/// A `<laneOffset>` that begins so far from where the one before has led is a step, metres.
+/// A `<laneOffset>` that begins this far from the end of the previous one is a step, metres.
 const STEP_M: f64 = 0.05;
-/// Places along a road that are the same, metres.
+/// Positions along a road within this distance are equal, metres.
 const SAME_M: f64 = 1e-4;
 
-/// Elements that are kept, by the one that they are in.
+/// Elements that are kept, by their parent.
 const KEPT: &[(&str, &[&str])] = &[
     ("OpenDRIVE", &["header", "road", "controller", "junction"]),
     ("road", &["link", "type", "planView", "elevationProfile", "lanes", "objects", "signals"]),
@@ -86,7 +86,7 @@ const KEPT: &[(&str, &[&str])] = &[
     ("junction", &["connection", "controller"]),
     ("connection", &["laneLink", "predecessor", "successor"]),
 ];
-/// Records that hold from their place on, and the attribute of it.
+/// Records that apply from their position on, and the attribute with the position.
 const RECORDS: &[(&str, &str)] =
     &[("laneOffset", "s"), ("elevation", "s"), ("width", "sOffset"), ("border", "sOffset")];
 /// Elements that a scene does not show, with their names in messages.
@@ -104,7 +104,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("access", "lane access"),
 ];
 
-/// A file as it is handed on.
+/// The filtered file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Filtered {
     /// OpenDRIVE, well-formed.
@@ -113,21 +113,21 @@ pub(super) struct Filtered {
     pub origin: Vec2,
     /// Projection named by the file.
     pub projection: Option<String>,
-    /// Place and turn of the file's frame in the projection: `<offset>`.
+    /// Position and rotation of the file's frame in the projection: `<offset>`.
     pub offset: Offset,
     /// Number of dropped elements, by name.
     pub left_out: BTreeMap<&'static str, usize>,
-    /// Lanes that stand above the road: road id, lane section, lane id.
+    /// Lanes that are raised above the road: road id, lane section, lane id.
     pub raised: HashSet<(String, usize, i32)>,
-    /// Traffic keeps to the left, by road id.
+    /// Ids of roads with left-hand traffic.
     pub left_hand: HashSet<String>,
     /// Faults that were repaired.
     pub faults: Vec<String>,
-    /// No road is taken.
+    /// Whether no road is taken.
     pub is_empty: bool,
     /// Links of lanes at the ends of roads and at junctions.
     pub links: Links,
-    /// Lanes that have borders in a section with widths, and their length, metres.
+    /// Lanes with borders in a section with widths, and their length, metres.
     pub bordered: (usize, f64),
 }
 
@@ -166,7 +166,7 @@ pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Filtered, R
     Ok(filter.out)
 }
 
-/// The road that is open.
+/// The open road.
 #[derive(Default)]
 struct Road {
     id: String,
@@ -175,10 +175,10 @@ struct Road {
     line_m: f64,
     /// Position of the length in the text.
     length_at: Range<usize>,
-    /// Elements that are looked for along it.
+    /// Number of elements that are searched along it.
     records: usize,
     sections: Vec<FilteredSection>,
-    /// Where limits of speed begin along the road, and what they are.
+    /// Positions of speed limits along the road, with the limits.
     speeds: Vec<(f64, Option<String>)>,
     offsets: Vec<LaneOffset>,
     bends: RoadBends,
@@ -191,23 +191,23 @@ struct FilteredSection {
     lanes: usize,
     drawn: usize,
     raised: Vec<i32>,
-    /// Sides that the section gives, right and left.
+    /// Whether the section contains its right and its left side.
     gives: [bool; 2],
-    /// Some lane has a width; lanes that have borders alone.
+    /// Whether some lane has a width; lanes that have only borders.
     has_widths: bool,
     bordered: usize,
-    /// Where limits of speed of lanes begin: lane, place in the section, limit.
+    /// Speed limits of lanes: lane, position in the section, limit.
     speeds: Vec<(i32, f64, Option<String>)>,
 }
 
-/// The lane that is open.
+/// The open lane.
 #[derive(Default)]
 struct OpenLane {
     has_width: bool,
     has_border: bool,
 }
 
-/// What is counted and written before a road, to pass over one that lies outside.
+/// Counters and text length before a road, to skip one that lies outside.
 #[derive(Default)]
 struct BeforeRoad {
     text: usize,
@@ -223,35 +223,35 @@ struct BeforeRoad {
 #[derive(Default)]
 struct Filter {
     out: Filtered,
-    /// Elements that are open and kept.
+    /// Open elements that are kept.
     open: Vec<String>,
-    /// Elements that are open below one that is not kept.
+    /// Number of open elements below a skipped one.
     skipped: usize,
-    /// Text is the projection's.
+    /// Whether the text is that of the projection.
     projection: bool,
     origin: Option<Vec2>,
     ids: HashSet<String>,
     road: Road,
     lane: Option<i32>,
     lane_shape: OpenLane,
-    /// Links of the road's sections, in the order of the file, and of all roads before.
+    /// Links of the road's sections in the order of the file, and of all previous roads.
     sections: Vec<LinkedSection>,
     links: Links,
-    /// The link that is open: where it begins, of which lane, after it or before, to which lane.
+    /// The open link: its position, its lane, whether it is a successor, and the linked lane.
     link: Option<(usize, i32, bool, i32)>,
-    /// The junction and the connection that are open.
+    /// The open junction and connection.
     junction: String,
     connection: (String, String, bool),
     lane_link: Option<JunctionLink>,
-    /// The record before: its name, how deep it lies, the number of lanes so far, and its place.
+    /// The previous record: its name, its depth, the number of lanes so far, and its position.
     last_record: Option<(&'static str, usize, usize, f64)>,
-    /// What is read; whether the open road comes near, and what there was before it.
+    /// The part to read; whether the open road comes near, and the state before it.
     chosen: Chosen,
     is_near: bool,
     before: BeforeRoad,
-    /// Ids of roads outside of the part that is read.
+    /// Ids of roads outside the part to read.
     outside: HashSet<String>,
-    /// Changes of the text that are made at the end.
+    /// Changes of the text that are applied at the end.
     edits: Vec<(Range<usize>, String)>,
     kept: usize,
     lanes: usize,
@@ -259,7 +259,7 @@ struct Filter {
     objects: usize,
     lines_m: f64,
     lanes_m: f64,
-    /// Metres of drawn lanes: all but the centre lanes; and memory for them, bytes.
+    /// Metres of drawn lanes, without the centre lanes; and memory for them, bytes.
     drawn_m: f64,
     drawn_memory: f64,
     straight: StraightRoads,
@@ -330,12 +330,13 @@ impl Filter {
         }
     }
 
-    /// A record that begins a rounding before the one that it follows, moved to where that one begins. The crate sorts
-    /// records by their places; of two at one place the later one of the file holds, as its writer meant it.
+    /// Moves a record that begins before its predecessor, by a rounding error, to the predecessor's position.
+    /// The crate sorts records by position; of two at one position the later one in the file applies, as its
+    /// writer meant it.
     fn in_order(&mut self, element: &Element) -> Option<Element> {
         let (name, place) = *RECORDS.iter().find(|(name, _)| *name == element.name)?;
         let at = number(element, place)?;
-        // Elements that hold records close before others of their name open.
+        // Elements with records close before others with their name open.
         let (depth, before) = (self.open.len(), self.last_record);
         self.last_record = Some((name, depth, self.lanes, at));
         let (.., before) =
@@ -350,7 +351,7 @@ impl Filter {
         Some(moved)
     }
 
-    /// Notes what is linked, and what holds where.
+    /// Records links, and the positions from which values apply.
     fn note(&mut self, parent: &str, element: &Element) {
         let text = |name: &str| element.get(name).unwrap_or_default().to_owned();
         let id = |name: &str| element.get(name).and_then(|id| id.trim().parse::<i32>().ok());
@@ -470,7 +471,7 @@ impl Filter {
         }
     }
 
-    /// False for elements of a kept sort that nothing is made of.
+    /// False for elements of a kept kind without effect.
     fn wanted(&mut self, element: &Element) -> bool {
         let has = |attribute: &str, word: &str| {
             element.get(attribute).is_some_and(|value| value.to_ascii_lowercase().contains(word))
@@ -505,7 +506,7 @@ impl Filter {
         }
     }
 
-    /// Writes an element with these values in place of its own, and counts it.
+    /// Writes an element with these values replaced, and counts it.
     fn keep(&mut self, element: &Element, values: &[(&str, f64)]) -> Result<(), ReadError> {
         self.kept += 1;
         self.road.records += 1;
@@ -596,7 +597,7 @@ impl Filter {
         self.lines_m = lines_m;
     }
 
-    /// A road is no longer than its reference line: what lies beyond has no place.
+    /// A road is no longer than its reference line: nothing beyond it has a position.
     fn cut(&mut self, road: &mut Road) {
         if road.line_m <= 0.0 || road.length_m <= road.line_m + BEYOND_LINE_M {
             return;
@@ -609,8 +610,8 @@ impl Filter {
         road.length_m = line_m;
     }
 
-    /// Ends a section just before a `<laneOffset>` that moves all lanes aside begins with the next one: the crate
-    /// would place the end of the section by that record. What lies between is too short to have lanes.
+    /// Ends a section just before a `<laneOffset>` that moves all lanes aside begins with the next one: the
+    /// crate would place the end of the section by that record. The gap is too short for lanes.
     fn end_before_steps(&mut self) {
         let road = &mut self.road;
         road.offsets.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
@@ -622,7 +623,7 @@ impl Filter {
             let begins = next.map_or(road.length_m, |section| section.s_m);
             let Some(before) = at.checked_sub(1).and_then(|i| road.sections.get(i)) else { continue };
             let place = s_m - short::SHORT_M / 2.0;
-            // The section before must stay long enough to have lanes; a side that goes on has no end here.
+            // The previous section must stay long enough for lanes; a side that continues does not end here.
             let ends = next.is_none_or(|section| section.gives == [true; 2]);
             if !ends || (begins - s_m).abs() > SAME_M || place - before.s_m < 2.0 * short::SHORT_M {
                 continue;
@@ -635,8 +636,8 @@ impl Filter {
         road.sections.append(&mut added);
     }
 
-    /// Begins a section where a limit of speed changes, with the lanes of the one before, so that each lane has one
-    /// limit.
+    /// Begins a section at each change of the speed limit, with the lanes of the previous one, so that each
+    /// lane has one limit.
     fn split_at_limits(&mut self) -> Result<(), ReadError> {
         let road = &mut self.road;
         road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
@@ -671,7 +672,7 @@ impl Filter {
         self.fits()
     }
 
-    /// A piece of the reference line, about the file's own middle.
+    /// A segment of the reference line, relative to the file's own middle.
     fn geometry(&mut self, element: &Element) -> Result<Vec<(&'static str, f64)>, ReadError> {
         let length_m = number(element, "length").unwrap_or(0.0).max(0.0);
         self.lines_m += length_m;
@@ -704,7 +705,7 @@ impl Filter {
         Ok(())
     }
 
-    /// A lane's height above the road is not kept, but that it stands there is.
+    /// Records that a lane is raised above the road; its height is dropped.
     fn height(&mut self, element: &Element) {
         let (Some(lane), "height") = (self.lane, element.name.as_str()) else { return };
         let raised =
@@ -717,7 +718,7 @@ impl Filter {
     fn end_of_road(&mut self) -> Result<(), ReadError> {
         let mut road = std::mem::take(&mut self.road);
         self.cut(&mut road);
-        // As they are numbered: in the order along the road.
+        // In the order of their numbers: along the road.
         road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
         let mut links =
             RoadLinks { sections: std::mem::take(&mut self.sections), ends: std::mem::take(&mut road.ends) };
@@ -758,7 +759,7 @@ impl Filter {
     }
 }
 
-/// The limit that a `<speed>` states, to be compared.
+/// The limit of a `<speed>`, for comparisons.
 fn limit_of(speed: &Element) -> String {
     format!("{} {}", speed.get("max").unwrap_or_default(), speed.get("unit").unwrap_or_default())
 }
@@ -776,8 +777,9 @@ fn is_crosswalk(element: &Element) -> bool {
     element.get("type").is_some_and(|kind| kind.eq_ignore_ascii_case("crosswalk"))
 }
 
-/// The mark as one of a sort that the crate paints nothing for, with its own sort as its material: it would cut
-/// broken lines into all of their dashes, which no scene shows, and on a long road that takes it seconds.
+/// The mark as a kind that the crate does not paint, with its own kind as its material. Otherwise the crate
+/// would cut broken lines into all of their dashes, which no scene shows, and on a long road that takes
+/// seconds.
 fn unpainted(mark: &Element) -> Element {
     let mut mark = mark.clone();
     let sort = mark.get("type").unwrap_or_default().to_owned();
@@ -786,7 +788,7 @@ fn unpainted(mark: &Element) -> Element {
     mark
 }
 
-/// Paint at which traffic stops. There is no type for it: the name or the subtype says so.
+/// Whether paint is a stop line. There is no type for it: the name or the subtype tells.
 pub(super) fn is_stop_line(element: &Element) -> bool {
     let says = |attribute| {
         let letters = element.get(attribute).unwrap_or_default().chars().filter(char::is_ascii_alphabetic);
@@ -795,7 +797,7 @@ pub(super) fn is_stop_line(element: &Element) -> bool {
     says("name") || says("subtype")
 }
 
-/// Writes an attribute's value as XML has it; what XML cannot hold becomes a space.
+/// Writes an attribute's value escaped for XML; a character that XML does not allow becomes a space.
 fn escape(value: &str, out: &mut String) {
     for c in value.chars() {
         match c {

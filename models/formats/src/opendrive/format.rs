@@ -1,11 +1,11 @@
-//! OpenDRIVE as users import it.
+//! OpenDRIVE as an import format.
 
 use super::{export, import};
 use crate::loss::code;
 use crate::map_file::MapFile;
 
-/// A map (`.xodr`, OpenDRIVE 1.4 to 1.9), plain or gzip: a scene with a map and signals, without road users. The
-/// frame is the map's, moved by whole metres so that its middle is the origin.
+/// A map (`.xodr`, OpenDRIVE 1.4 to 1.9), plain or compressed with gzip: a scene with a map and signals,
+/// without road users. The frame is that of the map, moved by whole metres so that its middle is the origin.
 pub(crate) static OPENDRIVE: MapFile = MapFile {
     id: "opendrive",
     name: "ASAM OpenDRIVE map",

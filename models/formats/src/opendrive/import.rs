@@ -1,4 +1,4 @@
-//! From an OpenDRIVE file to a map about the origin, with its signals.
+//! Reads an OpenDRIVE file as a map about the origin, with its signals.
 
 use super::filter::{self, Filtered, Offset};
 use super::lanes::{self, Found, carries_vehicles, is_road};
@@ -20,21 +20,21 @@ use scene::{MAX_COORDINATE_M, Origin, Vec2, wrap_angle};
 use std::collections::BTreeMap;
 use xodr::{Direction, RoadNetwork};
 
-/// Lanes count as ways that no edge may cross from this width on, metres.
+/// Least width of a lane that no edge may cross, metres.
 const WAY_M: f64 = 1.0;
 /// Most characters of a name.
 const NAME_CHARS: usize = 100;
 
-/// Reads a file, plain or gzip: a scene with a map and signals, without road users.
+/// Reads a file, plain or compressed with gzip: a scene with a map and signals, without road users.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or
-/// one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of file
+/// or one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
 pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<MapRead, ReadError> {
     read_with_roads(file, around).map(|(map, _)| map)
 }
 
-/// The same, and the places on its roads that a scenario may name.
+/// Reads a map, with the positions on its roads that a scenario may name.
 pub(crate) fn read_with_roads(
     file: &dyn Source,
     around: Option<Around>,
@@ -52,7 +52,7 @@ pub(crate) fn read_with_roads(
     if let Some(origin) = chosen.origin() {
         frame.middle = origin - file.origin;
     }
-    // Roads begin about the network's origin; numbers far from it have lost their places.
+    // Roads begin near the network's origin; far from it, numbers have lost their precision.
     let wide = !chosen.is_part() && map_file::is_too_wide(frame.half);
     if wide || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
         return Err(ReadError::map_too_large(map_file::extent(frame.half)));
@@ -71,7 +71,7 @@ pub(crate) fn read_with_roads(
     let approximated = marks::draw(&network, &provenance, &sections, &found, &mut map, &mut id);
     let strips = strips(&network, &sections);
     let ways = ways(&sections, &found, &map);
-    // The map holds all that is needed of the lanes.
+    // The map has everything that is needed of the lanes.
     drop(sections);
     let whole = surface::draw(&mut map, &strips, &ways, &mut id);
     bounds::by_edges(&mut map);
@@ -100,7 +100,7 @@ pub(crate) fn read_with_roads(
     Ok((MapRead { name, map: map.into(), signals, origin, warnings, part }, roads))
 }
 
-/// The carriageway of each section: lanes side by side without a kerb, with traffic among them.
+/// The carriageway of each section: adjacent lanes without a kerb, with at least one for traffic.
 fn strips(network: &RoadNetwork, sections: &[Section]) -> Vec<Strip> {
     let mut strips = Vec::new();
     for section in sections {
@@ -122,7 +122,7 @@ fn strip(network: &RoadNetwork, section: &Section, from: usize, to: usize) -> Op
     let lanes = section.lanes.get(from..to)?;
     let (first, last) =
         (lanes.iter().find(|l| carries_vehicles(l))?, lanes.iter().rfind(|l| carries_vehicles(l))?);
-    // A driver has oncoming traffic on the left, or on the right in left-hand traffic.
+    // Oncoming traffic is to the left of a driver, or to the right in left-hand traffic.
     let inner_is_left = |direction| (direction != Direction::Backward) != section.left_hand;
     let goes_on = |at_end: bool| {
         section.junction.is_some()
@@ -143,7 +143,7 @@ fn strip(network: &RoadNetwork, section: &Section, from: usize, to: usize) -> Op
     })
 }
 
-/// Centre lines of lanes wide enough for traffic, and of the connections to their successors.
+/// Centre lines of lanes that are wide enough for traffic, and of the connections to their successors.
 fn ways(sections: &[Section], found: &Found, map: &LaneMap) -> Vec<Vec<Vec2>> {
     let mut ways = Vec::new();
     let mut wide = vec![[false; 2]; map.lanes.len()];

@@ -1,4 +1,4 @@
-//! Lanes of a network as lanes of a map: which of them traffic uses, and what follows what.
+//! Converts lanes of a network to lanes of a map: their use, and their links.
 
 use super::sections::{MAX_PIECES, Section, SectionLane, dense};
 use super::short::Links;
@@ -10,27 +10,28 @@ use xodr::{Direction, LaneId, LaneType as Kind, RoadNetwork, RoadType, SpeedLimi
 
 /// Distance of lane points, metres.
 const SPACING_M: f64 = 1.0;
-/// Lanes that are nowhere as wide are left out, metres.
+/// Lanes that are narrower everywhere are left out, metres.
 const NARROWEST_M: f64 = 0.5;
-/// A two-way lane and the next one belong together the way round in which their ends meet, metres.
+/// A two-way lane and the next one are linked in the direction in which their ends meet within this distance,
+/// metres.
 const MEETING_M: f64 = 2.0;
-/// Lanes that open or close beside another begin and end at this width, metres.
+/// Width at which lanes that open or close beside another begin and end, metres.
 const OPEN_M: f64 = 2.0;
-/// Border lanes up to this width are the paved edge of the road, metres; wider ones are what lies beside it.
+/// Border lanes up to this width are the paved edge of the road, metres; wider ones lie beside it.
 const PAVED_BORDER_M: f64 = 2.0;
 
-/// A lane of the map that is made of a lane of the network.
+/// A lane of the map that comes from a lane of the network.
 #[derive(Clone, Debug)]
 pub(super) struct NetworkLane {
     /// Index in [`LaneMap::lanes`].
     pub lane: usize,
-    /// In the direction of the road.
+    /// Whether it runs in the direction of the road.
     pub forward: bool,
     /// Position of each point among the points of the section's lane.
     pub places: Vec<f64>,
 }
 
-/// Which lanes of a map were made of which lanes of the network; a two-way lane gives two.
+/// Lanes of the map by lane of the network; a two-way lane gives two.
 pub(super) type Found = HashMap<LaneId, Vec<NetworkLane>>;
 
 /// Type of a lane in a scene; `None` if it carries no road users.
@@ -50,12 +51,12 @@ fn lane_type(lane: &SectionLane, motorway: bool) -> Option<LaneType> {
     }
 }
 
-/// Vehicles drive here.
+/// Whether vehicles drive on the lane.
 pub(super) fn carries_vehicles(lane: &SectionLane) -> bool {
     lane_type(lane, false).is_some_and(LaneType::carries_vehicles)
 }
 
-/// Part of the carriageway: what cars can get onto from a traffic lane without a kerb.
+/// Whether it is part of the carriageway: cars can reach it from a traffic lane without a kerb.
 pub(super) fn is_road(section: &Section, at: usize) -> bool {
     let lane = &section.lanes[at];
     if lane.raised || lane.widest_m() < 0.01 {
@@ -113,7 +114,8 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], links: &Links, m
     found
 }
 
-/// Such as `12.0.-1`: road, section and lane, and [`map_file::AGAINST`] for the way against a two-way lane.
+/// An id such as `12.0.-1`: road, section and lane, and [`map_file::AGAINST`] for the opposite direction of a
+/// two-way lane.
 fn id_of(section: &Section, lane: &SectionLane, forward: bool, ids: &mut HashSet<String>) -> String {
     let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
     let road: String = section.road.chars().take(36).map(legal).collect();
@@ -142,7 +144,7 @@ fn linked(network: &RoadNetwork, lane: &SectionLane) -> [bool; 2] {
 }
 
 /// Points of a lane, and their positions among those of the section. An end without a link begins where the
-/// lane is wide enough to be used. `linked` holds both ends.
+/// lane is wide enough for use. `linked` refers to both ends.
 fn points(lane: &SectionLane, forward: bool, linked: [bool; 2]) -> (Points, Vec<f64>) {
     let length_m = crate::polyline::length(&lane.center);
     let mut line = dense(&lane.center, &lane.tangents, SPACING_M.max(length_m / MAX_PIECES as f64));
@@ -170,7 +172,7 @@ fn points(lane: &SectionLane, forward: bool, linked: [bool; 2]) -> (Points, Vec<
     (Points { xy: line.into_iter().map(|(p, ..)| p.map(told)).collect(), z_m }, places)
 }
 
-/// Lanes of a section side by side, in the same direction.
+/// Links adjacent lanes of a section with the same direction.
 fn beside(section: &Section, found: &Found, map: &mut LaneMap) {
     if section.junction.is_some() {
         return;
@@ -207,7 +209,7 @@ fn beside(section: &Section, found: &Found, map: &mut LaneMap) {
     }
 }
 
-/// First and last point of a lane beside which another lies.
+/// First and last point of a lane with another one beside it.
 fn common(own: &NetworkLane, other: &NetworkLane) -> Option<(usize, usize)> {
     let ends = [other.places.first()?, other.places.last()?];
     let (low, high) = (ends[0].min(*ends[1]) - 1e-6, ends[0].max(*ends[1]) + 1e-6);
@@ -221,9 +223,9 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
     let mut links = HashSet::new();
     for (lane, drawn) in network.lanes().iter().filter_map(|lane| Some((lane, found.get(&lane.id)?))) {
         for next in lane.successors.iter().filter_map(|next| found.get(next)) {
-            // Only of two-way lanes it must be found out which way leads on.
+            // Only for two-way lanes, the direction of the continuation must be found.
             let sure = drawn.len() == 1 && next.len() == 1;
-            // Pavements have no direction: the link of two that end or begin together is a matter of walkers.
+            // Pavements have no direction: a link of two that begin or end together is for pedestrians.
             let walked = |list: &[NetworkLane]| {
                 list.iter().all(|drawn| map.lanes[drawn.lane].lane_type == LaneType::Sidewalk)
             };
@@ -231,7 +233,7 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
             for (from, to) in drawn.iter().flat_map(|from| next.iter().map(move |to| (from.lane, to.lane))) {
                 let ends = [map.lanes[from].points.xy.last(), map.lanes[to].points.xy.first()];
                 let meet = matches!(ends, [Some(end), Some(start)] if (end - start).norm() < MEETING_M);
-                // A lane leads into itself where it closes a ring.
+                // A lane is linked to itself if it closes a ring.
                 let sure = sure && from != to;
                 if (sure || meet) && links.insert((from, to)) {
                     let [before, after] = [from, to].map(|i| map.lanes[i].id.clone());
@@ -243,9 +245,9 @@ fn link(network: &RoadNetwork, found: &Found, map: &mut LaneMap) {
     }
 }
 
-/// Links lanes that the file links on one side alone, where they meet. The crate takes a `<laneLink>` as the way into
-/// the junction alone, and a lane's link as the way out of that lane; but both hold for both directions, and a road's
-/// end is sometimes named wrongly.
+/// Adds links that the file has on one side only, if the lanes meet. The crate reads a `<laneLink>` only as
+/// the way into the junction, and a lane's link only as the way out of that lane. Both apply in both
+/// directions, and some files name the wrong end of a road.
 fn link_stated(sections: &[Section], links: &Links, found: &Found, map: &mut LaneMap) {
     // Lanes of all sections by road, section and number, and of those at both ends of each road by road and number.
     let mut within: HashMap<(&str, usize, i32), LaneId> = HashMap::new();
@@ -286,7 +288,7 @@ fn link_stated(sections: &[Section], links: &Links, found: &Found, map: &mut Lan
     }
 }
 
-/// Whether a lane begins where another ends, in about the same direction.
+/// Whether a lane begins at the end of another one, in about the same direction.
 fn leads_on(map: &LaneMap, from: usize, to: usize) -> bool {
     let ([.., before, end], [start, after, ..]) =
         (&map.lanes[from].points.xy[..], &map.lanes[to].points.xy[..])

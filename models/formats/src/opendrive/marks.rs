@@ -1,4 +1,4 @@
-//! Painted lines of a network, and which of them bound which lanes.
+//! Painted lines of a network, and the lanes that they bound.
 
 use super::lanes::Found;
 use super::sections::Section;
@@ -8,21 +8,21 @@ use scene::map::{Boundary, LaneMap, ROAD_LINE_TYPES, TypedLine};
 use std::collections::HashMap;
 use xodr::{LanePosition, Provenance, RoadMarkProvenance, RoadNetwork};
 
-/// Paint is kept to this, with pieces no longer than, metres.
+/// Tolerance of simplified paint, and its longest segment, metres.
 const KEPT_M: (f64, f64) = (0.03, 20.0);
 
 /// A painted line of a section.
 struct Painted {
-    /// Which border of the section.
+    /// Index of the border in the section.
     border: usize,
-    /// From where to where, as places among the section's points.
+    /// Beginning and end, as positions among the section's points.
     from: f64,
     to: f64,
     /// Index in [`LaneMap::road_lines`].
     line: usize,
 }
 
-/// Draws all lines. Gives how many are of a sort for which there is no word.
+/// Draws all lines. Returns the number of those of an unknown kind.
 pub(super) fn draw(
     network: &RoadNetwork,
     provenance: &Provenance,
@@ -56,7 +56,8 @@ pub(super) fn draw(
     approximated
 }
 
-/// The word for a mark, and whether it says all; nothing for what is no paint. `sort`: its `type` (e_roadMarkType).
+/// The word for a mark, and whether it is exact; nothing for what is not paint. `sort` is its `type`
+/// (e_roadMarkType).
 fn line_type(sort: &str, colour: &str) -> Option<(&'static str, bool)> {
     let yellow = matches!(colour, "yellow" | "orange");
     let plain = yellow || matches!(colour, "" | "standard" | "white");
@@ -78,7 +79,7 @@ fn line_type(sort: &str, colour: &str) -> Option<(&'static str, bool)> {
     Some((word, exact && plain))
 }
 
-/// Which border a mark lies on, and from where to where among its points.
+/// The border of a mark, and its beginning and end among the border's points.
 fn stretch(
     network: &RoadNetwork,
     section: &Section,
@@ -114,7 +115,7 @@ fn stretch(
     (to > from).then_some((border, from, to))
 }
 
-/// The part of a line between two places.
+/// The part of a line between two positions.
 fn cut(line: &[Vec2], from: f64, to: f64) -> Vec<Vec2> {
     let at = |place: f64| {
         let i = (place.floor() as usize).min(line.len().saturating_sub(1));
@@ -125,7 +126,7 @@ fn cut(line: &[Vec2], from: f64, to: f64) -> Vec<Vec2> {
     at(from).into_iter().chain(inner.map(|(_, p)| *p)).chain(at(to)).collect()
 }
 
-/// Says of the lanes of a section which lines bound them.
+/// Assigns bounding lines to the lanes of a section.
 fn bound(section: &Section, painted: &[Painted], found: &Found, map: &mut LaneMap) {
     for (j, lane) in section.lanes.iter().enumerate() {
         for drawn in found.get(&lane.id).into_iter().flatten() {

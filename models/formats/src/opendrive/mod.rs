@@ -1,7 +1,8 @@
 //! ASAM OpenDRIVE: maps of roads whose lanes lie along a reference line.
 //!
-//! The crate `xodr` reads them; what it builds becomes lanes, lines, edges and signals of a scene here. Roads are
-//! flat across: superelevation and lateral shapes are left out, heights along the road are kept.
+//! The crate `xodr` reads them, and this module converts its result to lanes, lines, edges and signals of a
+//! scene. Roads are flat in their cross-section: superelevation and lateral shapes are left out, heights
+//! along the road are kept.
 
 mod bends;
 mod course;

@@ -5,7 +5,7 @@ use scene::Vec2;
 use scene::map::Area;
 use xodr::{Extent, Object, ObjectType, RoadNetwork, Shape};
 
-/// The ring of an object that lies on the road.
+/// The ring of an object on the road.
 fn ring(object: &Object, frame: &NetworkFrame) -> Option<Vec<Vec2>> {
     let ring: Vec<Vec2> = match &object.shape {
         Shape::Outline { corners, .. } => corners.iter().map(|corner| frame.point(corner.base)).collect(),

@@ -1,22 +1,22 @@
-//! Places on the roads of a map, as scenarios name them: along a road or a lane.
+//! Positions on the roads of a map in the form of scenarios: along a road or a lane.
 
 use scene::Vec2;
 use std::collections::HashMap;
 use xodr::{Direction, LaneId, LanePosition, Point, RoadId, RoadNetwork, RoadPosition};
 
-/// Half the distance over which the direction of a road is taken, metres.
+/// Half the distance over which the direction of a road is measured, metres.
 const BESIDE_M: f64 = 0.5;
-/// A place is on a road if it lies within this of it, metres.
+/// Greatest distance of a position on a road from it, metres.
 const ON_ROAD_M: f64 = 20.0;
 
-/// A light of a lane, as scenarios name it.
+/// A light of a lane in the form of scenarios.
 #[derive(Debug)]
 pub(crate) struct RoadLight {
-    /// Of its `<signal>`; real files repeat them.
+    /// Id of its `<signal>`; real files repeat ids.
     pub id: String,
     /// Id of the lane in the map.
     pub lane: String,
-    /// Where to stop, in the frame of the map.
+    /// Stop position, in the frame of the map.
     pub stop: Vec2,
 }
 
@@ -42,7 +42,7 @@ impl RoadPlaces {
         Self { lights, network, origin, middle, lanes }
     }
 
-    /// A place in the coordinates of the file.
+    /// A position in the coordinates of the file.
     pub fn local(&self, world: Vec2) -> Vec2 {
         world - self.origin - self.middle
     }
@@ -51,7 +51,7 @@ impl RoadPlaces {
         Vec2::new(f64::from(p.x), f64::from(p.y)) - self.middle
     }
 
-    /// A place beside a road's line, and the direction of the road there.
+    /// A position beside a road's line, and the direction of the road there.
     pub fn road(&self, road: &str, s_m: f64, t_m: f64) -> Option<(Vec2, f64)> {
         let road = self.network.road_by_od_id(road)?;
         let at = |s: f64, t: f64| self.network.road_point(RoadPosition { road: road.id(), s, t });
@@ -61,7 +61,7 @@ impl RoadPlaces {
         (way.norm() > 1e-3).then(|| (place, way.y.atan2(way.x)))
     }
 
-    /// A place on a lane, the direction of the road there, and whether the lane runs against it.
+    /// A position on a lane, the direction of the road there, and whether the lane runs against it.
     pub fn lane(&self, road: &str, lane: i32, s_m: f64, offset_m: f64) -> Option<(Vec2, f64, bool)> {
         let id: RoadId = self.network.road_by_od_id(road)?.id();
         let lanes = self.lanes.get(&(id.0, lane))?.iter();
@@ -74,7 +74,7 @@ impl RoadPlaces {
         Some((place, along_rad, self.network.lane(lane)?.direction == Direction::Backward))
     }
 
-    /// The road at a place, how far along and beside its line that is, and the lane.
+    /// The road at a position, the coordinates along and beside its line, and the lane.
     pub fn found(&self, at: Vec2) -> Option<(String, (f64, f64), Option<i32>)> {
         let p = at + self.middle;
         let point = Point { x: p.x as f32, y: p.y as f32, z: 0.0 };

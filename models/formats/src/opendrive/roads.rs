@@ -1,7 +1,7 @@
-//! Lanes as roads of one lane each, and where several meet as junctions.
+//! Converts lanes to roads of one lane each, and places where several meet to junctions.
 //!
-//! A lane that leads through a junction between two others is a connecting road. Where lanes part or meet without one,
-//! the first metre of the lane that is entered becomes a connecting road for each lane that enters it.
+//! A lane that leads through a junction between two others is a connecting road. If lanes diverge or merge
+//! without one, the first metre of the entered lane becomes a connecting road for each lane that enters it.
 
 use crate::joints::{Groups, Joints, end_of, join_crossing, start_of};
 use crate::polyline::{arc_lengths, length, part, simplify};
@@ -9,12 +9,12 @@ use scene::Vec2;
 use scene::map::{Lane, LaneMap};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Length of a connecting road that is cut off a lane, and the most of the lane that it may take, metres and a share.
+/// Length of a connecting road that is cut off a lane, metres, and its greatest share of the lane.
 const CUT_M: f64 = 1.0;
 const CUT_SHARE: f64 = 0.25;
-/// Farthest that an end of a way through a junction is moved to where the lane goes on, metres.
+/// Greatest distance by which an end of a way through a junction is moved to meet the lane, metres.
 const BENT_M: f64 = 2.0;
-/// Reference lines are within this of centre lines, in pieces no longer than, metres.
+/// Tolerance of reference lines against centre lines, and their longest segment, metres.
 const KEPT_M: (f64, f64) = (0.02, 1_000.0);
 
 /// Target of a road's end.
@@ -28,10 +28,10 @@ pub(super) enum RoadLink {
 /// A road of one lane.
 #[derive(Clone, Debug)]
 pub(super) struct Road<'a> {
-    /// Lane that gives type, width and limit.
+    /// Lane with type, width and limit.
     pub lane: &'a Lane,
     pub points: Vec<Vec2>,
-    /// The same in fewer points: the reference line.
+    /// Simplified points: the reference line.
     pub line: Vec<Vec2>,
     /// The junction that it leads through.
     pub junction: Option<usize>,
@@ -43,16 +43,17 @@ pub(super) struct Road<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Roads<'a> {
     pub roads: Vec<Road<'a>>,
-    /// Of each junction its connecting roads.
+    /// Connecting roads of each junction.
     pub junctions: BTreeMap<usize, Vec<usize>>,
-    /// Beginnings of lanes that became roads of their own.
+    /// Number of beginnings of lanes that became separate roads.
     pub cut: usize,
 }
 
-/// Links between lanes, by the way they are written.
+/// Links between lanes, by the form in which they are written.
 struct LaneLinks {
     links: BTreeSet<(usize, usize)>,
-    /// Lanes that are connecting roads, with what they connect: one lane before, one after, neither of them such.
+    /// Lanes that are connecting roads, with the lanes that they connect: one before, one after, neither of
+    /// them a connecting road.
     connectors: BTreeMap<usize, (usize, usize)>,
     /// Lanes whose beginnings are cut off.
     cut: BTreeSet<usize>,
@@ -156,7 +157,7 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     Roads { roads: all, junctions, cut: cut.len() }
 }
 
-/// Moves a way so that it begins and ends at these places, if they are near: the closer to an end, the more.
+/// Moves a way so that it begins and ends at these positions, if they are near: points near an end move more.
 fn bend(points: &mut [Vec2], begin: Vec2, end: Vec2) {
     let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else { return };
     let (before, after) = (begin - first, end - last);
@@ -167,7 +168,7 @@ fn bend(points: &mut [Vec2], begin: Vec2, end: Vec2) {
     let total = along.last().copied().unwrap_or_default().max(f64::MIN_POSITIVE);
     for (p, s) in points.iter_mut().zip(along) {
         let share = s / total;
-        // Level at both ends, so that headings there stay.
+        // Flat at both ends, so that headings there are preserved.
         let share = share * share * (3.0 - 2.0 * share);
         *p += (1.0 - share) * before + share * after;
     }

@@ -1,4 +1,4 @@
-//! Lane sections of a network, each with its lanes side by side and the borders between them.
+//! Lane sections of a network, each with its adjacent lanes and the borders between them.
 
 use super::filter::Filtered;
 use scene::Vec2;
@@ -6,24 +6,25 @@ use scene::geometry::Extent;
 use std::collections::BTreeMap;
 use xodr::{Direction, LaneId, LaneType, Point, RoadNetwork};
 
-/// Most pieces of a lane: of longer ones every second point is kept, or every third, and so on.
+/// Most segments of a lane; in longer lanes only every second or third point is kept, and so on.
 pub(super) const MAX_PIECES: usize = 2_000;
 
 /// A stretch of road over which the number of lanes does not change.
 pub(super) struct Section {
     /// The road's id in the file.
     pub road: String,
-    /// Which of the road's sections, from 0.
+    /// Index of the section in its road.
     pub number: usize,
-    /// The road leads through a junction.
+    /// The junction through which the road leads.
     pub junction: Option<String>,
-    /// Traffic keeps to the left.
+    /// Whether traffic keeps to the left.
     pub left_hand: bool,
-    /// From the right, looking along the road.
+    /// Lanes from the right, looking along the road.
     pub lanes: Vec<SectionLane>,
-    /// Points of the network's lanes from one point of these to the next.
+    /// Number of the network's points from one point of these to the next.
     pub stride: usize,
-    /// Right border of each lane and, last, the left border of the last one; a point for each point of the lanes.
+    /// Right border of each lane and, last, the left border of the last one; with a point for each point of
+    /// the lanes.
     pub borders: Vec<Vec<Vec2>>,
 }
 
@@ -33,7 +34,7 @@ pub(super) struct SectionLane {
     /// Number in the file: negative to the right of the road's reference line.
     pub number: i32,
     pub kind: LaneType,
-    /// Traffic goes along the road, against it, or both ways.
+    /// Whether traffic goes along the road, against it, or both ways.
     pub direction: Direction,
     /// Centre line along the road.
     pub center: Vec<Vec2>,
@@ -43,13 +44,13 @@ pub(super) struct SectionLane {
     pub z_m: Vec<f64>,
     /// Widths at the points, metres.
     pub widths_m: Vec<f64>,
-    /// Stands above the road beside it.
+    /// Whether it is raised above the adjacent road.
     pub raised: bool,
 }
 
 impl SectionLane {
-    /// Mean width over the points, metres; where places between the points are given, over the stretch of the lane
-    /// that they lie on.
+    /// Mean width over the points, metres; if positions between the points are given, over that stretch of
+    /// the lane.
     pub fn mean_width_over(&self, places: &[f64]) -> f64 {
         let at = |place: f64| {
             let width = |i: usize| self.widths_m.get(i).or(self.widths_m.last()).copied().unwrap_or_default();
@@ -70,17 +71,17 @@ impl SectionLane {
     }
 }
 
-/// From the network's frame to the scene's.
+/// Conversion from the network's frame to that of the scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct NetworkFrame {
     /// The scene's origin in the network's frame, whole metres.
     pub middle: Vec2,
-    /// Half the size of the box round all lanes, metres.
+    /// Half the size of the bounding box of all lanes, metres.
     pub half: Vec2,
 }
 
 impl NetworkFrame {
-    /// About the middle of all lanes.
+    /// A frame about the middle of all lanes.
     pub fn of(network: &RoadNetwork) -> Self {
         let points = network.lanes().iter().flat_map(|lane| lane.center.points());
         let points = points.map(|p| Vec2::new(f64::from(p.x), f64::from(p.y)));
@@ -105,7 +106,7 @@ pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &NetworkFr
     let section = |((road, number), mut lanes): ((usize, usize), Vec<(i32, &xodr::Lane)>)| {
         let road = network.road(xodr::RoadId(road))?;
         lanes.sort_by_key(|(number, _)| *number);
-        // All lanes of a section are sampled at the same places along the road.
+        // All lanes of a section are sampled at the same positions along the road.
         let points = lanes.iter().map(|(_, lane)| lane.center.points().len()).min()?;
         let stride = points.div_ceil(MAX_PIECES).max(1);
         let id = road.od_id().to_owned();
@@ -123,7 +124,7 @@ pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &NetworkFr
     found.into_iter().filter_map(section).collect()
 }
 
-/// A lane at these of its points.
+/// A lane at some of its points.
 fn section_lane(
     number: i32,
     lane: &xodr::Lane,
@@ -152,8 +153,7 @@ fn section_lane(
     }
 }
 
-/// Borders of lanes side by side. Their centres lie on a line across the road, so that what two lanes share is
-/// one line.
+/// Borders of adjacent lanes. Their centres lie on a line across the road, so that two lanes share one line.
 fn borders(lanes: &[SectionLane], points: usize) -> Vec<Vec<Vec2>> {
     let (Some(first), Some(last)) = (lanes.first(), lanes.last()) else { return Vec::new() };
     let across = |i: usize| {
@@ -169,7 +169,7 @@ fn borders(lanes: &[SectionLane], points: usize) -> Vec<Vec<Vec2>> {
     std::iter::once(side(first, -1.0)).chain(lefts).collect()
 }
 
-/// Points at most `step_m` apart on the smooth line through these, with what share of which piece each lies at.
+/// Points at most `step_m` apart on the smooth line through these, each with its segment and share of it.
 pub(super) fn dense(points: &[Vec2], tangents: &[Vec2], step_m: f64) -> Vec<(Vec2, usize, f64)> {
     let mut out = Vec::new();
     for (i, ends) in points.windows(2).enumerate() {
@@ -187,7 +187,7 @@ pub(super) fn dense(points: &[Vec2], tangents: &[Vec2], step_m: f64) -> Vec<(Vec
     out
 }
 
-/// A point of the cubic with these ends and ways.
+/// A point of the cubic with these ends and tangents.
 fn between(ends: &[Vec2], ways: (Option<&Vec2>, Option<&Vec2>), length_m: f64, t: f64) -> Vec2 {
     let (p, q) = (ends[0], ends[1]);
     let (Some(d), Some(e)) = ways else { return p + (q - p) * t };

@@ -1,7 +1,7 @@
-//! ASAM OpenSCENARIO XML: what simulators for automated driving play.
+//! ASAM OpenSCENARIO XML, the format of simulators for automated driving.
 //!
-//! Road users follow their motion to the tenth of a second; nothing is guessed of manoeuvres. The map goes beside it
-//! as OpenDRIVE.
+//! Road users follow their motion exactly, at each tenth of a second; no manoeuvres are guessed. The map is a
+//! separate OpenDRIVE file.
 
 pub(crate) mod format;
 mod read;

@@ -1,4 +1,4 @@
-//! From a scene to OpenSCENARIO 1.2.
+//! Writes a scene as OpenSCENARIO 1.2.
 
 use super::signals;
 use crate::format::ExportOptions;
@@ -10,18 +10,18 @@ use scene::{Agent, AgentType, STEP_S, Scene, Shown, Size, State, Subtype};
 use std::collections::{BTreeSet, HashSet};
 use std::io;
 
-/// Distance of the rear axle behind the middle of a vehicle and of the front axle ahead of it, as shares of
-/// the length. Scenarios give positions of the rear axle.
+/// Distances of the rear axle behind the centre of a vehicle and of the front axle ahead of it, as shares of
+/// the length. Positions in scenarios are those of the rear axle.
 const REAR: f64 = 0.3;
 const FRONT: f64 = 0.3;
 /// Vehicle properties that a scenario requires and a scene lacks: maximum speed, acceleration and braking.
 const PERFORMANCE: [(&str, &str); 3] =
     [("maxSpeed", "70"), ("maxAcceleration", "10"), ("maxDeceleration", "10")];
-/// Who moves less than this in the last step stands, metres.
+/// A road user that moves less than this in the last step stands, metres.
 const STANDS_M: f64 = 0.05;
-/// Rule of a time from which on something holds.
+/// Rule of a condition that holds from a time on.
 const FROM: &str = "greaterOrEqual";
-/// Day of files that do not depend on when they were written.
+/// Date of all files, so that they do not depend on the time of writing.
 const DAY: &str = "1970-01-01T00:00:00";
 
 /// A road user as an entity of the scenario.
@@ -38,7 +38,7 @@ impl ScenarioEntity<'_> {
         self.shown.agent_type != AgentType::Pedestrian
     }
 
-    /// From the place that scenarios mean to the middle of the box, metres.
+    /// Distance from the scenario's reference point to the centre of the box, metres.
     fn ahead_m(&self) -> f64 {
         if self.is_vehicle() { REAR * self.shown.size.length_m } else { 0.0 }
     }
@@ -135,7 +135,7 @@ fn road_users<'a>(
             losses
                 .insert(Loss::new(code::NO_VALIDITY_GAPS, "straight motion where a road user was not seen"));
         }
-        // Names with a colon would lead into a catalogue of another file.
+        // A name with a colon would refer to a catalogue in another file.
         let mut name = agent.id.replace(':', "-");
         while !names.insert(name.clone()) {
             name.push('\'');
@@ -222,7 +222,7 @@ fn category(agent_type: AgentType, subtype: Subtype) -> &'static str {
     }
 }
 
-/// A place: of the rear axle of vehicles, of the middle of others.
+/// A position: the rear axle of vehicles, the centre of others.
 fn position(road_user: &ScenarioEntity<'_>, state: &State, out: &mut Markup) {
     let place = state.position() - direction(state.heading_rad) * road_user.ahead_m();
     out.open("Position", &[]);
@@ -238,7 +238,7 @@ fn position(road_user: &ScenarioEntity<'_>, state: &State, out: &mut Markup) {
     out.close();
 }
 
-/// Speed along the heading, backwards below zero, m/s.
+/// Speed along the heading, negative backwards, m/s.
 fn speed_mps(state: &State) -> f64 {
     state.velocity().dot(&direction(state.heading_rad))
 }
@@ -273,7 +273,7 @@ fn init(written: &[ScenarioEntity<'_>], out: &mut Markup) {
     out.close();
 }
 
-/// A condition on the time, as a trigger of its own.
+/// A condition on the time, as a separate trigger.
 fn condition(name: &str, rule: &str, from_s: f64, out: &mut Markup) {
     out.open("ConditionGroup", &[]);
     out.open("Condition", &[("name", name), ("delay", "0"), ("conditionEdge", "none")]);
@@ -321,21 +321,21 @@ fn story(written: &[ScenarioEntity<'_>], end: usize, out: &mut Markup) {
     out.close();
 }
 
-/// An event of one action, from a step on.
+/// An event with one action at a step.
 fn event(name: &str, step: usize, out: &mut Markup, action: impl FnOnce(&mut Markup)) {
     out.open("Event", &[("name", name), ("priority", "parallel"), ("maximumExecutionCount", "1")]);
     out.open("Action", &[("name", name)]);
     action(out);
     out.close();
     out.open("StartTrigger", &[]);
-    // What is due at once waits until the initial actions are done: players would stop these, and warn of it.
+    // Immediate actions wait until the initial actions are done: players would stop these, with a warning.
     let rule = if step > 0 { FROM } else { "greaterThan" };
     condition(&format!("{name} at"), rule, step as f64 * STEP_S, out);
     out.close();
     out.close();
 }
 
-/// An action that brings a road user in or takes it out.
+/// An action that adds or removes a road user.
 fn present(name: &str, out: &mut Markup, action: impl FnOnce(&mut Markup)) {
     out.open("GlobalAction", &[]);
     out.open("EntityAction", &[("entityRef", name)]);
@@ -344,7 +344,7 @@ fn present(name: &str, out: &mut Markup, action: impl FnOnce(&mut Markup)) {
     out.close();
 }
 
-/// Its way, by the clock of the scenario.
+/// Its trajectory, by the clock of the scenario.
 fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     out.open("PrivateAction", &[]);
     out.open("RoutingAction", &[]);
@@ -361,8 +361,9 @@ fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     for (step, state) in &road_user.states {
         vertex((*step, state), out);
     }
-    // A polyline needs two points: a road user seen once stays for one step. Who stands at the end does so for one
-    // step more, since players turn the last piece towards its own direction, which a standing one has not.
+    // A polyline needs two points: a road user that is seen once stays for one step. One that stands at the
+    // end stays for another step, since players rotate it to the direction of the last segment, which has
+    // none.
     let held = match &road_user.states[..] {
         [.., (_, before), (step, last)] => {
             ((last.position() - before.position()).norm() < STANDS_M).then_some((step, last))

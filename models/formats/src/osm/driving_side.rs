@@ -1,7 +1,7 @@
-//! Side of the road on which traffic drives at a position. Extracts lack it.
+//! Driving side at a position, which extracts lack.
 
-/// Land where people drive on the left, as boxes of south, north (degrees of latitude), west, east (of longitude);
-/// none of them holds a road of a neighbour that drives on the right.
+/// Regions with left-hand traffic, as boxes of south, north (degrees of latitude), west, east (of longitude).
+/// None of them contains a road of a neighbour with right-hand traffic.
 const LEFT: [[f64; 4]; 13] = [
     // Great Britain and Ireland.
     [49.85, 50.4, -7.0, -1.0],
@@ -25,7 +25,7 @@ const LEFT: [[f64; 4]; 13] = [
     [34.5, 35.75, 32.2, 34.7],
 ];
 
-/// True where people drive on the left, as far as is known.
+/// Whether traffic drives on the left, as far as is known.
 pub(super) fn is_left(lat_deg: f64, lon_deg: f64) -> bool {
     let holds = |[south, north, west, east]: &[f64; 4]| {
         (*south..=*north).contains(&lat_deg) && (*west..=*east).contains(&lon_deg)

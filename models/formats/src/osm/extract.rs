@@ -1,5 +1,5 @@
 //! The parts of an extract that netconvert needs: roads, their nodes, and turn restrictions. The rest is
-//! dropped, so that the other program receives a small file written here.
+//! dropped, so that the other program receives a small file of our own writing.
 
 use super::pavements;
 use crate::around::Chosen;
@@ -17,11 +17,12 @@ use std::collections::HashSet;
 const MAX_POINTS: usize = 60_000;
 const MAX_WAYS: usize = 20_000;
 const MAX_MEMBERS: usize = 200_000;
-/// Farther north or south the projection that netconvert takes has no place, degrees.
+/// Greatest latitude of netconvert's projection, degrees.
 const MAX_LATITUDE_DEG: f64 = 85.0;
-/// Points this far outside of the circle of a part are still taken: points of a road lie no farther apart, metres.
+/// Distance outside the circle of a part up to which points are kept, metres: points of a road are no farther
+/// apart.
 const BESIDE_M: f64 = 300.0;
-/// Farthest that roads may reach from north to south, degrees: a map is some kilometres wide.
+/// Greatest extent of the roads from north to south, degrees: a map is some kilometres wide.
 const MAX_REACH_DEG: f64 = 0.25;
 
 /// Roads of an extract.
@@ -29,24 +30,24 @@ const MAX_REACH_DEG: f64 = 0.25;
 pub(crate) struct Extract {
     /// XML that netconvert reads.
     pub xml: Vec<u8>,
-    /// About the middle of the roads.
+    /// Projection about the middle of the roads.
     pub projection: TransverseMercator,
     /// Latitude and longitude of the middle, degrees.
     pub middle: (f64, f64),
 }
 
-/// A road, path or way that people drive, ride or walk on; not one that is planned or gone.
+/// Whether an item is an existing road, path or way for driving, riding or walking.
 fn is_road(item: &OsmElement) -> bool {
     let gone = ["proposed", "construction", "abandoned", "razed", "platform", "elevator", "corridor"];
     let surface = item.tag("area") != Some("yes") && item.tag("indoor") != Some("yes");
     item.kind == "way" && surface && item.tag("highway").is_some_and(|kind| !gone.contains(&kind))
 }
 
-/// Reads the roads of an extract, plain or gzip.
+/// Reads the roads of an extract, plain or compressed with gzip.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for a map of lanelets and one
-/// without roads, `map-too-large`.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for a map of lanelets
+/// and one without roads, `map-too-large`.
 pub(crate) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Extract, ReadError> {
     let (mut ways, mut used) = (HashSet::new(), HashSet::new());
     let near = near(file, chosen)?;
@@ -114,7 +115,7 @@ pub(crate) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Extract, Re
     Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
 }
 
-/// Points near the circle of a part; nothing where all is read.
+/// Points near the circle of a part; nothing if the whole file is read.
 fn near(file: &dyn Source, chosen: &mut Chosen) -> Result<Option<HashSet<i64>>, ReadError> {
     if !chosen.is_part() {
         return Ok(None);
@@ -131,7 +132,7 @@ fn near(file: &dyn Source, chosen: &mut Chosen) -> Result<Option<HashSet<i64>>, 
     Ok(Some(near))
 }
 
-/// Points of a way from the one before the first near point to the one behind the last.
+/// Points of a way from the one before the first near point to the one after the last.
 fn part_of<'a>(nodes: &'a [i64], near: Option<&HashSet<i64>>) -> &'a [i64] {
     let Some(near) = near else { return nodes };
     let is_near = |node: &i64| near.contains(node);
@@ -140,7 +141,7 @@ fn part_of<'a>(nodes: &'a [i64], near: Option<&HashSet<i64>>) -> &'a [i64] {
     nodes.get(first.saturating_sub(1)..(last + 2).min(nodes.len())).unwrap_or_default()
 }
 
-/// Writes an item as OpenStreetMap does.
+/// Writes an item in the form of OpenStreetMap.
 fn write(item: &OsmElement, out: &mut Markup) {
     let id = item.id.to_string();
     let (lat, lon) = item.degrees.map(|(lat, lon)| (lat.to_string(), lon.to_string())).unzip();

@@ -1,4 +1,4 @@
-//! Extracts of OpenStreetMap as users import them.
+//! Extracts of OpenStreetMap as an import format.
 
 use super::driving_side::is_left;
 use super::extract::{self, Extract};
@@ -19,11 +19,11 @@ use std::io;
 /// Licence of OpenStreetMap data, and the attribution that it requires.
 const LICENCE: &str = "odbl";
 const ATTRIBUTION: &str = "Map data © OpenStreetMap contributors, available under the Open Database License.";
-/// Name of the file that netconvert is given.
+/// Name of the file for netconvert.
 const FILE: &str = "extract.osm";
 /// Arguments with which netconvert makes usable junctions of roads without lanes. It joins nodes of one
-/// junction, adds pavements as the extract states, crossings and cycle lanes where tagged or usual, and gives
-/// signals a fixed program.
+/// junction, adds pavements as the extract states, adds crossings and cycle lanes if they are tagged or
+/// usual, and gives signals a fixed program.
 const ARGUMENTS: [&str; 16] = [
     "--geometry.remove",
     "--junctions.join",
@@ -79,7 +79,7 @@ impl OsmExtract {
     }
 }
 
-/// The network that netconvert makes of roads.
+/// The network that netconvert makes from roads.
 fn network(options: &ImportOptions, xml: &[u8], projection: &str, left: bool) -> Result<Vec<u8>, ReadError> {
     let missing = || ReadError::other_content(refusals::netconvert_missing());
     let netconvert = options.netconvert.as_ref().ok_or_else(missing)?;
@@ -120,7 +120,8 @@ impl Format for OsmExtract {
         if xml::root_of(&head).is_none_or(|root| root != "osm") {
             return 0;
         }
-        // A Lanelet2 map begins alike. Its lanelets may stand far behind: `registry::identified` looks at all of it.
+        // A Lanelet2 map has the same beginning. Its lanelets may come much later: `registry::identified`
+        // reads the whole file.
         if holds_lanelets(&head.as_slice()) { 0 } else { 2 }
     }
 

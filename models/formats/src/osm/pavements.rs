@@ -1,10 +1,10 @@
-//! Pavements of roads: what the tags of a way state, in the one form that netconvert takes, and a guess where they state
-//! nothing. netconvert's own guess overrules tags.
+//! Pavements of roads: the information of a way's tags in the form that netconvert accepts, and a guess if
+//! there are none. netconvert's own guess would override tags.
 
 use crate::osm_items::OsmElement;
 use crate::units::MPS_PER_MPH;
 
-/// Roads without a tag have pavements between these speeds, km/h, as netconvert guesses.
+/// Roads without a tag have pavements between these speed limits, km/h, as netconvert guesses.
 const GUESSED_KMH: (f64, f64) = (20.9, 50.1);
 
 /// Whether a tag is about pavements.
@@ -12,13 +12,13 @@ pub(super) fn is_tag(key: &str) -> bool {
     key == "sidewalk" || key.starts_with("sidewalk:")
 }
 
-/// The value of `sidewalk` for a road; nothing for a way that is none of cars.
+/// The value of `sidewalk` for a road; nothing for a way that is not for cars.
 pub(super) fn value(way: &OsmElement) -> Option<&'static str> {
     let both = way.tag("sidewalk:both").or(way.tag("sidewalk"));
     let side = |own: &str, word: &str| -> Option<bool> {
         match way.tag(own).or(both)? {
             "yes" | "both" => Some(true),
-            // Pavements that are ways of their own are drawn as such.
+            // Pavements that are separate ways are drawn as such.
             "no" | "none" | "separate" => Some(false),
             other @ ("left" | "right") => Some(other == word),
             _ => None,
@@ -26,7 +26,7 @@ pub(super) fn value(way: &OsmElement) -> Option<&'static str> {
     };
     let sides = [side("sidewalk:left", "left"), side("sidewalk:right", "right")];
     let stated = sides.contains(&Some(true));
-    // One that is stated says that the other one is not there; else the silent side is guessed.
+    // A tag for one side means that the other side has none; without tags, both are guessed.
     let guess = !stated && is_guessed(way);
     Some(match sides.map(|side| side.unwrap_or(guess)) {
         _ if sides == [None, None] && !guess => return None,
@@ -37,7 +37,7 @@ pub(super) fn value(way: &OsmElement) -> Option<&'static str> {
     })
 }
 
-/// Whether a road without tags of pavements has them, by its limit of speed.
+/// Whether a road without tags of pavements has them, by its speed limit.
 fn is_guessed(way: &OsmElement) -> bool {
     let usual_kmh = match way.tag("highway").unwrap_or_default() {
         "residential" => 50.0,

@@ -1,4 +1,4 @@
-//! Scenes of a scenario, one after the other: one, or one for each 9.1 s of a recording that is too long for one.
+//! Scenes of a scenario, in order: one scene, or one for each 9.1 s of a recording that is too long for one.
 
 use super::motion::{Derived, complete, spacing_s, step_at, track};
 use super::{AgentIds, RecordedAgent, RecordedLight, RecordedState, middle};
@@ -19,34 +19,34 @@ use scene::{
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::TAU;
 
-/// Samples of a road user this near to each other are of one time, seconds.
+/// Samples of a road user within this time count as simultaneous, seconds.
 const SAME_S: f64 = 1e-6;
-/// Most scenes of one recording: a day of it.
+/// Most scenes of one recording: one day.
 const MAX_WINDOWS: usize = 10_000;
 /// A file whose coordinates stay within this distance of its zero keeps its frame, metres.
 const NEAR_M: f64 = 1_000.0;
-/// Most samples, and most futures of a road user in one, that a scene document holds.
+/// Most samples of a scene document, and most futures of a road user in one sample.
 const MAX_FUTURES: (usize, usize) = (256, 64);
 /// Greatest speed along an axis, as of a track, m/s.
 const MAX_SPEED_MPS: f64 = 150.0;
 
-/// Description of a scenario in a file, beside the motion.
+/// Description of a scenario in a file, without the motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Said {
     pub name: String,
     pub meta: Meta,
     /// Origin of the scene in the file's frame; derived when absent.
     pub origin: Option<Origin>,
-    /// Projection of the file's frame, for an origin that is derived.
+    /// Projection of the file's frame, for a derived origin.
     pub crs: Option<String>,
-    /// Time of the first step in the file, seconds; that of the first sample where absent.
+    /// Time of the first step in the file, seconds; that of the first sample if absent.
     pub start_s: Option<f64>,
     pub timing: Option<Timing>,
-    /// Time from one sample to the next, seconds; what most of them have where absent.
+    /// Time between samples, seconds; the most frequent one if absent.
     pub spacing_s: Option<f64>,
-    /// About the origin.
+    /// Map about the origin.
     pub map: Shared<LaneMap>,
-    /// Of lanes of the map; those beyond the bound are left out.
+    /// Lights of lanes of the map; those beyond the limit are left out.
     pub lights: Vec<RecordedLight>,
     pub warnings: Vec<ImportWarning>,
 }
@@ -56,7 +56,7 @@ pub(crate) struct Said {
 pub(crate) struct RecordedFuture {
     /// Index of the road user.
     pub user: usize,
-    /// Numbers of the file.
+    /// Index of the sample in the file.
     pub sample: u64,
     pub mode: u64,
     pub probability: Option<f64>,
@@ -129,7 +129,7 @@ impl PreparedRecording {
         let windowed = steps > MAX_STEPS;
         let mut list: Vec<usize> = vec![0];
         if windowed {
-            // Only windows with a road user: pauses may have any length.
+            // Only windows with a road user count: pauses may have any length.
             let window_s = RECORDED_STEPS as f64 * STEP_S;
             let at =
                 |s: &RecordedState| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
@@ -146,7 +146,7 @@ impl PreparedRecording {
         let window = if windowed { RECORDED_STEPS } else { steps.max(1) };
         let mut scenes = list.into_iter().enumerate().filter_map(move |(k, i)| {
             let steps = window.min(steps.saturating_sub(i.saturating_mul(window))).max(1);
-            // A single step at the end is the beginning of a window that was not recorded.
+            // A single step at the end begins a window that was not recorded.
             let begun = steps == 1 && k > 0;
             let start_s = self.start_s + i as f64 * window as f64 * STEP_S;
             let scene = if begun { None } else { self.scene(start_s, steps, windowed) };
@@ -253,7 +253,8 @@ impl PreparedRecording {
         Some(checked(scene, warnings))
     }
 
-    /// The ego's place; else zero where the file's coordinates are small; else the middle of all, in whole metres.
+    /// The ego's position, otherwise zero if the file's coordinates are small, otherwise the middle of all
+    /// road users; in whole metres.
     fn origin(&self, present: &[(usize, Vec2)]) -> Origin {
         let ego = |(i, at): &&(usize, Vec2)| {
             let is_ego = |user: &RecordedAgent| user.role.as_deref() == Some(EGO);
@@ -268,8 +269,8 @@ impl PreparedRecording {
         Origin { x_m: at.x, y_m: at.y, crs: self.recording.said.crs.clone(), ..Origin::default() }
     }
 
-    /// Road users that fit the scene, in the order of the file: within reach of the origin, and nearest to
-    /// the middle of all.
+    /// Road users that fit the scene, in the order of the file: those within reach of the origin and nearest
+    /// to the middle of all.
     fn kept(
         &self,
         present: &[(usize, Vec2)],
@@ -296,7 +297,7 @@ impl PreparedRecording {
         kept
     }
 
-    /// Some sample is at no step of the scene.
+    /// Whether a sample lies at no step of the scene.
     fn off_steps(&self, start_s: f64) -> bool {
         let samples = self.recording.users.iter().flat_map(|user| user.samples.iter());
         samples.take(10_000).any(|s| step_at(s.time_s, start_s).is_none())
@@ -335,7 +336,7 @@ impl PreparedRecording {
         let mut dropped = 0;
         for drawn in &self.recording.futures {
             let Some(id) = names.get(&drawn.user) else { continue };
-            // A future may go on beyond the scene.
+            // A future may go on after the end of the scene.
             let (track, _) = track(&drawn.samples, start_s, 2 * MAX_STEPS, self.spacing_s, frame);
             let states: Vec<State> = track.states.into_iter().map_while(|state| state).collect();
             let room = samples.len() < MAX_FUTURES.0 || samples.contains_key(&drawn.sample);
@@ -358,12 +359,12 @@ impl PreparedRecording {
     }
 }
 
-/// Samples, in the order of time, at the time of the one before.
+/// Number of samples with the time of the previous sample; samples are sorted by time.
 fn repeated(samples: &[RecordedState]) -> usize {
     samples.windows(2).filter(|pair| (pair[1].time_s - pair[0].time_s).abs() < SAME_S).count()
 }
 
-/// Turns headings to radians within a turn, as [`crate::headings::settle`] does for states.
+/// Converts headings to radians within one turn, as [`crate::headings::settle`] does for states.
 fn settle_headings(users: &mut [RecordedAgent]) -> Option<ImportWarning> {
     let mut votes = Votes::default();
     for user in users.iter() {
@@ -390,12 +391,12 @@ fn settle_headings(users: &mut [RecordedAgent]) -> Option<ImportWarning> {
 /// Possible motions of a sample, by road user.
 type Futures<'a> = BTreeMap<String, Vec<(&'a RecordedFuture, Future)>>;
 
-/// A state that a future can have: a little beyond where a track may be.
+/// Whether a future can have a state: futures may go a little beyond the range of tracks.
 fn can_be(state: &State) -> bool {
     state.position().amax() <= 2.0 * MAX_COORDINATE_M && state.velocity().amax() <= MAX_SPEED_MPS
 }
 
-/// One sample for several road users; missing probabilities are even.
+/// One sample for several road users; missing probabilities are equal.
 fn answer(agents: Futures<'_>) -> scene::Sample {
     let of_agent = |mut list: Vec<(&RecordedFuture, Future)>| {
         list.sort_by_key(|(drawn, _)| drawn.mode);

@@ -9,7 +9,7 @@ use std::io::BufRead;
 /// Recorded states of one road user.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FcdTrack {
-    /// Vehicle type as SUMO knows it (of the form `type@...` for distributions; cut at the `@`).
+    /// SUMO's vehicle type (of the form `type@...` for distributions; cut at the `@`).
     pub vehicle_type: String,
     /// Times, seconds, rising.
     pub times_s: Vec<f64>,
@@ -21,11 +21,11 @@ pub struct FcdTrack {
     pub speeds_mps: Vec<f64>,
 }
 
-/// Reads FCD rows, separated by `;`, by road user id. Persons may stand in the vehicles' columns, as
-/// SUMO 1.28 writes them, or in their own.
+/// Reads FCD rows, separated by `;`, by road user id. Persons may be in the vehicles' columns, as SUMO 1.28
+/// writes them, or in their own.
 ///
 /// # Errors
-/// When a column is missing or a field is no number. An unreadable stream counts as its end.
+/// When a column is missing or a field is not a number. An unreadable stream counts as its end.
 pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, FcdTrack>, SumoError> {
     let mut lines = input.lines().map_while(Result::ok);
     let header = lines.next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A network and a recording on it in one zip, as SUMO's users keep them side by side.
+//! A network and a recording on it in one zip, as users of SUMO keep them together.
 
 use super::formats::{SOURCE, of_net};
 use super::import_fcd::{FcdContext, Windows};
@@ -21,7 +21,7 @@ const FOLDER_MEMORY: u64 = 4;
 const NAME_LENGTH: std::ops::Range<usize> = 26..28;
 const NAME_FROM: usize = 30;
 
-/// A network, a recording on it, the trips of its road users and a configuration of SUMO, all in one zip. Only the
+/// A network, a recording on it, the trips of its road users and a configuration of SUMO in one zip. Only the
 /// first two are read.
 pub(crate) struct SumoFolder;
 

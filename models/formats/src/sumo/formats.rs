@@ -1,5 +1,4 @@
-//! The two formats of SUMO that users import: a road network, and a recording (FCD) with or without the
-//! network it belongs to.
+//! The two import formats of SUMO: a road network, and a recording (FCD) with or without its network.
 
 use super::import_fcd::{FcdContext, Windows};
 use super::import_net::{self, NetScene};
@@ -21,8 +20,8 @@ use std::io;
 /// `meta.source` of the scenes.
 pub(super) const SOURCE: &str = "sumo";
 
-/// A network (`net.xml`), plain or gzip: a scene with a map and signals, without road users. The frame
-/// is the network's, moved by whole metres so that the network's middle is the origin.
+/// A network (`net.xml`), plain or compressed with gzip: a scene with a map and signals, without road users.
+/// The frame is that of the network, moved by whole metres so that the network's middle is the origin.
 pub(crate) static SUMO_NET: MapFile = MapFile {
     id: "sumo-net",
     name: "SUMO network",
@@ -54,8 +53,9 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
     write: Some(net::write),
 };
 
-/// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise
-/// from north and points the middle of the front bumper, as SUMO's documentation of FCD output says.
+/// A recording (`--fcd-output`), XML or CSV, plain or compressed with gzip: scenes of 9.1 s. Angles are
+/// degrees clockwise from north, and positions are the middle of the front bumper, as SUMO documents for FCD
+/// output.
 pub struct SumoFcd;
 
 /// A network as a map: see [`SUMO_NET`].

@@ -1,5 +1,4 @@
-//! From FCD to scenes: windows of 9.1 s, one after the other. Only the window that is being read is in
-//! memory.
+//! Turns FCD into scenes: consecutive windows of 9.1 s. Only the current window is in memory.
 
 use super::formats::SOURCE;
 use super::import_net::NetScene;
@@ -23,7 +22,7 @@ use std::collections::BTreeMap;
 const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one window of which 256 are chosen.
 const MAX_USERS: usize = 50_000;
-/// Positions up to this far outside the network's box belong to it, metres.
+/// Distance outside the network's bounding box up to which positions belong to it, metres.
 const BESIDE_M: f64 = 500.0;
 
 /// Network and licence that all scenes of a recording share.
@@ -35,7 +34,7 @@ pub(super) struct FcdContext {
 /// One road user over the window.
 struct FcdAgent {
     kind: AgentKind,
-    /// The file gives its size.
+    /// Whether the file states its size.
     measured: bool,
     samples: Vec<FcdState>,
 }
@@ -49,11 +48,11 @@ pub(super) struct Windows<'a> {
     common: FcdContext,
     users: BTreeMap<Key, FcdAgent>,
     samples: usize,
-    /// Number and time of the time step that is being read.
+    /// Number and time of the current time step.
     step: u64,
     time_s: Option<f64>,
     first_s: f64,
-    /// Number of the window that is being read.
+    /// Number of the current window.
     window: u64,
     coarsest_s: f64,
     left_out: usize,
@@ -85,13 +84,13 @@ impl<'a> Windows<'a> {
         self.first_s + self.window as f64 * STEPS as f64 * STEP_S
     }
 
-    /// The window that a time lies in.
+    /// The window of a time.
     fn window_of(&self, time_s: f64) -> u64 {
-        // A float becomes a whole number by saturation: nothing below zero.
+        // The conversion to an integer saturates: nothing is below zero.
         ((time_s - self.first_s + SAME_S) / (STEPS as f64 * STEP_S)).floor() as u64
     }
 
-    /// A new time step; gives the window's scene when the one before was its last.
+    /// Begins a time step; returns the window's scene if the previous step was its last.
     fn begin_step(&mut self, time_s: f64) -> Option<Result<Imported, ReadError>> {
         let Some(before_s) = self.time_s.replace(time_s) else {
             self.first_s = time_s;
@@ -99,7 +98,8 @@ impl<'a> Windows<'a> {
         };
         self.step += 1;
         let last_s = self.start_s() + (STEPS - 1) as f64 * STEP_S;
-        // A pause past the window's end cannot be filled: then the window ends with what it has.
+        // A pause past the window's end cannot be interpolated: the window then ends with its present
+        // content.
         let filled = time_s - before_s <= MAX_FILLED_S + SAME_S;
         if before_s < last_s - SAME_S && (filled || time_s <= last_s + SAME_S) {
             self.coarsest_s = self.coarsest_s.max(time_s - before_s);
@@ -107,7 +107,7 @@ impl<'a> Windows<'a> {
         }
         let scene = self.scene(before_s);
         self.coarsest_s = time_s - before_s;
-        // Windows in which nothing was written are passed over in one go.
+        // Windows without content are skipped at once.
         self.window = (self.window + 1).max(self.window_of(before_s));
         if !filled && before_s < self.start_s() {
             self.window = self.window.max(self.window_of(time_s));
@@ -144,7 +144,7 @@ impl<'a> Windows<'a> {
             heading_rad: row.heading_rad,
             speed_mps: row.speed_mps,
         };
-        // A row that comes twice in a step counts once.
+        // A row that is repeated in a step counts once.
         if user.samples.last().is_none_or(|last| last.step != self.step) {
             user.samples.push(sample);
             self.samples += 1;
@@ -162,7 +162,7 @@ impl<'a> Windows<'a> {
         let start_s = self.start_s();
         let steps = ((last_s - start_s + SAME_S) / STEP_S).floor() as i64 + 1;
         let steps = usize::try_from(steps).unwrap_or(0).min(STEPS);
-        // A single step at the end is the beginning of a window that was not recorded.
+        // A single step at the end begins a window that was not recorded.
         if steps == 0 || (steps == 1 && self.given) {
             return None;
         }
@@ -234,7 +234,7 @@ impl<'a> Windows<'a> {
         Some(checked(scene, warnings))
     }
 
-    /// Road users that fit the scene: within reach of its origin, and nearest to the middle of all.
+    /// Road users that fit the scene: those within reach of its origin and nearest to the middle of all.
     fn kept<'u>(
         &self,
         all: &[(&'u Key, &'u FcdAgent, Vec2)],
@@ -284,7 +284,7 @@ impl<'a> Windows<'a> {
         warn(self.heights, "heights-dropped", sentences::recording_heights_dropped());
     }
 
-    /// The scene that is left at the end of the file; there may be another after it.
+    /// The remaining scene at the end of the file; there may be another after it.
     fn finish(&mut self) -> Option<Result<Imported, ReadError>> {
         let last_s = self.time_s?;
         while !self.ended {

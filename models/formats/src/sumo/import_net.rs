@@ -1,4 +1,4 @@
-//! From a network file to a map about the origin, with its signals.
+//! Reads a network file as a map about the origin, with its signals.
 
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane};
@@ -17,48 +17,49 @@ use scene::map::{LaneMap, Points};
 use scene::{MAX_COORDINATE_M, Origin, STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
 
-/// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
+/// Most bytes of a decompressed network. The largest that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
-/// Warning that traffic keeps to the left.
+/// Warning about left-hand traffic.
 pub(crate) const LEFT_HAND: &str = "left-hand";
 /// Memory per byte of text until it is a map, bytes.
 const TEXT_MEMORY: u64 = 4;
-/// Farthest a network's coordinate may lie from its own origin, metres.
+/// Greatest distance of a network's coordinate from its own origin, metres.
 pub(super) const MAX_SOURCE_M: f64 = 1e8;
 
-/// A network as a scene shows it.
+/// A network in the form of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct NetScene {
     /// About the origin.
     pub map: Shared<LaneMap>,
     /// Origin in the network's frame, whole metres.
     pub origin: Vec2,
-    /// The same place on the globe where the network states its projection.
+    /// Geographic position of the origin if the network states its projection.
     pub place: Origin,
-    /// Half the size of the box round all lanes, metres.
+    /// Half the size of the bounding box of all lanes, metres.
     pub half: Vec2,
     pub warnings: Vec<ImportWarning>,
-    /// The circle to which the map is to be cut.
+    /// The circle to which the map must be cut.
     pub part: Option<MapPart>,
     places: Vec<SignalPlace>,
     programs: HashMap<String, SignalProgram>,
 }
 
-/// Reads a network, plain or gzip.
+/// Reads a network, plain or compressed with gzip.
 ///
 /// # Errors
-/// `malformed-file` for broken XML or gzip, the bounds of a file, `invalid-field` with the line for a
-/// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
-/// `map-too-large` and `out-of-range` for what no scene can hold.
+/// `malformed-file` for broken XML or gzip, the limits of a file, `invalid-field` with the line for an
+/// unreadable value, `cannot-represent` for another kind of file or one without lanes, `map-too-large` and
+/// `out-of-range` for what no scene can hold.
 pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<NetScene, ReadError> {
     let mut chosen = Chosen::of(around);
     let whole = MAX_BYTES.min(memory_for(file.encoded_len()) / TEXT_MEMORY);
-    // Of a part little is kept, whatever the size of the file.
+    // Only a small part is kept, whatever the size of the file.
     let most = if chosen.is_part() { MAX_DECODED_BYTES } else { whole };
     let input = file.open().and_then(|input| unpack::open(input, Bounds::of(most)));
     let mut net = Net::read_part(input.map_err(|error| unpack::fault(&error, 0))?, &mut chosen)?;
     let (origin, half) = check_net(&net, &chosen)?;
-    // Left-hand traffic is right-hand traffic in a mirror, the order of its lanes included: it is drawn there.
+    // Left-hand traffic is mirrored right-hand traffic, including the order of its lanes: it is drawn
+    // mirrored.
     let mirrored = net.notes.left_hand;
     let turned = |p: Vec2| if mirrored { Vec2::new(p.x, -p.y) } else { p };
     for lane in &mut net.lanes {
@@ -87,7 +88,7 @@ pub(super) fn read(file: &dyn Source, around: Option<Around>) -> Result<NetScene
         places.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
         places.truncate(MAX_SIGNALS);
     }
-    // Of programs with the same id the simulation runs the one loaded last.
+    // Of programs with the same id, the simulation runs the one that was loaded last.
     let programs = net.programs.into_iter().map(|p| (p.id.clone(), p)).collect();
     let place = match net.notes.projection {
         Some(crs) => {
@@ -114,14 +115,14 @@ impl NetScene {
     }
 }
 
-/// Finds what no scene can hold before anything is drawn. Gives the middle of the network in whole
-/// metres and half its size.
+/// Refuses what no scene can hold before anything is drawn. Returns the middle of the network in whole metres
+/// and half its size.
 fn check_net(net: &Net, chosen: &Chosen) -> Result<(Vec2, Vec2), ReadError> {
     if net.lanes.is_empty() {
         let message = chosen.nothing().unwrap_or_else(|| refusals::file_has_no(what::LANE));
         return Err(ReadError::other_content(message));
     }
-    // Each edge gives two borders and an area besides its lanes.
+    // Each edge becomes two borders and an area besides its lanes.
     let polylines = net.lanes.len() + 2 * net.edges.len();
     if polylines > MAX_POLYLINES {
         return Err(ReadError::map_too_large(refusals::network_too_large(MAX_POLYLINES, what::LINES)));

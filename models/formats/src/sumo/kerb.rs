@@ -1,5 +1,5 @@
-//! Borders of the carriageway, which a SUMO network does not state: the sides of its edges, joined
-//! round the corners of junctions.
+//! Borders of the carriageway, which a SUMO network does not contain: the sides of its edges, joined round
+//! the corners of junctions.
 
 use super::net::{EdgeFunction, LaneKind, Net};
 use crate::polyline::{meeting, offset_right};
@@ -7,7 +7,7 @@ use scene::Vec2;
 use scene::geometry::cross;
 use std::collections::HashMap;
 
-/// Radius that kerbs have at corners where there is room for it, metres.
+/// Radius of kerbs at corners if there is room, metres.
 const CORNER_RADIUS_M: f64 = 7.5;
 
 /// Both borders of an edge's carriageway (bike lanes and parking strips are part of it).
@@ -21,7 +21,7 @@ pub struct Borders {
     pub left: Vec<Vec2>,
 }
 
-/// A piece of border within a junction.
+/// A section of border within a junction.
 #[derive(Clone, Debug)]
 pub struct Corner {
     /// From the border of one arm to that of the next, counter-clockwise.
@@ -74,7 +74,7 @@ struct Side {
     edge: usize,
     inward: bool,
     point: Vec2,
-    /// Into the junction.
+    /// Direction into the junction.
     direction: Vec2,
 }
 
@@ -85,8 +85,7 @@ struct Arm {
 }
 
 impl Arm {
-    /// The side met first when going counter-clockwise round the junction, then the middle points,
-    /// then the last side.
+    /// The first side counter-clockwise round the junction, then the middle points, then the last side.
     fn sides(&self, all: &[Borders]) -> Option<(Side, Vec<Vec2>, Side)> {
         let end = |b: usize, right: bool| {
             let line = if right { &all[b].right } else { &all[b].left };
@@ -161,7 +160,7 @@ fn area(list: &[(&str, Arm)], all: &[Borders]) -> Option<JunctionArea> {
         let next = &sides[(i + 1) % sides.len()].0;
         let outward = -next.direction;
         let turn_rad = cross(last.direction, outward).atan2(last.direction.dot(&outward));
-        // A road that merely bends keeps bending as wide as it can.
+        // A road that merely bends gets the widest possible bend.
         let radius = if turn_rad.abs() < 0.9 { f64::INFINITY } else { CORNER_RADIUS_M };
         let points = corner(last.point, last.direction, next.point, outward, radius);
         ring.extend(points.iter().skip(1).take(points.len().saturating_sub(2)));
@@ -175,8 +174,8 @@ fn area(list: &[(&str, Arm)], all: &[Borders]) -> Option<JunctionArea> {
     Some(JunctionArea { ring, corners, arms: sides.len() })
 }
 
-/// A border from `p`, going along `d`, to `q`, going along `e`: straight, then an arc of about
-/// `radius`, then straight; a smooth S where the two directions are nearly the same.
+/// A border from `p` in direction `d` to `q` in direction `e`: straight, an arc of about `radius`, straight;
+/// a smooth S if the two directions are nearly equal.
 pub fn corner(p: Vec2, d: Vec2, q: Vec2, e: Vec2, radius: f64) -> Vec<Vec2> {
     let gap = (q - p).norm();
     if gap < 0.05 {

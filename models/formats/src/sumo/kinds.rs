@@ -1,5 +1,5 @@
-//! Road users by the name of their vehicle type. FCD gives only the name; classes and default sizes are
-//! SUMO's (`Vehicle_Type_Parameter_Defaults` of its documentation).
+//! Kinds of road users by the name of their vehicle type. FCD has only the name; classes and default sizes
+//! are those of SUMO (`Vehicle_Type_Parameter_Defaults` of its documentation).
 
 use scene::{AgentType, Size, Subtype};
 
@@ -13,7 +13,7 @@ pub(super) struct AgentKind {
 
 type Row = (&'static [&'static str], AgentType, Subtype, (f64, f64, f64));
 
-/// Parts of names, the first row that fits; length, width, height in metres.
+/// Parts of names, of which the first match counts; length, width, height in metres.
 const ROWS: &[Row] = &[
     (
         &["pedestrian", "pedtype", "person", "walker"],
@@ -58,7 +58,7 @@ pub(super) fn size_of(type_name: &str) -> Option<Size> {
     Some(Size { length_m: side(length)?, width_m: side(width)?, height_m })
 }
 
-/// The kind in a type's name, else a passenger car. `person` marks FCD's persons, whatever their name.
+/// The kind in a type's name, otherwise a passenger car. `person` marks FCD's persons, whatever their name.
 pub(super) fn of(type_name: &str, person: bool) -> AgentKind {
     let name = type_name.to_ascii_lowercase();
     let fits = |row: &&Row| row.0.iter().any(|part| name.contains(part));

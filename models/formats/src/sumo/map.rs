@@ -1,4 +1,4 @@
-//! A SUMO network as a lane map.
+//! Converts a SUMO network to a lane map.
 
 use super::kerb::{self, Borders, JunctionArea};
 use super::medians;
@@ -12,10 +12,10 @@ use std::collections::HashMap;
 
 /// Spacing of lane points, metres: on roads and within junctions.
 pub(super) const SPACING_M: (f64, f64) = (2.0, 1.0);
-/// Most pieces of a lane; those of longer lanes are longer.
+/// Most segments of a lane; those of longer lanes are longer.
 pub(super) const MAX_PIECES: f64 = 4_000.0;
-/// Most comparisons of left borders with each other: five times what a large town needs. A network where
-/// everything overlaps would need their square.
+/// Most comparisons between left borders: five times as many as a large town needs. A network with overlaps
+/// everywhere would need their square.
 const MOST_LEFT_CHECKS: u64 = 50_000_000;
 
 /// Content of a network's lane map besides traffic lanes.
@@ -27,7 +27,7 @@ pub struct MapOptions {
     pub parking: bool,
 }
 
-/// A signal of the network: which feature it rules and where its states are found.
+/// A signal of the network: the feature that it controls, and the source of its states.
 #[derive(Clone, Debug)]
 pub struct SignalPlace {
     /// Id of the lane or crosswalk in the map.
@@ -40,10 +40,10 @@ pub struct SignalPlace {
     pub stop: Vec2,
 }
 
-/// A network's map. Ids are whole numbers, unique over all kinds of features.
+/// A network's map. Ids are integers, unique over all kinds of features.
 #[derive(Clone, Debug, Default)]
 pub struct NetMap {
-    /// In the network's frame.
+    /// Map in the network's frame.
     pub map: LaneMap,
     /// Signals of the map's lanes and crosswalks.
     pub signals: Vec<SignalPlace>,
@@ -86,12 +86,12 @@ pub(super) struct Builder<'a> {
     pub(super) net: &'a Net,
     pub(super) out: NetMap,
     next_id: usize,
-    /// For lanes within a node where one edge merely goes on as another: lane before, lane after.
+    /// For lanes within a node at which one edge only continues as another: lane before, lane after.
     pub(super) tapers: HashMap<usize, (usize, usize)>,
     pub(super) narrow: NarrowRoads,
-    /// For lanes within a junction, a lane that leads there.
+    /// For lanes within a junction, a lane that leads into it.
     before: HashMap<usize, usize>,
-    /// Comparisons of left borders that may still be made.
+    /// Number of comparisons of left borders that are left.
     pub(super) left_checks: Cell<u64>,
 }
 
@@ -260,7 +260,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Sidewalks go on round the corners, at their distance from the kerb.
+    /// Sidewalks continue round the corners, at their distance from the kerb.
     fn sidewalk_corners(&mut self, junctions: &[JunctionArea]) {
         let net = self.net;
         let sidewalk = |edge: usize| net.lanes_of(&net.edges[edge], LaneKind::Sidewalk).next();
@@ -270,7 +270,7 @@ impl Builder<'_> {
             }
             let (Some(a), Some(b)) = (sidewalk(corner.from.0), sidewalk(corner.to.0)) else { continue };
             let (from, to) = (&net.lanes[a], &net.lanes[b]);
-            // Some networks have the way round the corner themselves.
+            // Some networks already contain the way round the corner.
             let is_way = |lane: &usize| {
                 net.lanes[*lane].kind == LaneKind::Sidewalk
                     && net.edge_of(*lane).function == EdgeFunction::Internal

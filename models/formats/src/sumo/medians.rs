@@ -1,24 +1,23 @@
-//! Ends of medians. The sides of a median are drawn as borders of the two carriageways; where it ends, at
-//! a crosswalk or where a turn lane takes its place, they are two lines with nothing between. Here they
-//! are joined by a nose, and a median that runs out to a point is cut off where it is still wide enough to
-//! be built.
+//! Ends of medians. The sides of a median are drawn as borders of the two carriageways. At its end, at a
+//! crosswalk or beside a turn lane, they are two lines without a connection. This module joins them by a
+//! nose, and cuts a tapering median off where it is still wide enough to be built.
 
 use crate::polyline::{arc_lengths, length, part, resample};
 use scene::Vec2;
 use scene::map::{Area, LaneMap, TypedLine};
 use std::f64::consts::PI;
 
-/// Borders whose ends are closer than this continue each other, metres.
+/// Borders whose ends are closer than this are continuous, metres.
 const JOINED_M: f64 = 0.05;
 /// Medians are narrower than this, metres.
 const WIDEST_M: f64 = 15.0;
-/// Ends of other kerbs up to this far apart are one, metres.
+/// Ends of other kerbs within this distance are joined, metres.
 const GORE_M: f64 = 1.0;
-/// A median that narrows is cut off where it is as wide as this, metres.
+/// Width at which a narrowing median is cut off, metres.
 const NOSE_M: f64 = 0.8;
-/// Noses reach no farther than this beyond the ends they join, metres.
+/// Greatest length of a nose beyond the ends that it joins, metres.
 const BULGE_M: f64 = 0.6;
-/// A painted line that ends this near to a median's point is drawn out to its nose, metres.
+/// A painted line that ends this near to a median's point is extended to its nose, metres.
 const PAINT_M: f64 = 1.5;
 /// Spacing of points where a median narrows, metres.
 const STEP_M: f64 = 0.5;
@@ -27,16 +26,16 @@ const STEP_M: f64 = 0.5;
 #[derive(Clone, Copy)]
 struct BorderEnd {
     line: usize,
-    /// The line's last point, else its first.
+    /// Whether this is the line's last point; otherwise its first.
     last: bool,
     point: Vec2,
-    /// Off the line's end, a unit vector.
+    /// Direction away from the line's end, a unit vector.
     way: Vec2,
     median: bool,
 }
 
-/// Joins the loose ends of medians, and of kerbs that all but meet. Ends for which `cut` holds are where
-/// the map was cut off: they stay open.
+/// Joins the loose ends of medians, and of kerbs that nearly meet. Ends for which `cut` holds are at the rim
+/// of the map: they stay open.
 pub fn close(map: &mut LaneMap, cut: impl Fn(Vec2) -> bool) {
     let mut ends = loose(&map.road_edges);
     ends.retain(|e| !cut(e.point));
@@ -70,7 +69,7 @@ pub fn close(map: &mut LaneMap, cut: impl Fn(Vec2) -> bool) {
     }
 }
 
-/// Ends that no other end continues, by x.
+/// Ends without a continuation, sorted by x.
 fn loose(lines: &[TypedLine]) -> Vec<BorderEnd> {
     let of_line = |(line, typed): (usize, &TypedLine)| {
         let (points, median) = (&typed.points.xy, typed.line_type == "median");
@@ -102,7 +101,7 @@ fn loose(lines: &[TypedLine]) -> Vec<BorderEnd> {
     ends
 }
 
-/// A round end from `a` to `b` that bulges along `way`; straight where they all but meet.
+/// A round end from `a` to `b` that bulges along `way`; straight if they nearly meet.
 fn nose(a: Vec2, b: Vec2, way: Vec2, gap_m: f64) -> Vec<Vec2> {
     if gap_m < 0.5 {
         return vec![b];
@@ -122,8 +121,8 @@ fn extend(lines: &mut [TypedLine], end: BorderEnd, more: Vec<Vec2>) {
     line.points.z_m = None;
 }
 
-/// `near` ends beside `far`, which goes on to the point of the median: both are cut off where they are
-/// [`NOSE_M`] apart, and what is left becomes road with the painted line drawn out to the nose.
+/// `near` ends beside `far`, which continues to the point of the median. Both are cut off where they are
+/// [`NOSE_M`] apart; the rest becomes road, with the painted line extended to the nose.
 fn blunt(map: &mut LaneMap, near: BorderEnd, far: BorderEnd) {
     let towards_end = |end: BorderEnd| {
         let mut points = map.road_edges[end.line].points.xy.clone();
@@ -135,7 +134,7 @@ fn blunt(map: &mut LaneMap, near: BorderEnd, far: BorderEnd) {
     let (a, b) = (towards_end(near), resample(&towards_end(far), STEP_M));
     let lengths = arc_lengths(&a);
     let total = length(&a);
-    // Beyond its end `near` has no width.
+    // After the end of `near`, the median has no width.
     let Some((at_b, s, foot)) = (0..b.len()).rev().find_map(|i| {
         let (s, foot) = foot_on(&a, &lengths, b[i]);
         ((foot - b[i]).norm() >= NOSE_M && s < total - 1e-6).then_some((i, s, foot))
@@ -175,11 +174,11 @@ fn blunt(map: &mut LaneMap, near: BorderEnd, far: BorderEnd) {
     paint(map, crate::polyline::simplify(&line, 0.03, 20.0), far.point);
 }
 
-/// Draws the painted line that ends at `from` out along `points`, which lead there.
+/// Extends the painted line that ends at `from` along `points`, which lead there.
 fn paint(map: &mut LaneMap, points: Vec<Vec2>, from: Vec2) {
     let near = |p: Option<&Vec2>| p.is_some_and(|p| (p - from).norm() < PAINT_M);
     let way = from - points[0];
-    // The line may reach back a little along the median.
+    // The line may overlap the median a little.
     let before = |end: Vec2| -> Vec<Vec2> {
         points[..points.len() - 1].iter().copied().filter(|p| (end - p).dot(&way) > 0.0).collect()
     };
@@ -200,7 +199,7 @@ fn paint(map: &mut LaneMap, points: Vec<Vec2>, from: Vec2) {
     }
 }
 
-/// Arc length and place of the point of a line that is nearest to `p`.
+/// Arc length and position of the point of a line that is nearest to `p`.
 fn foot_on(line: &[Vec2], lengths: &[f64], p: Vec2) -> (f64, Vec2) {
     let mut best = (f64::INFINITY, 0.0, line[0]);
     for (w, s) in line.windows(2).zip(lengths) {
@@ -215,7 +214,7 @@ fn foot_on(line: &[Vec2], lengths: &[f64], p: Vec2) -> (f64, Vec2) {
     (best.1, best.2)
 }
 
-/// Greatest id of the map that is a whole number.
+/// Greatest integer id of the map.
 fn largest_id(map: &LaneMap) -> u64 {
     let lines = map.road_lines.iter().chain(&map.road_edges).map(|l| &l.id);
     let areas = map.crosswalks.iter().chain(&map.driveways).chain(&map.drivable).map(|a| &a.id);
@@ -246,7 +245,7 @@ mod tests {
 
     #[test]
     fn a_median_that_narrows_is_cut_where_it_can_still_be_built() {
-        // One side runs on to the point at x = 30, the other ended a little earlier beside it.
+        // One side continues to the point at x = 30, the other ended a little earlier beside it.
         let straight = line("1", "median", &[(0.0, 0.0), (29.0, 0.0)]);
         let slanted = line("2", "median", &[(0.0, 3.0), (30.0, 0.0)]);
         let paint = line("3", "solid_double_yellow", &[(30.0, 0.0), (60.0, 0.0)]);

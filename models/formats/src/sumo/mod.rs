@@ -1,8 +1,8 @@
 //! Files of the traffic simulator SUMO: road networks (`net.xml`), floating-car data (FCD) and recorded
 //! signal states. The program itself is never linked.
 //!
-//! [`formats`] has the two formats that users know, `folder` both of them in one zip; they take any bytes. The other modules serve
-//! `synthesize` too, which trusts what SUMO has just written.
+//! [`formats`] has the two formats for users, `folder` both of them in one zip; they accept any bytes. The
+//! other modules also serve `synthesize`, which trusts the output of SUMO.
 
 pub mod fcd;
 pub(crate) mod folder;
@@ -30,16 +30,16 @@ use scene::message::{Message, Placeholder, Word};
 /// Why a SUMO file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SumoError {
-    /// Not well-formed XML (a document type definition is refused too), broken gzip, or a bound that was met.
+    /// Not well-formed XML (a document type definition is refused too), broken gzip, or an exceeded limit.
     #[error("{0}")]
     File(#[from] ReadError),
-    /// A required attribute is not there.
+    /// A required attribute is missing.
     #[error("{0}")]
     Missing(#[from] Missing),
-    /// An attribute or a field is no number or no list of points.
+    /// An attribute or a field is not a number or not a list of points.
     #[error("{0}")]
     Value(Message),
-    /// The file holds something else.
+    /// The file has other content.
     #[error("{0}")]
     Content(Message),
 }

@@ -1,5 +1,6 @@
-//! Narrow two-way roads. A road of a single lane for both directions is two edges in a network, each half as wide as the
-//! road. No car fits in its half: drivers keep to the middle of the road, and so do both lanes here.
+//! Narrow two-way roads. A road with a single lane for both directions has two edges in a network, each half
+//! as wide as the road. No car fits in its half: drivers use the middle of the road, and so do both lanes
+//! here.
 
 use super::net::{EdgeFunction, LaneKind, Net};
 use crate::polyline::{arc_lengths, offset_right};
@@ -7,17 +8,17 @@ use scene::Vec2;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// A lane narrower than this does not hold a car beside oncoming traffic, metres.
+/// A narrower lane has no room for a car beside oncoming traffic, metres.
 const NARROW_M: f64 = 2.2;
-/// Borders this near to each other are one, metres.
+/// Borders within this distance are one line, metres.
 const TOUCHING_M: f64 = 0.6;
 
 /// Narrow roads of a network.
 #[derive(Debug, Default)]
 pub(super) struct NarrowRoads {
-    /// Of each edge the one against it.
+    /// The opposite edge of each edge.
     edges: HashMap<usize, usize>,
-    /// Of each lane the width of the whole road, metres.
+    /// Width of the whole road for each lane, metres.
     widths_m: HashMap<usize, f64>,
 }
 
@@ -66,11 +67,11 @@ impl NarrowRoads {
         self.widths_m.get(&lane).copied().unwrap_or(net.lanes[lane].width_m)
     }
 
-    /// Centre lines of all lanes: those of narrow roads in the middle of the road, and those through junctions from
-    /// there or to there.
+    /// Centre lines of all lanes: those of narrow roads in the middle of the road, and those through
+    /// junctions from or to such roads.
     pub fn lines<'a>(&self, net: &'a Net) -> Vec<Cow<'a, [Vec2]>> {
         let mut lines: Vec<Cow<'_, [Vec2]>> = net.lanes.iter().map(|l| Cow::Borrowed(&*l.shape)).collect();
-        // How far the beginning and the end of a lane through a junction move.
+        // Displacement of the beginning and the end of a lane through a junction.
         let mut moved: HashMap<usize, [Vec2; 2]> = HashMap::new();
         let by = |lane: usize, last: bool| {
             self.widths_m.get(&lane).and_then(|_| {
@@ -107,7 +108,7 @@ fn middle(net: &Net, lane: usize) -> Vec<Vec2> {
     offset_right(&net.lanes[lane].shape, -net.lanes[lane].width_m / 2.0)
 }
 
-/// Whether the left borders of two lanes are one line, there and back.
+/// Whether the left borders of two lanes are one line in opposite directions.
 fn touch(net: &Net, lane: usize, other: usize) -> bool {
     let (there, back) = (middle(net, lane), middle(net, other));
     let (Some([a, b]), Some([c, d])) = (ends(&there), ends(&back)) else { return false };
@@ -131,7 +132,7 @@ mod tests {
     use crate::sumo::map::{MapOptions, lane_map};
     use crate::sumo::net::Net;
 
-    /// A road of 3.2 m for both directions, and behind a junction a street of 6.4 m.
+    /// A road of 3.2 m for both directions, and a street of 6.4 m after a junction.
     const ROAD: &str = r#"<net>
       <edge id=":c_0" function="internal">
         <lane id=":c_0_0" index="0" speed="6.5" length="10" width="3.2" shape="0,-0.8 5,-1.2 10,-1.6"/></edge>
@@ -168,7 +169,7 @@ mod tests {
         assert!(inward[0].abs() < 1e-9 && (inward[1] + 1.6).abs() < 1e-9, "{inward:?}");
         assert!((outward[0] - 1.6).abs() < 1e-9 && outward[1].abs() < 1e-9, "{outward:?}");
         assert_eq!((lane(5).width_m, lane(5).points.xy[0].y), (Some(3.2), -1.6), "the street stays as it is");
-        // Paint divides the street alone.
+        // Only the street has a dividing line.
         let painted: Vec<f64> =
             drawn.map.road_lines.iter().map(|line| line.points.xy[0].x.min(line.points.xy[1].x)).collect();
         assert!(painted.len() == 1 && painted[0] >= 10.0, "{:?}", drawn.map.road_lines);
@@ -180,7 +181,7 @@ mod tests {
                 .iter()
                 .all(|p| (p.y - 1.6).abs() < 1e-9 && p.x < 1.0))
         );
-        // Lanes in which a car fits stay beside each other.
+        // Lanes with room for a car stay side by side.
         let wide = draw(&ROAD.replace("width=\"1.6\"", "width=\"2.4\""));
         assert!(wide.narrow == 0 && wide.map.lanes[3].points.xy[0].y == -0.8);
     }

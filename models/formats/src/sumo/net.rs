@@ -37,7 +37,7 @@ pub enum EdgeFunction {
     WalkingArea,
 }
 
-/// Narrower lanes carry nobody, metres.
+/// Narrower lanes carry no road users, metres.
 pub const NARROWEST_LANE_M: f64 = 0.1;
 
 /// One lane.
@@ -59,9 +59,9 @@ pub struct NetLane {
     pub shape: Vec<Vec2>,
     /// Indices of the lanes that follow, in [`Net::lanes`].
     pub successors: Vec<usize>,
-    /// Signal program and link index that rule it.
+    /// Signal program and link index that control it.
     pub signal: Option<(String, usize)>,
-    /// Leads through a junction past a stop sign.
+    /// Whether it leads through a junction past a stop sign.
     pub stops: bool,
 }
 
@@ -111,13 +111,13 @@ pub struct Net {
 /// Content of a network beside its roads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NetNotes {
-    /// Some shape has heights.
+    /// Whether some shape has heights.
     pub heights: bool,
-    /// Traffic keeps to the left: the lanes of an edge are counted from the left.
+    /// Whether traffic keeps to the left, so that the lanes of an edge are counted from the left.
     pub left_hand: bool,
-    /// Projection of the coordinates from the globe, as PROJ has it.
+    /// Projection of the coordinates, in the form of PROJ.
     pub projection: Option<String>,
-    /// What was added to the projected coordinates, metres.
+    /// Offset that was added to the projected coordinates, metres.
     pub offset: Vec2,
 }
 

@@ -6,7 +6,7 @@ use crate::xml::{Scanner, XmlEvent};
 use scene::SignalState;
 use std::collections::HashMap;
 
-/// Most bytes of one row; it has a letter for each link of a signal.
+/// Most bytes of one row, which has a letter for each link of a signal.
 const MAX_TAG: usize = 64 << 10;
 
 /// States of all signal programs over time.
@@ -19,7 +19,7 @@ impl SignalLog {
     /// Reads a log.
     ///
     /// # Errors
-    /// When the text is no XML or a time is no number.
+    /// When the text is not XML or a time is not a number.
     pub fn read(text: &str) -> Result<Self, SumoError> {
         let mut scanner = Scanner::new(text.as_bytes(), MAX_TAG);
         let mut log = Self::default();
@@ -46,7 +46,7 @@ impl SignalLog {
         rows[row].1.get(link).map(|c| state_of(*c))
     }
 
-    /// Run-length states of a link over `steps` steps of `step_s` from `start_s`, as a scene keeps them.
+    /// Run-length states of a link over `steps` steps of `step_s` from `start_s`, in the form of a scene.
     pub fn runs(
         &self,
         program: &str,

@@ -3,7 +3,7 @@
 use scene::geometry::direction;
 use scene::{STEP_S, State, Track, Vec2, wrap_angle};
 
-/// Longest time between two samples that is filled, seconds: SUMO's default step is 1 s.
+/// Longest time between two samples that is interpolated, seconds: SUMO's default step is 1 s.
 pub(super) const MAX_FILLED_S: f64 = 2.0;
 /// Times nearer than this are equal, seconds; SUMO writes two digits.
 pub(super) const SAME_S: f64 = 1e-4;
@@ -11,7 +11,7 @@ pub(super) const SAME_S: f64 = 1e-4;
 /// Recorded state at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FcdState {
-    /// Number of the source's time step.
+    /// Index of the source's time step.
     pub step: u64,
     pub time_s: f64,
     /// Centre of the box, metres, network frame.
@@ -32,19 +32,19 @@ impl FcdState {
 pub(super) enum Between {
     /// Motion.
     Motion,
-    /// The road user was away, or the samples lie too far apart in time.
+    /// The road user was away, or the samples are too far apart in time.
     Gap,
-    /// It was put elsewhere.
+    /// The road user was moved elsewhere.
     Jump,
 }
 
-/// Judges two samples that follow each other.
+/// Classifies the motion between two consecutive samples.
 pub(super) fn between(a: &FcdState, b: &FcdState) -> Between {
     let time_s = b.time_s - a.time_s;
     if b.step != a.step + 1 || time_s > MAX_FILLED_S + SAME_S {
         return Between::Gap;
     }
-    // A lane change is a jump of one lane width; a larger displacement is not driving.
+    // A lane change is a jump of one lane width; a larger displacement is no driving.
     let farthest_m = 1.5 * a.speed_mps.max(b.speed_mps) * time_s + 5.0;
     if (b.centre - a.centre).norm() > farthest_m { Between::Jump } else { Between::Motion }
 }
@@ -65,7 +65,7 @@ fn filled(a: &FcdState, b: &FcdState, time_s: f64, origin: Vec2) -> State {
     FcdState { step: a.step, time_s, centre, heading_rad, speed_mps }.state(origin)
 }
 
-/// States at `steps` steps from `start_s`; none where the road user was not seen. Steps at the source's times
+/// States at `steps` steps from `start_s`; none while the road user was not seen. Steps at the source's times
 /// keep the source's values.
 pub(super) fn track(samples: &[FcdState], start_s: f64, steps: usize, origin: Vec2) -> Track {
     let at = |step: usize| {

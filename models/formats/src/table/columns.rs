@@ -1,4 +1,4 @@
-//! Columns of a table: this program's by their names, others' by a file that maps them.
+//! Columns of a table: this program's by their names, those of others by a column file.
 
 use super::names::{FileNames, TableKind};
 use super::{
@@ -20,7 +20,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Member of a column file that describes a wide table, and most columns of one of its parts.
 const WIDE: &str = "wide";
 const MOST_WIDE: usize = 256;
-/// Members that name a public data set, the files of a recording, and the part that is read.
+/// Members that name a public data set, the files of a recording, and the part to read.
 const SET: &str = "set";
 const FILES: &str = "files";
 const ONLY: &str = "only";
@@ -32,28 +32,28 @@ const MOST_IDS: usize = 10_000;
 pub(super) struct ColumnSource {
     /// The table that has the column.
     pub file: TableKind,
-    /// Name of the column; nothing where every row has the same value.
+    /// Name of the column; nothing if every row has the same value.
     pub column: Option<String>,
-    /// ... this one; beside a column, the value where files lack the column.
+    /// ... namely this one; together with a column, the default for files without the column.
     pub value: Option<String>,
     /// Numbers are `factor * number + offset`.
     pub factor: f64,
     pub offset: f64,
-    /// Words of theirs and ours.
+    /// Words of the table and their counterparts here.
     pub words: BTreeMap<String, String>,
-    /// Half of this size is added, in the direction in which the column counts, or taken off (-1): places of corners
-    /// and bumpers become those of centres.
+    /// Half of this size is added in the direction of the column, or subtracted (-1): positions of corners
+    /// and bumpers become positions of centres.
     pub half: Option<(f64, &'static str)>,
-    /// Files without the column are read, too.
+    /// Whether files without the column are read too.
     pub optional: bool,
 }
 
-/// Our name to where its values come from.
+/// Sources of values by this program's names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Columns {
     pub sources: BTreeMap<&'static str, ColumnSource>,
     pub wide: Option<Wide>,
-    /// Of recordings that have several files.
+    /// Names of the files of recordings with several files.
     pub files: Option<FileNames>,
     pub only: TablePart,
 }
@@ -107,7 +107,8 @@ impl TablePart {
     }
 }
 
-/// A table with a row for each road user: so many columns of it, then so many for each time, again and again.
+/// A wide table with one row per road user: some columns for it, then groups of columns, one group for each
+/// time.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Wide {
@@ -158,7 +159,7 @@ struct More {
     optional: bool,
 }
 
-/// Names that a table of ours may have.
+/// Names that a table of this program may have.
 fn own_names() -> impl Iterator<Item = &'static str> {
     COLUMNS.into_iter().chain([SPEED, LATITUDE, LONGITUDE])
 }
@@ -175,7 +176,7 @@ const OF_RECORDING: [&str; 6] =
 
 const UNITS: &str = "m, ft, cm, km, s, ks, ms, us, ns, rad, deg, m/s, km/h, mph, ft/s";
 
-/// Metres, seconds, radians and m/s in one of a unit.
+/// Factor of a unit to metres, seconds, radians and m/s.
 fn unit_factor(unit: &str) -> Option<f64> {
     Some(match unit {
         "m" | "s" | "rad" | "m/s" | "mps" => 1.0,
@@ -194,7 +195,7 @@ fn unit_factor(unit: &str) -> Option<f64> {
 }
 
 impl Columns {
-    /// Our own names.
+    /// This program's own names.
     pub fn own() -> Self {
         let own = |name| {
             (name, ColumnSource { column: Some(String::from(name)), factor: 1.0, ..ColumnSource::default() })
@@ -202,8 +203,8 @@ impl Columns {
         Self { sources: own_names().map(own).collect(), ..Self::default() }
     }
 
-    /// Those of the public data set that has most of these columns, with the names of all sets that have as many;
-    /// nothing where no set has its columns here.
+    /// The columns of the public data set that shares most of these names, with the names of all sets that
+    /// share as many; nothing if no set has its columns here.
     pub fn recognised(names: &[String]) -> Option<(Self, String)> {
         let found = |column: &String| names.contains(column);
         let mut best: Option<(usize, Self, Vec<&str>)> = None;
@@ -228,8 +229,8 @@ impl Columns {
         best.map(|(_, columns, sets)| (columns, sets.join(", ")))
     }
 
-    /// Columns from a column file, or those of the data set that it names, with this program's names for unmapped
-    /// ones.
+    /// Columns of a column file, or those of the data set that it names, with this program's names for
+    /// unmapped ones.
     ///
     /// # Errors
     /// `malformed-json`, `invalid-field`.
@@ -244,7 +245,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Takes in the members of a column file.
+    /// Applies the members of a column file.
     fn take(&mut self, text: &[u8]) -> Result<(), ReadError> {
         let malformed = |error: serde_json::Error| ReadError::malformed_json(&error, error.to_string());
         let refused = |name: &str, message: Message| {

@@ -1,4 +1,4 @@
-//! What tables beside the tracks say: of road users by their ids, and of the recording as a whole.
+//! The content of tables beside the tracks: facts about road users by id, and about the recording as a whole.
 
 use super::columns::{ColumnSource, Columns};
 use super::names::TableKind;
@@ -14,21 +14,21 @@ use scene::message::Word;
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
-/// Longest text that is kept of a cell, bytes.
+/// Longest text of a cell, bytes.
 const MOST_TEXT: usize = 64;
 
-/// A table that stands beside the tracks, with its name.
+/// A table beside the tracks, with its name.
 pub(super) type NamedTable<'a> = (String, TableFile<'a>);
 
 /// Files of one recording.
 #[derive(Default)]
 pub(super) struct RecordingFiles<'a> {
-    /// What the scenes are called where the table has no name for them.
+    /// Name of the scenes if the table has none for them.
     pub name: String,
     pub tracks: Vec<NamedTable<'a>>,
     pub agents: Vec<NamedTable<'a>>,
     pub recording: Vec<NamedTable<'a>>,
-    /// What is said of where they come from.
+    /// Warning about their origin, if any.
     pub told: Option<ImportWarning>,
 }
 
@@ -42,17 +42,17 @@ impl RecordingFiles<'_> {
 /// Tables with a row for each road user.
 #[derive(Default)]
 pub(super) struct AgentsTable {
-    /// Columns that are read of it.
+    /// Columns of it that are read.
     columns: Vec<&'static str>,
-    /// Their texts by the id of the road user.
+    /// Texts of these columns by the id of the road user.
     rows: HashMap<String, Vec<Option<String>>>,
 }
 
 impl AgentsTable {
-    /// Reads the columns that are said to be in these tables.
+    /// Reads the columns that belong to these tables.
     ///
     /// # Errors
-    /// Those of the files, a column that is not there, `too-many-agents`.
+    /// Those of the files, a missing column, `too-many-agents`.
     pub fn read(files: &[NamedTable<'_>], columns: &Columns) -> Result<Self, ReadError> {
         let own = columns.sources.iter().filter(|(_, source)| source.file == TableKind::Agents);
         let own: Vec<(&'static str, &ColumnSource)> = own.map(|(name, source)| (*name, source)).collect();
@@ -90,7 +90,7 @@ impl AgentsTable {
         Ok(table)
     }
 
-    /// Place of a column.
+    /// Index of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|own| *own == name)
     }
@@ -101,22 +101,22 @@ impl AgentsTable {
     }
 }
 
-/// What holds for a recording as a whole.
+/// Facts about the recording as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RecordingFacts {
     /// Frames a second.
     pub rate_hz: Option<f64>,
-    /// Where the zero of the recording lies in its zone, metres.
+    /// Origin of the recording in its zone, metres.
     pub shift: Option<Vec2>,
     pub zone: Option<UtmZone>,
     pub limit_mps: Option<f64>,
 }
 
 impl RecordingFacts {
-    /// Reads the first row of these tables, and the values that the columns themselves say.
+    /// Reads the first row of these tables, and the constants of the columns.
     ///
     /// # Errors
-    /// Those of the files, `invalid-field` for a value that can be none.
+    /// Those of the files, `invalid-field` for an invalid value.
     pub fn read(files: &[NamedTable<'_>], columns: &Columns) -> Result<Self, ReadError> {
         let mut found: HashMap<String, (String, &str)> = HashMap::new();
         for (name, file) in files {
@@ -164,13 +164,13 @@ impl RecordingFacts {
             shift: shift.map(|(x, y)| Vec2::new(x, y)),
             // A zone without a shift would put local metres near the equator.
             zone: place.filter(|_| shift.is_some()).map(|(lat, lon)| UtmZone::at(lat, lon)),
-            // Some sets have -1 where there is no limit.
+            // Some sets have -1 for no limit.
             limit_mps: number(SPEED_LIMIT, -1e3..=150.0, wanted::SPEED)?.filter(|limit| *limit > 0.0),
         })
     }
 }
 
-/// The text of a cell; nothing of an empty or endless one.
+/// The text of a cell; nothing if it is empty or too long.
 fn text(value: ColumnValue<'_>) -> Option<String> {
     match value {
         ColumnValue::Text(text) => Some(text.to_owned()).filter(|text| text.len() <= MOST_TEXT),

@@ -1,4 +1,4 @@
-//! Tables as users import and export them.
+//! Tables as import and export formats.
 
 use super::{recordings, write};
 use crate::columnar::{self, is_parquet, names_in};
@@ -15,15 +15,15 @@ use scene::Scene;
 use std::collections::BTreeSet;
 use std::io;
 
-/// Columns by which a table of ours is known.
+/// Columns by which a table of this program is recognised.
 const OURS: [&str; 3] = ["agent_id", "x_m", "y_m"];
 
-/// Ends of names in zips of tables, and in those of other formats, which may hold tables besides.
+/// File name endings in zips of tables, and in those of other formats, which may also contain tables.
 const TABLE_ENDS: [&[u8]; 2] = [b".csv", b".csv.gz"];
 const OTHER_ENDS: [&[u8]; 3] = [b".xosc", b".sumocfg", b".rou.xml"];
 
-/// Whether a zip that begins and ends so has tables, and none of the files that zips of other formats have. Names
-/// stand plain in its list.
+/// Whether a zip with this beginning and end contains tables, and none of the files of other formats. Its
+/// list contains names as plain text.
 fn is_zip_of_tables(head: &[u8]) -> bool {
     let holds = |end: &[u8]| head.windows(end.len()).any(|part| part.eq_ignore_ascii_case(end));
     TABLE_ENDS.into_iter().any(holds) && !OTHER_ENDS.into_iter().any(holds)
@@ -33,7 +33,7 @@ fn is_zip_of_tables(head: &[u8]) -> bool {
 pub enum TableFormat {
     /// Comma-separated values, plain or gzip.
     Csv,
-    /// The same columns with their types, zstd, and frame, licence and time beside them.
+    /// The same columns with their types, compressed with zstd, and with frame, licence and time as metadata.
     Parquet,
 }
 
@@ -73,7 +73,7 @@ impl Format for TableFormat {
     fn sniff(&self, head: &[u8], name: &str) -> u8 {
         match self {
             Self::Csv => sniff_csv(head, name, self.info().extensions),
-            // Other formats are tables of this sort too; they know their columns.
+            // Other formats are Parquet too; their readers know their columns.
             Self::Parquet => {
                 if names_in(head, &OURS) {
                     2
@@ -106,7 +106,7 @@ impl Format for TableFormat {
     }
 }
 
-/// Confidence that a file that begins so, with a name with one of these ends, is a table in CSV.
+/// Confidence that a file with this beginning, and a name with one of these endings, is a table in CSV.
 fn sniff_csv(head: &[u8], name: &str, extensions: &[&str]) -> u8 {
     if head.starts_with(ZIP) {
         return if is_zip_of_tables(head) { 2 } else { 0 };

@@ -8,11 +8,11 @@ use crate::refusals::{self, what};
 use crate::sentences;
 use std::collections::HashMap;
 
-/// Most rows that are held, however large a file is.
+/// Most rows in memory, however large a file is.
 const MAX_ROWS: u64 = 4_000_000;
-/// Memory of a row while its list grows, and of its time while the middle one is looked for, bytes.
+/// Memory of a row while its list grows, and of its time while the median is computed, bytes.
 const ROW_MEMORY: u64 = (2 * size_of::<RecordedState>() + size_of::<f64>()) as u64;
-/// Memory of what is read beside the rows, bytes.
+/// Memory of everything else, bytes.
 const BESIDE_ROWS: u64 = 24 << 20;
 /// Most possible motions of one scenario.
 const MAX_FUTURES: usize = 100_000;
@@ -23,23 +23,23 @@ pub(super) struct Gathered {
     pub recording: Recording,
     users: HashMap<String, usize>,
     pub futures: HashMap<(usize, u64, u64), usize>,
-    /// Rows that are held, and all that were taken in.
+    /// Rows in memory, and all rows that were read.
     held: usize,
     found: usize,
-    /// Rows from this time on are left out: there were more than can be held.
+    /// Rows from this time on are left out, because there were too many.
     before_s: Option<f64>,
-    /// Every time is that of its step, and the last one.
+    /// Whether every time is that of its step, and the last step.
     pub aligned: bool,
     pub last_step: f64,
     pub unknown_words: usize,
     pub untyped: bool,
-    /// Of degrees, as soon as there are some.
+    /// Projection of degrees, once there are some.
     pub projection: Option<TransverseMercator>,
     /// Greatest coordinate in the frame of the table, metres.
     pub farthest_m: f64,
 }
 
-/// Most rows that are held for a file of so many bytes.
+/// Most rows in memory for a file of this many bytes.
 fn most_rows(encoded: u64) -> usize {
     ((memory_for(encoded) - BESIDE_ROWS) / ROW_MEMORY).min(MAX_ROWS) as usize
 }
@@ -63,7 +63,7 @@ impl Gathered {
         }
     }
 
-    /// Counts a row of this time, and says whether it is taken in.
+    /// Counts a row of this time, and returns whether it is added.
     pub fn takes_time(&mut self, time_s: f64) -> bool {
         self.found += 1;
         let takes = self.before_s.is_none_or(|before_s| time_s < before_s);
@@ -71,12 +71,12 @@ impl Gathered {
         takes
     }
 
-    /// The place of a road user in the recording.
+    /// Index of a road user in the recording.
     pub fn user(&self, id: &str) -> Option<usize> {
         self.users.get(id).copied()
     }
 
-    /// Takes in a road user, and gives its place.
+    /// Adds a road user, and returns its index.
     pub fn add_user(&mut self, user: RecordedAgent) -> usize {
         let at = self.recording.users.len();
         self.users.insert(user.id.clone(), at);
@@ -84,10 +84,10 @@ impl Gathered {
         at
     }
 
-    /// Leaves out the later half of the rows where there are more than are held for a file of so many bytes.
+    /// Drops the later half of the rows if there are more than are allowed for a file of this many bytes.
     ///
     /// # Errors
-    /// `too-many-agents` where this is not possible.
+    /// `too-many-agents` when this is impossible.
     pub fn bound(&mut self, encoded: u64) -> Result<(), ReadError> {
         let most = most_rows(encoded);
         let counts = [
@@ -104,7 +104,7 @@ impl Gathered {
         }
     }
 
-    /// Leaves out the later half of the rows; false where all are of one time.
+    /// Drops the later half of the rows; false if all have the same time.
     fn leave_out_half(&mut self) -> bool {
         let users = &mut self.recording.users;
         let mut times: Vec<f64> =
@@ -130,7 +130,7 @@ impl Gathered {
         true
     }
 
-    /// What is said where rows were left out.
+    /// The warning about dropped rows.
     pub fn left_out(&self) -> Option<ImportWarning> {
         let before_s = self.before_s?;
         let message = sentences::rows_in_part(self.held, self.found, before_s);
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
     use scene::{AgentType, Subtype, Vec2};
 
-    /// Takes in a row of a road user.
+    /// Adds a row of a road user.
     fn add(rows: &mut Gathered, id: usize, time_s: f64) -> Result<(), ReadError> {
         if !rows.takes_time(time_s) {
             return Ok(());

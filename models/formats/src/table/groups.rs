@@ -1,14 +1,14 @@
-//! Which files belong to one recording, by their names.
+//! Groups files into recordings by their names.
 
 use super::columns::{Columns, PRESETS};
 use super::names::{FileNames, TableKind};
 use crate::source::Source;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-/// The files of one recording, by their places in a list of names.
+/// The files of one recording, by their indices in a list of names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TableGroup {
-    /// Of the recording: what its files have in common, else their folder.
+    /// Name of the recording: the common part of its file names, otherwise their folder.
     pub name: String,
     /// Tables with a row for each road user and time, one or more.
     pub tracks: Vec<usize>,
@@ -19,18 +19,18 @@ pub struct TableGroup {
 }
 
 impl TableGroup {
-    /// One table by itself.
+    /// A group of a single table.
     pub(super) fn alone(at: usize, name: String) -> Self {
         Self { name, tracks: vec![at], ..Self::default() }
     }
 
-    /// All places, those of the tracks first.
+    /// All indices, those of the tracks first.
     pub fn all(&self) -> impl Iterator<Item = usize> + '_ {
         self.tracks.iter().chain(&self.agents).chain(&self.recording).copied()
     }
 }
 
-/// Ends of the names of maps.
+/// File name endings of maps.
 const MAPS: [&str; 6] = [".osm", ".osm.gz", ".xodr", ".xodr.gz", ".net.xml", ".net.xml.gz"];
 
 /// Whether the name is that of a map that may lie beside a table.
@@ -44,12 +44,12 @@ pub(super) fn is_table(name: &str) -> bool {
     plain(&name.to_ascii_lowercase()).ends_with(".csv")
 }
 
-/// The name of a file that may be compressed without the end that says so.
+/// The name of a file without the ending of a compression.
 fn plain(name: &str) -> &str {
     name.strip_suffix(".gz").unwrap_or(name)
 }
 
-/// The names of a file of columns, else those of the public data sets.
+/// The names in a column file, otherwise those of the public data sets.
 fn sets(columns: Option<&dyn Source>) -> Vec<FileNames> {
     let read = |columns: &dyn Source| Columns::read(columns).ok();
     match columns {
@@ -58,7 +58,7 @@ fn sets(columns: Option<&dyn Source>) -> Vec<FileNames> {
     }
 }
 
-/// What a path is by the set that says most about its name: which set, the recording, and its kind there.
+/// The role of a path by the set with the longest match: the set, the recording, and the kind of table.
 fn place<'n>(sets: &[FileNames], path: &'n str) -> Option<(usize, &'n str, TableKind)> {
     let name = plain(base(path));
     let of = |(at, set): (usize, &FileNames)| {
@@ -82,9 +82,9 @@ fn base(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or_default()
 }
 
-/// The recordings whose tables have these names (paths in a folder or zip), in the order of the names: by the names
-/// that a file of columns tells, without one by those that public data sets have. Files of no recording are left out,
-/// and of a table that is there both plain and compressed the latter.
+/// The recordings of tables with these names (paths in a folder or zip), in the order of the names. The names
+/// come from a column file, otherwise from the public data sets. Files of no recording are left out; of a
+/// table that is both plain and compressed, the compressed one is kept.
 pub fn groups(names: &[&str], columns: Option<&dyn Source>) -> Vec<TableGroup> {
     let sets = sets(columns);
     let all: HashSet<&str> = names.iter().copied().collect();
@@ -104,7 +104,7 @@ pub fn groups(names: &[&str], columns: Option<&dyn Source>) -> Vec<TableGroup> {
         }
     }
     for ((set, ..), group) in &mut found {
-        // The first table of the set says most, such as that of the vehicles.
+        // The first table in the set's list is the most informative, such as that of the vehicles.
         let place = |at: &usize| {
             let name = names.get(*at).map_or("", |path| base(path));
             sets.get(*set).and_then(|set| set.place_of(plain(name)))
@@ -116,21 +116,22 @@ pub fn groups(names: &[&str], columns: Option<&dyn Source>) -> Vec<TableGroup> {
     groups
 }
 
-/// The first table of tracks of each recording whose tables have these names: the one by which it is opened.
+/// The first table of tracks of each recording with these names, by which it is opened.
 pub fn firsts(names: &[&str], columns: Option<&dyn Source>) -> Vec<usize> {
     groups(names, columns).iter().filter_map(|group| group.tracks.first().copied()).collect()
 }
 
-/// The tables that are read with the first one of their recording, and open nothing by themselves.
+/// The tables that are read with the first one of their recording, and are not opened by themselves.
 pub fn followers(names: &[&str], columns: Option<&dyn Source>) -> BTreeSet<usize> {
     groups(names, columns).iter().flat_map(|group| group.all().skip(1).collect::<Vec<_>>()).collect()
 }
 
-/// The files of a folder that are read with the table of tracks of this name: the other tables of its recording, and
-/// all maps. None where no set has tracks of such a name; only else the names of the folder are asked for.
+/// The files of a folder that are read with the table of tracks of this name: the other tables of its
+/// recording, and all maps. None if no set has tracks with such a name; the names of the folder are requested
+/// only otherwise.
 ///
 /// # Errors
-/// When the names cannot be had.
+/// When the names cannot be listed.
 pub fn beside<E>(
     own: &str,
     columns: Option<&dyn Source>,
@@ -141,7 +142,7 @@ pub fn beside<E>(
         return Ok(Vec::new());
     }
     let mut names = names()?;
-    // The table itself comes first, and stands for a compressed or plain copy of it.
+    // The table itself comes first, instead of a compressed or plain copy of it.
     names.retain(|name| plain(name) != plain(own));
     names.insert(0, own.to_owned());
     let list: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -190,7 +191,8 @@ mod tests {
         let both = "a.net.xml here.osm pedestrian_tracks_003.csv there.xodr";
         assert_eq!(of("vehicle_tracks_003.csv", None), both);
         assert_eq!(of("pedestrian_tracks_003.csv", None), maps.to_owned() + " vehicle_tracks_003.csv");
-        // Tables of no recording, of another set and about tracks have nothing beside them, and no folder is looked into.
+        // Tables of no recording, of another set and about tracks have no companions, and no folder is
+        // listed.
         let unasked = |own: &str, columns: Option<&dyn Source>| beside(own, columns, || Err(own.to_owned()));
         for own in ["manifest.csv", "00_tracksMeta.csv", "00_tracks.json", "here.osm"] {
             assert_eq!(unasked(own, None), Ok(Vec::new()));

@@ -1,4 +1,4 @@
-//! From a table to scenes: rows of a scenario stand together, its road users in any order.
+//! Turns a table into scenes: rows of a scenario are contiguous, with its road users in any order.
 
 use super::columns::{ColumnSource, Columns};
 use super::companions::{AgentsTable, NamedTable, RecordingFacts, RecordingFiles};
@@ -26,12 +26,12 @@ use std::collections::{BTreeMap, HashSet};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-/// Coordinates reach so far, metres; times, seconds (a clock that counts nanoseconds as seconds is none).
+/// Greatest coordinate, metres, and greatest time, seconds (a clock in nanoseconds is refused).
 const MAX_METRES: f64 = 1e9;
 const MAX_SECONDS: f64 = 1e11;
 /// Bytes of an id.
 const MAX_ID: usize = 256;
-/// A recording whose own coordinates stay within this of its zero keeps its frame, metres.
+/// A recording whose coordinates stay within this distance of its origin keeps its frame, metres.
 const OWN_FRAME_M: f64 = 1_000.0;
 
 /// A column that is read.
@@ -40,10 +40,10 @@ struct Picked {
     origin: ColumnSource,
 }
 
-/// Where the values of a column stand.
+/// Source of the values of a column.
 #[derive(Clone, Copy)]
 enum ColumnPlace {
-    /// All are the value of the column file.
+    /// Every row has the value of the column file.
     Everywhere,
     /// This column of the rows.
     Row(usize),
@@ -54,24 +54,24 @@ enum ColumnPlace {
 /// Scenes of a recording, scenario after scenario.
 pub(super) struct Scenarios<'a> {
     rows: Rows<'a>,
-    /// Tables of tracks that follow, the next one last, and the name of the one that is read.
+    /// Remaining tables of tracks, the next one last, and the name of the current one.
     tracks: Vec<NamedTable<'a>>,
     file: String,
     told: Columns,
     columns: BTreeMap<&'static str, Picked>,
     agents: Option<AgentsTable>,
     facts: RecordingFacts,
-    /// What scenes are called without a name in the table.
+    /// Name of scenes without a name in the table.
     called: String,
-    /// What was said while the files were opened.
+    /// Warnings from opening the files.
     warnings: Vec<ImportWarning>,
     options: &'a ImportOptions,
     notes: Notes,
     gathered: Option<Gathered>,
-    /// Scenarios that came to their end, by hash.
+    /// Finished scenarios, by hash.
     ended: HashSet<u64>,
     ready: Option<Box<dyn Iterator<Item = Result<Imported, ReadError>>>>,
-    /// Bytes of the tracks, which bound how many rows are held.
+    /// Bytes of the tracks, which limit the rows in memory.
     encoded: u64,
     /// The current row is read but not yet assigned to a scene.
     pending: bool,
@@ -92,7 +92,7 @@ fn pick(
             (TableKind::Recording, ..) => continue,
             (_, None, _) => Some(ColumnPlace::Everywhere),
             (TableKind::Agents, Some(_), Some(agents)) => agents.column(name).map(ColumnPlace::Agent),
-            // Some people merge the tables of a recording into one.
+            // Some users merge the tables of a recording into one.
             _ => in_row().map(ColumnPlace::Row),
         };
         let place = place.or_else(|| origin.value.as_ref().map(|_| ColumnPlace::Everywhere));
@@ -125,7 +125,7 @@ fn pick(
     Err(ReadError::other_content(sentences::columns_missing(&missing.join(", "), &shown(names))))
 }
 
-/// Says which tables of a recording are missing that would say more than its tracks.
+/// Reports missing tables of a recording that would add to its tracks.
 fn missing_tables(files: &RecordingFiles<'_>, told: &Columns) -> Vec<ImportWarning> {
     let told_of = |kind| told.sources.values().any(|source| source.file == kind && source.column.is_some());
     let kinds = [
@@ -220,7 +220,7 @@ impl<'a> Scenarios<'a> {
         self.rows.choose(chosen.collect())
     }
 
-    /// Goes to the next row, of the next table where one ends; false at the end.
+    /// Advances to the next row, or the next table after the last one; false at the end.
     fn advance(&mut self) -> Result<bool, ReadError> {
         while !self.rows.advance()? {
             let Some((name, next)) = self.tracks.pop() else { return Ok(false) };
@@ -273,7 +273,7 @@ impl<'a> Scenarios<'a> {
         FieldProblem::new(pointer, code::INVALID_FIELD, message).into()
     }
 
-    /// A number in our unit; NaN where there is none.
+    /// A number in our unit; NaN if it is missing.
     fn number(&self, name: &str, most: f64, expected: Word) -> Result<f64, ReadError> {
         let number = match self.value(name) {
             ColumnValue::Nothing => return Ok(f64::NAN),
@@ -308,7 +308,7 @@ impl<'a> Scenarios<'a> {
         }
     }
 
-    /// Takes in the row that was gone to.
+    /// Adds the current row.
     fn add(&mut self) -> Result<(), ReadError> {
         let Some(mut gathered) = self.gathered.take() else { return Ok(()) };
         let added = self.add_to(&mut gathered);
@@ -373,7 +373,7 @@ impl<'a> Scenarios<'a> {
         to.bound(self.encoded)
     }
 
-    /// Half of the size that a column adds, in the direction in which it counts, metres.
+    /// Half of the size that a column adds, in its direction, metres.
     fn half(&self, name: &str) -> Result<f64, ReadError> {
         let Some(ColumnSource { half: Some((sign, size)), factor, .. }) =
             self.columns.get(name).map(|picked| &picked.origin)
@@ -384,7 +384,7 @@ impl<'a> Scenarios<'a> {
         Ok(if size_m.is_nan() { 0.0 } else { sign * factor.signum() * size_m / 2.0 })
     }
 
-    /// The place of a row, metres; NaN where there is none.
+    /// The position of a row, metres; NaN if it is missing.
     fn place(&self, to: &mut Gathered) -> Result<Vec2, ReadError> {
         let [lat, lon] =
             [self.number(LATITUDE, 89.0, wanted::DEGREES)?, self.number(LONGITUDE, 180.0, wanted::DEGREES)?];
@@ -396,7 +396,7 @@ impl<'a> Scenarios<'a> {
             to.farthest_m = to.farthest_m.max(own.amax());
             return Ok(own + self.facts.shift.unwrap_or_default());
         }
-        // About the first place: the rows behind it are not known yet.
+        // About the first position: the following rows are not known yet.
         if to.projection.is_none() {
             to.projection = TransverseMercator::about(std::iter::once((lat, lon)));
         }
@@ -429,7 +429,7 @@ impl<'a> Scenarios<'a> {
     fn user(&self, id: &str, to: &mut Gathered) -> Result<RecordedAgent, ReadError> {
         let metres = |name| {
             let metres = self.number(name, 1e4, wanted::SIZE)?;
-            // Sets that measure no box of a road user give it none.
+            // Sets that do not measure the box of a road user give it none.
             Ok::<_, ReadError>((metres > 0.0).then_some(metres))
         };
         let word = self.text("type");
@@ -473,7 +473,7 @@ impl<'a> Scenarios<'a> {
         }
     }
 
-    /// Scenes of what was gathered.
+    /// Builds the scenes of the gathered rows.
     fn finish(&mut self) {
         let Some(mut gathered) = self.gathered.take() else { return };
         let mut hasher = DefaultHasher::new();
@@ -495,8 +495,7 @@ impl<'a> Scenarios<'a> {
         if let Some(licence) = &self.options.licence {
             said.meta.licence = Some(licence.clone());
         }
-        // Tables written by this program count steps from the scene's first step, even if no road user is
-        // seen then.
+        // Tables of this program count steps from the scene's first step, even if no road user is seen then.
         if gathered.aligned && (gathered.last_step as usize) < 2 * MAX_STEPS {
             said.start_s = Some(0.0);
         }
@@ -510,7 +509,7 @@ impl<'a> Scenarios<'a> {
         let zone = self.facts.zone.map(|zone| zone.name());
         said.crs = zone.or_else(|| gathered.projection.map(|projection| projection.name()));
         let shift = self.facts.shift;
-        // A small recording keeps its own frame about its own zero.
+        // A small recording keeps its own frame.
         if let (Some(at), true) = (shift, gathered.farthest_m <= OWN_FRAME_M) {
             said.origin = Some(Origin { x_m: at.x, y_m: at.y, crs: said.crs.clone(), ..Origin::default() });
         }
@@ -521,7 +520,7 @@ impl<'a> Scenarios<'a> {
         self.ready = Some(Box::new(gathered.recording.scenes().map(move |read| read.and_then(&lay))));
     }
 
-    /// Reads on to the end of the scenario.
+    /// Reads to the end of the scenario.
     fn read(&mut self) -> Result<(), ReadError> {
         loop {
             if !self.pending && !self.advance()? {
@@ -550,7 +549,7 @@ impl<'a> Scenarios<'a> {
     }
 }
 
-/// Words for a value that is not there.
+/// Whether a text stands for a missing value.
 fn is_missing(text: &str) -> bool {
     matches!(text, "" | "nan" | "NaN" | "NA" | "null" | "None")
 }

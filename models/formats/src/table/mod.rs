@@ -1,5 +1,6 @@
-//! Motion as one long table, a row for each road user, future and step, as notebooks and spreadsheets take it: CSV
-//! and Parquet with the same columns, both ways. Positions are those of the scene's source: its origin is added back.
+//! Motion as one long table, with a row for each road user, future and step, for notebooks and spreadsheets:
+//! CSV and Parquet with the same columns, for import and export. Positions are those of the scene's source:
+//! its origin is added back.
 
 mod columns;
 mod companions;
@@ -44,20 +45,20 @@ pub const COLUMNS: [&str; 21] = [
     "height_m",
     "chosen",
 ];
-/// Read where a table has it, in place of two velocities; never written.
+/// Accepted instead of two velocities; never written.
 const SPEED: &str = "speed_mps";
-/// Read in place of `x_m` and `y_m`, degrees; never written.
+/// Accepted instead of `x_m` and `y_m`, degrees; never written.
 const LATITUDE: &str = "lat_deg";
 const LONGITUDE: &str = "lon_deg";
-/// Read in place of `time_s`: numbers of pictures, and how many there are in a second.
+/// Accepted instead of `time_s`: frame numbers, and frames per second.
 const FRAME: &str = "frame";
 const FRAME_RATE: &str = "frame_rate_hz";
-/// Where the zero of a recording lies in its zone of UTM, metres, and a place of it that tells the zone, degrees.
+/// Origin of a recording in its UTM zone, metres, and a position that identifies the zone, degrees.
 const ORIGIN_X: &str = "origin_x_m";
 const ORIGIN_Y: &str = "origin_y_m";
 const PLACE_LATITUDE: &str = "place_lat_deg";
 const PLACE_LONGITUDE: &str = "place_lon_deg";
-/// Of the lanes that say none themselves.
+/// Speed limit of the lanes without their own.
 const SPEED_LIMIT: &str = "speed_limit_mps";
 /// The two words of `source`.
 const LOG: &str = "log";

@@ -2,13 +2,13 @@
 
 use serde::Deserialize;
 
-/// Stands for the name of the recording in the name of a file.
+/// Placeholder for the name of the recording in the name of a file.
 const RECORDING: char = '*';
-/// Most names of one kind, and bytes of one.
+/// Most names of one kind, and most bytes of one.
 const MOST_NAMES: usize = 8;
 const MOST_BYTES: usize = 200;
 
-/// What a table of a recording has rows of.
+/// Rows of a table of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TableKind {
@@ -30,7 +30,7 @@ pub(super) struct FileNames {
     /// Tables with a row for each road user.
     #[serde(default)]
     agents: NameList,
-    /// The column of these with the ids; that of the tracks where absent.
+    /// The id column of these; that of the tracks if absent.
     pub agents_by: Option<String>,
     /// The table with one row.
     #[serde(default)]
@@ -58,19 +58,19 @@ impl From<OneOrMore> for NameList {
 }
 
 impl NameList {
-    /// The recording to which a file of this name belongs, with the length of what was compared.
+    /// The recording to which a file of this name belongs, with the length of the match.
     fn recording_of<'n>(&self, name: &'n str) -> Option<(usize, &'n str)> {
         let found = self.0.iter().filter_map(|pattern| Some((pattern.len(), recording(pattern, name)?)));
         found.max_by_key(|(length, _)| *length)
     }
 
-    /// The place in the list of the first name that this one fits.
+    /// Index of the first pattern that a name matches.
     fn place_of(&self, name: &str) -> Option<usize> {
         self.0.iter().position(|pattern| recording(pattern, name).is_some())
     }
 }
 
-/// What stands in a name where a pattern has the recording.
+/// The part of a name that matches the placeholder of a pattern.
 fn recording<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
     let (begin, end) = pattern.split_once(RECORDING)?;
     let starts = name.get(..begin.len())?.eq_ignore_ascii_case(begin);
@@ -81,7 +81,7 @@ fn recording<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
 }
 
 impl FileNames {
-    /// Whether each name can be that of a file.
+    /// Whether each pattern is a possible file name.
     pub fn can_be(&self) -> bool {
         let lists = [&self.tracks, &self.agents, &self.recording];
         let is_name = |name: &String| {
@@ -91,7 +91,7 @@ impl FileNames {
             && lists.iter().all(|list| list.0.len() <= MOST_NAMES && list.0.iter().all(is_name))
     }
 
-    /// What a file of this name is, with the recording and the length of what was compared.
+    /// Kind of a file with this name, with the recording and the length of the match.
     pub fn kind_of<'n>(&self, name: &'n str) -> Option<(usize, &'n str, TableKind)> {
         let lists = [
             (&self.tracks, TableKind::Tracks),
@@ -103,7 +103,7 @@ impl FileNames {
         Some((length, recording, kind))
     }
 
-    /// The place of a table of tracks among those of a recording.
+    /// Index of a table of tracks among those of a recording.
     pub fn place_of(&self, name: &str) -> Option<usize> {
         self.tracks.place_of(name)
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// Name of the note in the file.
 pub(super) const KEY: &str = "dragtraffic";
 
-/// All of it.
+/// All metadata.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct Notes {
@@ -18,7 +18,7 @@ pub(super) struct Notes {
     pub scenes: Vec<SceneNote>,
 }
 
-/// Of one scene.
+/// Metadata of one scene.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(super) struct SceneNote {
@@ -50,7 +50,7 @@ struct OriginNote {
 }
 
 impl Notes {
-    /// Of scenes by the names that they have in the table.
+    /// Metadata of scenes by their names in the table.
     pub fn of(scenes: &[(&Scene, String)]) -> Self {
         let note = |(scene, name): &(&Scene, String)| {
             let Origin { x_m, y_m, z_m, rotation_rad, crs } = scene.meta.origin.clone();
@@ -80,7 +80,7 @@ impl Notes {
 }
 
 impl SceneNote {
-    /// Its words about a scene that is read.
+    /// Its information about a scene that is read.
     pub fn meta(&self) -> Meta {
         Meta {
             source: self.source.clone(),
@@ -104,7 +104,7 @@ impl SceneNote {
         })
     }
 
-    /// Its time.
+    /// Timing of the scene.
     pub fn timing(&self) -> Timing {
         Timing { steps: self.steps, now_step: self.now_step }
     }

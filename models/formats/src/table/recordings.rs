@@ -1,4 +1,4 @@
-//! The recordings of a table, of a zip of tables, and of tables beside it; their scenes one after the other.
+//! The recordings of a table, of a zip of tables, and of tables beside it; their scenes in order.
 
 use super::companions::{NamedTable, RecordingFiles};
 use super::groups::{self, TableGroup, is_map, is_table};
@@ -13,13 +13,13 @@ use crate::source::{Source, begins_with};
 use crate::unpack::{self, ZIP};
 use std::collections::BTreeMap;
 
-/// Most bytes of the files of a zip, unpacked, or of a folder: they are read one after the other, and never all in
+/// Most bytes of the decompressed files of a zip, or of a folder: they are read in turn, and never all in
 /// memory.
 const MOST_BYTES: u64 = 4 * MAX_DECODED_BYTES;
-/// Most maps of a zip or folder, and memory for a byte of their texts.
+/// Most maps of a zip or folder, and memory per byte of their texts.
 const MOST_MAPS: usize = 64;
 const MAP_MEMORY: u64 = 8;
-/// Most names that are told of files that lie beside a table.
+/// Most names in a message about files beside a table.
 const MOST_TOLD: usize = 8;
 
 /// The tables and maps that come with a file, each with its name.

@@ -1,5 +1,5 @@
-//! Scenes as `tf.Example` records, the dataset's form for learning: lists of fixed length by name, with -1 where there
-//! is nothing.
+//! Scenes as `tf.Example` records, the dataset's form for machine learning: lists of fixed length by name,
+//! with -1 for missing values.
 
 use super::export::scenario;
 use super::proto::{
@@ -17,16 +17,16 @@ use scene::{STEP_S, Scene, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// Road users, lights and points of roads that a record has room for.
+/// Most road users, lights and road points of a record.
 const ROOM: (usize, usize, usize) = (128, 16, 30_000);
 /// Steps before and after the present one.
 const PAST: usize = NOW_STEP;
 const FUTURE: usize = 80;
-/// Distance of points of roads at least, metres; twice as far as long as there is no room for them.
+/// Least distance of road points, metres; doubled until they fit.
 const SPACING_M: f64 = 0.5;
 /// Value of an empty slot.
 const NOTHING: f32 = -1.0;
-/// Numbers of kinds of points: the first of painted lines and of edges, and those of signs and areas.
+/// Numbers of kinds of points: the first numbers of painted lines and of edges, and those of signs and areas.
 const FIRST_LINE: i64 = 5;
 const FIRST_EDGE: i64 = 14;
 const STOP_SIGN: i64 = 17;

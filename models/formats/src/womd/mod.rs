@@ -1,8 +1,9 @@
-//! Waymo Open Motion Dataset: Scenario messages in TFRecord files, plain or gzip, both ways.
+//! Waymo Open Motion Dataset: reads and writes Scenario messages in TFRecord files, plain or compressed with
+//! gzip.
 //!
-//! Import moves the origin to the ego (kept in `meta.origin`), turns miles an hour into m/s and ids
-//! into strings, and keeps heights. Export adds the origin back; reading what was written gives the
-//! same scene, minus the [`crate::Loss`]es that the writer lists.
+//! Import moves the origin to the ego (kept in `meta.origin`), converts miles per hour to m/s and ids to
+//! strings, and keeps heights. Export adds the origin back; reading the export gives the same scene, minus
+//! the [`crate::Loss`]es that the writer lists.
 
 pub(crate) mod example;
 mod export;
@@ -31,23 +32,23 @@ use std::io::Read;
 pub const LICENCE_WAYMO: &str = "waymo-nc";
 /// Licence of our own synthetic scenes.
 pub const LICENCE_OWN: &str = "cc0";
-/// Scenario ids of our own synthetic scenes begin so.
+/// Prefix of the Scenario ids of our own synthetic scenes.
 pub const SYNTHETIC_PREFIX: &str = "synth-";
 
 /// Options for reading a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Records to pass over.
+    /// Number of records to skip.
     pub skip: usize,
-    /// Most scenes to give; later records are not read.
+    /// Greatest number of scenes to read; later records are not read.
     pub max_scenes: usize,
-    /// Most bytes once decompressed.
+    /// Most bytes after decompression.
     pub max_decoded_bytes: u64,
     /// Most bytes of one record.
     pub max_record_bytes: u64,
     /// Greatest ratio of decompressed to compressed bytes, after the first MiB.
     pub max_expansion: u64,
-    /// Check the CRCs.
+    /// Whether to verify the CRCs.
     pub verify_crc: bool,
     /// Licence of the scenes; by default Waymo's, and cc0 for ids that begin with `synth-`.
     pub licence: Option<String>,
@@ -92,7 +93,7 @@ impl<R: Read> Iterator for ScenarioReader<R> {
         while self.options.skip > 0 {
             self.options.skip -= 1;
             if let Err(error) = self.reader.next()? {
-                // A fault in what is passed over matters only when nothing can follow it.
+                // A fault in a skipped record matters only if no record can follow it.
                 if self.reader.has_ended() {
                     return Some(Err(error));
                 }
@@ -107,7 +108,7 @@ impl<R: Read> Iterator for ScenarioReader<R> {
     }
 }
 
-/// Reads a whole file in memory. One entry a record; a broken record does not stop the others.
+/// Reads a whole file in memory. One entry per record; a broken record does not stop the others.
 pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadError>> {
     match ScenarioReader::new(bytes, options.clone()) {
         Ok(records) => records.collect(),
@@ -115,8 +116,8 @@ pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadErr
     }
 }
 
-/// Whether the record is a tf.Example: its field 1 holds a message of messages under field 1. A Scenario has
-/// a list of doubles there, the first of which is near zero.
+/// Whether the record is a tf.Example: its field 1 contains a message of messages under field 1. A Scenario
+/// has a list of doubles there, the first of which is near zero.
 fn is_example(data: &[u8]) -> bool {
     let Some(rest) = data.strip_prefix(&[0x0a]) else { return false };
     let length = rest.iter().position(|byte| byte & 0x80 == 0).map_or(0, |last| last + 1);

@@ -99,7 +99,7 @@ pub struct MapPoint {
 }
 
 impl MapPoint {
-    /// The point in the plane; what is missing is zero.
+    /// The position in the plane; missing coordinates are zero.
     pub fn plane(&self) -> Vec2 {
         Vec2::new(self.x.unwrap_or(0.0), self.y.unwrap_or(0.0))
     }
@@ -183,7 +183,7 @@ pub struct BoundarySegment {
     pub boundary_type: Option<i32>,
 }
 
-/// `RoadLine` and `RoadEdge`: the same fields, other words for the type.
+/// `RoadLine` and `RoadEdge`: the same fields with other words for the type.
 #[derive(Clone, PartialEq, Message)]
 pub struct TypedLine {
     #[prost(int32, optional, tag = "1")]
@@ -216,7 +216,7 @@ pub struct Example {
 
 #[derive(Clone, PartialEq, Message)]
 pub struct Features {
-    /// In the order of names, so that the same scene is the same bytes.
+    /// Sorted by name, so that equal scenes give equal bytes.
     #[prost(btree_map = "string, message", tag = "1")]
     pub feature: BTreeMap<String, Feature>,
 }

@@ -10,10 +10,10 @@ use std::io::{self, BufReader, Read, Write};
 
 /// Most bytes of one record.
 pub const MAX_RECORD_BYTES: u64 = 128 << 20;
-/// Bytes of a record that are read at first.
+/// Bytes of a record that are read first.
 const PIECE: u64 = 1 << 20;
 
-/// CRC-32C, rotated and offset as TFRecord does, so that the CRC of data that holds CRCs is useful.
+/// CRC-32C, rotated and offset as in TFRecord, so that the CRC of data that contain CRCs is useful.
 pub fn masked_crc(bytes: &[u8]) -> u32 {
     crc32c::crc32c(bytes).rotate_right(15).wrapping_add(0xa282_ead8)
 }
@@ -41,7 +41,7 @@ pub fn looks_like(head: &[u8]) -> bool {
     }
 }
 
-/// One record's data and where its frame begins in the decoded stream.
+/// One record's data, and the beginning of its frame in the decoded stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TfRecord {
     /// Offset of `data` in the decoded stream.
@@ -59,14 +59,14 @@ pub struct RecordReader<R: Read> {
     ended: bool,
 }
 
-/// Why a read stopped short.
+/// Reason for which a read ended early.
 enum ReadEnd {
     End,
     Fault(ReadError),
 }
 
 impl<R: Read> RecordReader<R> {
-    /// Reads the first bytes to distinguish gzip from plain.
+    /// Reads the first bytes, to distinguish gzip from plain data.
     ///
     /// # Errors
     /// `malformed-file` if the reader fails.
@@ -77,7 +77,7 @@ impl<R: Read> RecordReader<R> {
         Ok(Self { input, offset: 0, verify_crc, max_bytes, ended: false })
     }
 
-    /// True when nothing can follow: the end, or a fault in the framing.
+    /// Whether nothing can follow: at the end, or after a fault in the framing.
     pub fn has_ended(&self) -> bool {
         self.ended
     }
@@ -86,7 +86,7 @@ impl<R: Read> RecordReader<R> {
     fn fill(&mut self, buffer: &mut Vec<u8>, wanted: u64) -> Result<(), ReadError> {
         let mut left = wanted;
         while left > 0 {
-            // In pieces, so that no more is reserved than about as much again as has come.
+            // In pieces, so that the reserved memory is at most about twice the bytes that have come.
             let piece = left.min(PIECE.max(buffer.len() as u64));
             let before = buffer.len();
             buffer.reserve_exact(piece as usize);
@@ -149,7 +149,7 @@ impl<R: Read> RecordReader<R> {
 impl<R: Read> Iterator for RecordReader<R> {
     type Item = Result<TfRecord, ReadError>;
 
-    /// After a fault in a record's data the next record follows; after one in the framing nothing.
+    /// After a fault in a record's data the next record follows; after one in the framing, nothing does.
     fn next(&mut self) -> Option<Self::Item> {
         if self.ended {
             return None;
@@ -179,7 +179,7 @@ mod tests {
         let falling: Vec<u8> = (0..32).rev().collect();
         assert_eq!(crc32c::crc32c(&falling), 0x113f_db5c);
         assert_eq!(crc32c::crc32c(b"123456789"), 0xe306_9283);
-        // Masks of 0 and of a value that is easily checked by hand.
+        // Masks of 0 and of a value that is easily verified by hand.
         assert_eq!(masked_crc(b""), 0xa282_ead8);
         assert_eq!(masked_crc(b"123456789"), 0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8));
     }

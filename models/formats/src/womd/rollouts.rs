@@ -1,4 +1,4 @@
-//! Futures as a submission to Waymo's Sim Agents challenge: the samples of a scene are its rollouts.
+//! Writes futures as a submission to Waymo's Sim Agents challenge: the samples of a scene are its rollouts.
 
 use super::export::{agent_ids, record_id};
 use super::proto::{JointScene, ScenarioRollouts, SimAgentsChallengeSubmission, SimulatedTrajectory};
@@ -18,9 +18,9 @@ use std::io;
 const STEPS: usize = 80;
 /// Step from which the challenge plans, which is the present of its scenarios.
 const NOW_STEP: usize = 10;
-/// Rollouts that the challenge takes.
+/// Number of rollouts that the challenge requires.
 const ROLLOUTS: usize = 32;
-/// The sort of submission, by its number.
+/// Number of the kind of submission.
 const SIM_AGENTS: i32 = 1;
 const METHOD: &str = "DragTraffic";
 
@@ -79,7 +79,7 @@ impl Format for SimAgents {
     }
 }
 
-/// Refuses a scene whose present, or whose futures, begin at another step than the challenge's.
+/// Refuses a scene whose present or futures begin at another step than in the challenge.
 fn begins_as_asked(scene: &Scene, options: &ExportOptions) -> io::Result<()> {
     let samples = scene.generated.iter().flat_map(|generated| &generated.samples).enumerate();
     let written = samples.filter(|(i, _)| options.sample.is_none_or(|sample| sample == *i));
@@ -99,7 +99,7 @@ fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>)
     let ids = agent_ids(&scene.agents, &mut renumbered);
     losses.extend(renumbered);
     let samples: Vec<&Sample> = scene.generated.iter().flat_map(|generated| &generated.samples).collect();
-    // Without futures the log is the one rollout.
+    // Without futures, the log is the only rollout.
     let samples: Vec<Option<&Sample>> = match options.sample {
         Some(number) => vec![samples.get(number).copied()],
         None if samples.is_empty() => vec![None],
@@ -148,7 +148,7 @@ fn rollout(
             unseen = true;
             ahead(&state)
         });
-        // A recorded way has its own heights; a generated one keeps the last known.
+        // A recorded path has its own heights; a generated one keeps the last known height.
         z_m = height(step).filter(|_| futures.is_none() && agent.track.at(step).is_some()).unwrap_or(z_m);
         let at = frame.place(state.position());
         way.center_x.push(at.x as f32);
@@ -160,7 +160,7 @@ fn rollout(
     Some(way)
 }
 
-/// A step on, as fast as before.
+/// The state one step later at the same velocity.
 fn ahead(state: &State) -> State {
     State { x_m: state.x_m + state.vx_mps * STEP_S, y_m: state.y_m + state.vy_mps * STEP_S, ..*state }
 }

@@ -1,13 +1,13 @@
-//! A look over a record's protobuf bytes before they become structs: every length fits, and no repeated
-//! message is more frequent than a scene can use. A two-byte message becomes a struct of up to a hundred
-//! bytes, so without this check a small file could allocate gigabytes.
+//! Checks a record's protobuf bytes before they become structs: every length fits, and no repeated message is
+//! more frequent than a scene can use. A two-byte message becomes a struct of up to a hundred bytes, so
+//! without this check a small file could allocate gigabytes.
 
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, more_than, wanted, what};
 use scene::message::Word;
 
-/// Most tracks that are looked at; the nearest 256 become road users.
+/// Most tracks that are read; the nearest 256 become road users.
 pub const MAX_TRACKS: usize = 2_048;
 
 /// Message type, as far as nesting and counting need it.
@@ -69,7 +69,7 @@ impl ScenarioMessage {
 
 const KINDS: usize = ScenarioMessage::Point as usize + 1;
 
-/// Walks over one record that begins at `offset` of the decoded file.
+/// Checks one record that begins at `offset` of the decoded file.
 pub fn check(bytes: &[u8], offset: u64) -> Result<(), ReadError> {
     let mut counts = [0; KINDS];
     walk(ScenarioMessage::Scenario, WireCursor { bytes, at: 0, offset }, &mut counts)
@@ -110,7 +110,7 @@ struct WireCursor<'a> {
 }
 
 impl<'a> WireCursor<'a> {
-    /// Field number and, where it is length-delimited, its content.
+    /// Field number, and its content if it is length-delimited.
     fn next_field(&mut self) -> Result<Option<(u64, Option<WireCursor<'a>>)>, ReadError> {
         if self.at >= self.bytes.len() {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Table 7: what each part brings, by leaving it out.
+//! Table 7: the contribution of each part of the product, measured by leaving it out.
 
 use super::measure::{given_motion, is_met, left_to_goal, log_loss, measure};
 use super::quality::request;
@@ -50,7 +50,7 @@ impl Without {
         }
     }
 
-    /// The call of table 1 without this part.
+    /// The request of table 1 without this part.
     fn request(self, site: &Site<'_>, case: &Case, subset: Subset, seed: u64) -> Request {
         let id = &site.log(case).id;
         let mut scene = site.asked(case, subset);
@@ -74,7 +74,7 @@ impl Without {
 /// Conditions of the table.
 const SUBSETS: [Subset; 2] = [Subset::None, Subset::PosSpeedHeading];
 
-/// One road user's answers under one condition, by [`Without::ALL`].
+/// Answers of one road user under one condition, in the order of [`Without::ALL`].
 struct CaseAnswers {
     site: usize,
     subset: Subset,
@@ -87,7 +87,7 @@ struct Found {
     min_ade: f64,
     first_ade: f64,
     log_loss: Option<f64>,
-    /// 1 where the future shown meets its goal, 0 where it does not; `None` without a goal.
+    /// 1 if the shown future meets its goal, 0 if not; `None` without a goal.
     met: Option<f64>,
     road: OffRoad,
 }
@@ -103,7 +103,7 @@ impl Found {
 }
 
 const COLUMNS: [&str; 6] = ["minADE6", "first ADE", "log loss", "goals met", "off lanes", "past edges"];
-/// Columns before these are plain numbers, from here on they are shares.
+/// Columns before this index are plain numbers, the others are shares.
 const FIRST_SHARE: usize = 3;
 
 fn found(
@@ -213,7 +213,7 @@ fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) 
     Ok(vec![figures, differences])
 }
 
-/// A row's figure with a part left out minus the complete one; `None` where either has none.
+/// Figure of a row with a part left out minus that of the complete product; `None` if either is missing.
 fn difference(row: &CaseAnswers, index: usize, column: usize) -> Option<Value> {
     let [without, complete] = [index, 0].map(|i| row.found[i].and_then(|f| f.values(row.site)[column]));
     let (without, complete) = (without?, complete?);
@@ -271,7 +271,7 @@ mod tests {
         assert_eq!(figures.lines.len(), SUBSETS.len() * Without::ALL.len());
         assert_eq!(differences.lines.len(), SUBSETS.len() * (Without::ALL.len() - 1));
         let mean = |sheet: &Sheet, line: usize, column: usize| match sheet.lines[line].cells[column] {
-            // Two vehicles in each of two scenes; the pedestrian is none.
+            // Two vehicles in each of two scenes; pedestrians do not count.
             Cell::Estimate { estimate, .. } if column < 2 => (estimate.mean, estimate.samples == 4),
             Cell::Estimate { estimate, .. } => (estimate.mean, estimate.samples == 4 * 30),
             _ => panic!("no figure"),

@@ -1,4 +1,4 @@
-//! Which road users are judged, and under which conditions.
+//! The road users that are evaluated, and their conditions.
 
 use lab_train::polylines::Polylines;
 use lab_train::scenes::blind;
@@ -24,7 +24,7 @@ pub enum Subset {
 }
 
 impl Subset {
-    /// All of them, in the tables' order.
+    /// All subsets, in the order of the tables.
     pub const ALL: [Self; 5] = [Self::None, Self::Pos, Self::PosSpeed, Self::PosSpeedHeading, Self::Speed];
 
     /// Name in tables.
@@ -38,27 +38,27 @@ impl Subset {
         }
     }
 
-    /// The goal's position is fixed.
+    /// Whether the goal's position is fixed.
     pub fn has_position(self) -> bool {
         matches!(self, Self::Pos | Self::PosSpeed | Self::PosSpeedHeading)
     }
 }
 
-/// A moving road user that is judged.
+/// A moving road user that is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Index into the scene's agents.
     pub agent: usize,
     /// Its type.
     pub agent_type: AgentType,
-    /// Scene step of the goal: 90, or the last valid one before.
+    /// Scene step of the goal: 90, or the last valid one before it.
     pub goal_step: usize,
     /// State at the first step.
     pub start: State,
 }
 
 impl Case {
-    /// The goal that the log gives, some fields left free.
+    /// The goal from the log, with some fields left free.
     pub fn goal(&self, scene: &Scene, subset: Subset) -> Goal {
         let Some(state) = scene.agents[self.agent].state_at(self.goal_step) else { return Goal::default() };
         let position = subset.has_position();
@@ -72,8 +72,8 @@ impl Case {
     }
 }
 
-/// Moving road users: there at the first step, at least 30 valid steps after it, farther than 2 m from
-/// the start at some time in the window.
+/// Moving road users: present at the first step, with at least 30 valid steps after it, and farther than 2 m
+/// from the start at some time in the window.
 pub fn cases(scene: &Scene) -> Vec<Case> {
     scene.agents.iter().enumerate().filter_map(|(i, agent)| case(i, agent)).collect()
 }
@@ -92,13 +92,13 @@ fn case(index: usize, agent: &Agent) -> Option<Case> {
     })
 }
 
-/// A scene made ready to be judged.
+/// A scene prepared for the evaluation.
 pub struct Site<'a> {
-    /// Place in the list of scenes: what figures are resampled by.
+    /// Index in the list of scenes, by which figures are resampled.
     pub index: usize,
-    /// As it was recorded.
+    /// The recorded scene.
     pub scene: &'a Scene,
-    /// The scene as the experts may see it: [`blind`].
+    /// The scene without what the experts must not see: [`blind`].
     pub blind: Scene,
     /// Lanes of its map with their links.
     pub graph: Arc<LaneGraph>,
@@ -110,7 +110,7 @@ pub struct Site<'a> {
 }
 
 impl<'a> Site<'a> {
-    /// Works out what all tables need of a scene.
+    /// Computes what all tables need of a scene.
     pub fn new(index: usize, scene: &'a Scene) -> Self {
         Self {
             index,
@@ -123,7 +123,7 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Name for files and seeds: the source's id where there is one.
+    /// Name for files and seeds: the id in the source if there is one.
     pub fn name(&self) -> &str {
         self.scene.meta.source_id.as_deref().unwrap_or(&self.scene.name)
     }

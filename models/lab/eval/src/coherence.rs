@@ -1,4 +1,4 @@
-//! Table 2: does a scene that is generated together hang together?
+//! Table 2: the coherence of scenes whose road users are generated together.
 
 use super::measure::mean_distance_m;
 use super::rivals::{Together, least_effort};
@@ -21,11 +21,11 @@ use std::collections::BTreeSet;
 pub(super) struct SceneCoherence {
     /// Moving road users.
     pub(super) moving: f64,
-    /// Those in an overlap that begins within 3, 6 and 9 s.
+    /// Moving road users in an overlap that begins within 3, 6 and 9 s.
     pub(super) overlapping: [f64; 3],
-    /// Share of all generated road users in a collision by the paper's form.
+    /// Share of all generated road users in a collision by the paper's definition.
     paper: f64,
-    /// Of the moving vehicles.
+    /// Off-road figures of the moving vehicles.
     pub(super) road: OffRoad,
     /// Sum of the moving road users' mean distances from the log, metres.
     pub(super) distance: f64,
@@ -37,7 +37,7 @@ const STEPS_A_SECOND: f64 = 10.0;
 /// Seconds within which overlaps are counted.
 const WITHIN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
-/// Judges one scene; pairs that are left out may overlap.
+/// Evaluates one scene; the given pairs may overlap.
 pub(super) fn judge(
     site: &Site<'_>,
     motions: &Motions,
@@ -178,7 +178,7 @@ fn coherence(
             }
             for &steps in replan_steps {
                 let name = format!("{}: re-planned every {} s", own.name, steps as f64 / STEPS_A_SECOND);
-                // Every 9 s is once: the product as it is.
+                // A single plan for 9 s is the product as it is.
                 if steps == HORIZON_STEPS {
                     line(&name, &product);
                     continue;
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn overlaps_are_counted_once_a_road_user_and_in_time() {
-        // The second catches up with the first: 4.7 m long both, 35 m behind, 5 m/s faster: after 6 s.
+        // The second car catches up with the first: both 4.7 m long, 35 m behind, 5 m/s faster: after 6 s.
         let scene = scene(vec![
             shifted(log("a", 5.0, 91), 35.0, 0.0),
             log("b", 5.0, 91),

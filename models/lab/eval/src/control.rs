@@ -19,9 +19,9 @@ use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// Road users whose goals are dragged.
+/// Greatest number of road users whose goals are dragged.
 const MOST_CASES: usize = 200;
-/// Distances by which the goal is moved, metres: both ways along the lane and across it.
+/// Distances by which the goal is moved, metres: in both directions along the lane and across it.
 const MOVES_M: [f64; 5] = [2.0, 4.0, 8.0, 15.0, 30.0];
 /// Shift of the goal that tests for jumps of the answer, metres.
 const NUDGE_M: f64 = 0.05;
@@ -38,21 +38,21 @@ enum DragDirection {
 struct CounterfactualDrag {
     site: usize,
     way: DragDirection,
-    /// Speed and heading are fixed too.
+    /// Whether speed and heading are fixed too.
     full: bool,
     met: bool,
-    /// Metres left to the goal's position.
+    /// Remaining distance to the goal's position, metres.
     left_m: f64,
     reported: bool,
-    /// Distance of the reported nearest state from what the shown future does, metres.
+    /// Distance between the reported nearest state and the shown future, metres.
     beside_report_m: f64,
     futures: usize,
     outside: usize,
-    /// Vehicle steps off the lanes, and all.
+    /// Vehicle steps off the lanes, and all vehicle steps.
     off: (f64, f64),
     /// Displacement of the shown future when its goal moves by 5 cm, metres.
     jump_m: f64,
-    /// Overlap with any other road user: with reactions off, and with all reactions on.
+    /// Overlap with any other road user: without reactions, and with all reactions.
     hits: Option<[bool; 2]>,
 }
 
@@ -90,7 +90,7 @@ fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
     Ok(sheets.into())
 }
 
-/// At most so many road users, drawn by the seed: indices of their sites and of the cases there.
+/// At most this many road users, drawn by the seed: indices of their sites and of the cases there.
 pub(super) fn picked(sites: &[Site<'_>], seed: u64, most: usize) -> Vec<(usize, usize)> {
     let mut picked: Vec<(usize, usize)> =
         sites.iter().enumerate().flat_map(|(s, site)| (0..site.cases.len()).map(move |c| (s, c))).collect();
@@ -100,7 +100,8 @@ pub(super) fn picked(sites: &[Site<'_>], seed: u64, most: usize) -> Vec<(usize, 
     picked
 }
 
-/// The logged goal's position moved so far along its lane or across it, everything else free; `None` without one.
+/// The logged goal with its position moved along its lane or across it, and everything else free; `None`
+/// without a position.
 pub(super) fn dragged_goal(site: &Site<'_>, case: &Case, along: bool, metres: f64) -> Option<Goal> {
     let logged = case.goal(site.scene, Subset::PosSpeedHeading);
     let way = if along { DragDirection::Along } else { DragDirection::Across };
@@ -140,7 +141,7 @@ fn dragged(
                 let nudged = Goal { position: Some(position + nudge), ..goal };
                 let mut drag = drag(generator, site, case, goal, nudged, seed)?;
                 (drag.way, drag.full) = (way, full);
-                // One drag in four, each way in turn.
+                // One drag in four, in each direction in turn.
                 if !full && k == i % ways.len() {
                     drag.hits = Some(hits(generator, site, case, goal, seed)?);
                 }
@@ -233,7 +234,7 @@ fn shown<'a>(answer: &'a Answer, id: &str) -> &'a [State] {
     futures.and_then(|f| f.modes.get(f.chosen)).map_or(&[], |f| &f.states)
 }
 
-/// Whether the dragged road user overlaps any other: when the others replay their log, and when they react.
+/// Whether the dragged road user overlaps any other: while the others replay their log, and while they react.
 fn hits(generator: &Generator, site: &Site<'_>, case: &Case, goal: Goal, seed: u64) -> Result<[bool; 2]> {
     let mut out = [false; 2];
     for (hit, react) in out.iter_mut().zip([React::Nobody, React::Everyone]) {
@@ -245,7 +246,8 @@ fn hits(generator: &Generator, site: &Site<'_>, case: &Case, goal: Goal, seed: u
     Ok(out)
 }
 
-/// Boxes of two overlap at some third step, in a pair that does not overlap in the log.
+/// Whether the road user's box overlaps another one at some third step, in a pair that does not overlap in
+/// the log.
 fn meets_anybody(scene: &Scene, agent: usize, sample: &Sample) -> bool {
     let outline = |i: usize, step: usize, generated: bool| {
         let agent = &scene.agents[i];

@@ -1,4 +1,4 @@
-//! Table 6: how long answers take, how that grows, how many scenes an hour, how much memory.
+//! Table 6: latency and its growth, scenes per hour, and memory.
 
 use super::sheet::{Cell, Form, Sheet};
 use super::table::{Made, TableSpec, Trial};
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Requests of each whole scene.
+/// Repetitions of the request for each whole scene.
 const ROUNDS: usize = 3;
 /// Groups of scenes by the size of their maps.
 const MAP_SIZES: usize = 3;
@@ -28,7 +28,7 @@ pub struct Percentiles {
 }
 
 impl Percentiles {
-    /// Of readings in any order, milliseconds.
+    /// Percentiles of readings in any order, milliseconds.
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
@@ -54,8 +54,8 @@ struct Call {
     settled_ms: f64,
 }
 
-/// Times calls over scenes: one dragged road user (a goal at its log's end) on a map that is new and on one
-/// that is known, and 8, 32 and 128 road users at once.
+/// Measures calls over scenes: one dragged road user (with a goal at its log's end) on a new and on a known
+/// map, and 8, 32 and 128 road users at once.
 ///
 /// # Errors
 /// When the generator fails.
@@ -110,7 +110,7 @@ fn row(what: &str, threads: usize, calls: Vec<Call>) -> Latency {
     Latency { what: what.into(), threads, first_event, settled }
 }
 
-/// Points of a map's lanes and edges.
+/// Number of points of a map's lanes and edges.
 fn points(map: &LaneMap) -> usize {
     let lanes = map.lanes.iter().map(|lane| lane.points.xy.len());
     lanes.chain(map.road_edges.iter().map(|edge| edge.points.xy.len())).sum()
@@ -143,7 +143,7 @@ fn timed(generator: &Generator, scene: &Arc<Scene>, ids: &BTreeSet<AgentId>) -> 
     Ok(Call { first_ms: first.unwrap_or(settled_ms), settled_ms })
 }
 
-/// Scenes an hour when each is generated whole, at most 128 road users of it, one scene a thread.
+/// Scenes per hour when each is generated as a whole, with at most 128 road users and one scene per thread.
 fn scenes_an_hour(generator: &Generator, threads: usize, scenes: &[Scene]) -> Result<f64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let whole = |scene: &Scene| timed(generator, &Arc::new(scene.clone()), &movable(scene, 128)).map(|_| ());
@@ -162,7 +162,7 @@ fn resident_mb() -> Option<f64> {
 /// Table 6.
 pub(super) const TABLE: TableSpec = TableSpec { number: 6, name: "cost", make: cost };
 
-/// Two sheets: milliseconds; then scenes an hour and memory.
+/// Two sheets: milliseconds; scenes per hour and memory.
 fn cost(trial: &mut Trial<'_>) -> Result<Made> {
     let scenes = trial.scenes;
     let mut times = Sheet::new(

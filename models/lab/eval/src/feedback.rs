@@ -1,5 +1,5 @@
-//! Table 10: how many rounds of cards until a person sees what they want, when what they say is learned from, and when
-//! others are drawn at random. The people are simulated, their wishes hidden.
+//! Table 10: how many rounds of cards a person needs to see the wanted future, with learning from feedback
+//! and with random draws. The persons are simulated, and their preferences are hidden.
 
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
@@ -14,25 +14,25 @@ use scene::random::{Key, Stream};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// People with wishes of their own, for each road user.
+/// Persons with individual preferences, for each road user.
 const PEOPLE: u64 = 8;
 /// Cards of a round.
 const CARDS: usize = 6;
-/// Draws, each for a round; then the first one comes again, as other cards.
+/// Number of draws, one for each round; then the first one is repeated with other cards.
 const DRAWS: u64 = 8;
 /// Rounds after which a simulated user gives up.
 const MOST_ROUNDS: usize = 60;
-/// Share of all candidates drawn that the user wants: the ones liked best.
+/// Share of all drawn candidates that the person wants: those liked best.
 const WANTED: f64 = 0.02;
-/// An answer in so many is the wrong way round.
+/// Share of feedback that is reversed by mistake.
 const SLIPS: f64 = 0.1;
-/// Of a round at most so many are rejected, the least liked.
+/// Most rejected cards of a round, those liked least.
 const REJECTED: usize = 3;
 /// Share of rejected cards for which the user gives a reason.
 const SAID_WHY: f64 = 0.5;
-/// Luck at random is the mean of so many tries.
+/// Number of tries over which random draws are averaged.
 const TRIES: u8 = 20;
-/// Road users of a scene, the first ones of each type.
+/// Road users of a scene for each type, the first ones.
 const CASES_A_TYPE: usize = 2;
 
 /// Table 10.
@@ -42,16 +42,16 @@ pub(super) const TABLE: TableSpec = TableSpec {
     make: |trial| Ok(vec![feedback(&trial.judged, &trial.sites, &trial.boot, trial.seed)?].into()),
 };
 
-/// Rounds until what is wanted is among the cards.
+/// Rounds until the wanted future is among the cards.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rounds {
-    /// By what was said.
+    /// With feedback.
     pub told: f64,
-    /// The same, some of it with a word why.
+    /// With feedback, partly with a reason.
     pub why: f64,
-    /// Six at random of the same wide draws.
+    /// With six random cards from the same wide draws.
     pub random: f64,
-    /// The six futures of a new seed each time.
+    /// With the six futures of a new seed each time.
     pub seeds: f64,
 }
 
@@ -126,7 +126,7 @@ pub(super) fn of_case(generator: &Generator, site: &Site<'_>, case: &Case, seed:
         let mut request = Request::new(Arc::clone(&scene)).round(Feedback::default());
         request.agents = Some(BTreeSet::from([id.clone()]));
         request.seed = seed + k;
-        // The draw itself is wanted, not the first cards of it.
+        // The whole draw is needed, not its first cards.
         request.feedback = None;
         let samples = generator.answer(request)?.samples;
         let mut draw = Candidate::futures(&scene, &samples, &id);
@@ -156,7 +156,7 @@ struct Hidden {
     average: f64,
     deviation: f64,
     weight: f64,
-    /// About so many deviations above the average; `None`: the more the better.
+    /// Preferred value in deviations above the average; `None`: the more the better.
     about: Option<f64>,
 }
 
@@ -248,7 +248,7 @@ impl Person {
 }
 
 impl Hidden {
-    /// Nothing where all are alike.
+    /// Nothing if all candidates are alike.
     fn new(of: Trait, all: &[&Features], stream: &mut Stream) -> Option<Self> {
         let values: Vec<f64> = all.iter().filter_map(|f| f.value(&of)).collect();
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;

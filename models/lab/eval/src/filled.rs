@@ -1,5 +1,5 @@
-//! Filled scenes: empty maps of templates and recordings are filled by placement and generated together without goals.
-//! Their scores show what placement leaves to the generator.
+//! Filled scenes: placement fills empty maps of templates and recordings, and the road users are generated
+//! together without goals. The scores show the faults that placement causes.
 
 use anyhow::{Result, anyhow};
 use experts::placement::{Amount, PlaceRequest};
@@ -15,14 +15,14 @@ use std::fmt::Write as _;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// What goes wrong sooner than this is already wrong in the placement, seconds.
+/// A fault sooner than this is already in the placement, seconds.
 const SOON_S: f64 = 1.0;
 /// Range of the number of road users of a draw.
 const COUNTS: RangeInclusive<usize> = 20..=80;
 
-/// One filled scene with its futures, and what is wrong with it.
+/// One filled scene with its futures and faults.
 pub struct Filled {
-    /// The scene, whose name holds map and seed.
+    /// The scene; its name contains map and seed.
     pub scene: Scene,
     /// Its faults in the order of time.
     pub faults: Vec<FilledFault>,
@@ -34,11 +34,11 @@ pub struct FilledFault {
     pub kind: &'static str,
     /// Scene time at which it begins, seconds.
     pub time_s: f64,
-    /// Who, where and how, for people.
+    /// Road users, place and kind, for people.
     pub what: String,
 }
 
-/// The templates' scenes, then those given without their road users.
+/// The scenes of the templates, then the given scenes without their road users.
 ///
 /// # Errors
 /// When a template cannot be drawn.
@@ -119,7 +119,7 @@ fn faults(scene: &Scene, score: &SceneScore, state: &StateAt<'_>) -> Vec<FilledF
         .collect()
 }
 
-/// Two road users: how they stand to each other, their speeds and places at the start and at the time.
+/// Describes two road users: their relation, speeds and positions at the start and at the given time.
 fn pair(scene: &Scene, state: &StateAt<'_>, time_s: f64, ids: [&str; 2]) -> String {
     let [Some(a), Some(b)] = ids.map(|id| state(id, time_s)) else { return String::new() };
     let turn = wrap_angle(a.heading_rad - b.heading_rad).abs();

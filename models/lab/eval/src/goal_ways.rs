@@ -1,4 +1,4 @@
-//! Whether the road leads a road user to a goal in the time, and whether the goal is free.
+//! Whether a road user can reach a goal along the road in time, and whether the goal is free.
 
 use super::{Case, Site};
 use scene::geometry::obb::{OrientedBox, overlaps};
@@ -7,26 +7,26 @@ use scene::routes::{GoalQuery, Pose, Route, RouteKind, routes_to_goal};
 use scene::score::Thresholds;
 use scene::{Goal, STEP_S};
 
-/// Share of what limits allow that a way may need to count as driven in time: there are bends.
+/// Share of the motion limits that a path may use to count as feasible in time, because there are bends.
 const PRESSED_SHARE: f64 = 0.8;
 
-/// Distance between the places of a way at which its greatest speed is looked up, metres.
+/// Distance between the points of a path at which its greatest speed is computed, metres.
 const SPACING_M: f64 = 1.0;
-/// Bends are looked at over so much way, metres.
+/// Length over which bends are measured, metres.
 const BEND_M: f64 = 4.0;
 
-/// How a route with the traffic leads to a goal; the best way counts.
+/// How a route along the traffic leads to a goal; the best path counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum InTime {
-    /// None does in the time, or there is no room on the road there.
+    /// No route does in time, or the road has no room there.
     No,
     /// Within the motion limits.
     Pressed,
-    /// Also without a fault of speed: speeding, harsh braking, harsh steering in the bends.
+    /// Also without a speed fault: no speeding, harsh braking or harsh steering in bends.
     Lawful,
 }
 
-/// How a route with the traffic leads to the goal in the time, if there is room for the vehicle on the road there.
+/// How a route along the traffic leads to the goal in time, if the road has room for the vehicle there.
 pub(super) fn in_time(site: &Site<'_>, case: &Case, goal: &Goal) -> InTime {
     let Some(position) = goal.position else { return InTime::No };
     let size = site.log(case).size;
@@ -58,7 +58,8 @@ pub(super) fn in_time(site: &Site<'_>, case: &Case, goal: &Goal) -> InTime {
     ways.map(|r| how(&r.route)).max().unwrap_or(InTime::No)
 }
 
-/// A way of this length can be driven by when the goal is due, neither too far nor too near to slow down for.
+/// Whether a path of this length can be driven until the goal is due: it is neither too long nor too short
+/// for braking.
 fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
     let limits = limits(site, case);
     let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
@@ -69,8 +70,8 @@ fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
     (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
 }
 
-/// The same without a fault of speed: below the speeds at which speeding is one, in bends too, and with easy enough
-/// braking.
+/// Whether that is possible without a speed fault: below the speeds that count as speeding, also in bends,
+/// and with moderate braking.
 fn is_lawful(site: &Site<'_>, case: &Case, route: &Route) -> bool {
     let thresholds = Thresholds::default();
     let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
@@ -93,7 +94,7 @@ fn is_lawful(site: &Site<'_>, case: &Case, route: &Route) -> bool {
     let accel = PRESSED_SHARE * limits(site, case).accel_mps2;
     let (mut speed, mut least_s) = (v0, 0.0);
     for most in &most[1..] {
-        // One that is too fast at the start slows down.
+        // A road user that is too fast at the start slows down.
         let slowed = (speed * speed - 2.0 * brake * step_m).max(0.0).sqrt();
         let next = (speed * speed + 2.0 * accel * step_m).sqrt().min(most.max(slowed));
         least_s += step_m / (0.5 * (speed + next)).max(0.1);
@@ -102,7 +103,7 @@ fn is_lawful(site: &Site<'_>, case: &Case, route: &Route) -> bool {
     least_s <= seconds && braked_m(v0, seconds, brake) <= length_m
 }
 
-/// How far a vehicle gets that brakes at this rate, metres.
+/// Distance of a vehicle that brakes at this rate, metres.
 fn braked_m(v0: f64, seconds: f64, brake_mps2: f64) -> f64 {
     let braking_s = seconds.min(v0 / brake_mps2);
     v0 * braking_s - 0.5 * brake_mps2 * braking_s * braking_s
@@ -113,8 +114,8 @@ fn limits(site: &Site<'_>, case: &Case) -> Limits {
     Limits::of(case.agent_type, log.subtype, log.size.length_m)
 }
 
-/// Whether no logged road user occupies the goal when it is due. With a free heading the arrival is along the
-/// lane, else straight from the start.
+/// Whether no logged road user occupies the goal when it is due. With a free heading, the arrival is along
+/// the lane, otherwise straight from the start.
 pub(super) fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;

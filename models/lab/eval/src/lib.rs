@@ -52,7 +52,7 @@ pub use tables::TABLES;
 use experts::Generator;
 use lab_train::baselines::Baseline;
 
-/// Weights under judgement.
+/// Weights to evaluate.
 pub struct Judged {
     /// Name in tables.
     pub name: String,

@@ -5,28 +5,28 @@ use scene::geometry::direction;
 use scene::motion::{MotionModel, MotionState, Sampled, Smoothing, Trajectory, fit, limit_excess};
 use scene::{Agent, Future, Goal, HORIZON_STEPS, STANDING_MPS, State, Vec2, wrap_angle};
 
-/// Errors of one road user's futures. Distances in metres, over the steps at which the log is known.
+/// Errors of one road user's futures, over the steps at which the log is known. Distances in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {
     /// Least mean distance of any future.
     pub min_ade: f64,
-    /// Least distance at the end of any future; with a goal position at the frame before the goal.
+    /// Least distance at the end of any future; with a goal position, at the frame before the goal.
     pub min_fde: f64,
-    /// Mean distance of the future shown.
+    /// Mean distance of the shown future.
     pub first_ade: f64,
-    /// End distance of the future shown.
+    /// Distance at the end of the shown future.
     pub first_fde: f64,
     /// Mean distance of the most probable future.
     pub likeliest_ade: f64,
-    /// Mean distance of the future closest at its end: the paper's rule.
+    /// Mean distance of the future that is closest at its end: the paper's rule.
     pub closest_ade: f64,
-    /// Mean absolute heading error of that future while the log moves, radians; `None` where it never does.
+    /// Mean absolute heading error of that future while the log moves, radians; `None` if it never moves.
     pub heading_rad: Option<f64>,
     /// Mean absolute speed error of that future, m/s.
     pub speed_mps: f64,
-    /// Mean absolute error of the future shown along the logged heading.
+    /// Mean absolute error of the shown future along the logged heading.
     pub along: f64,
-    /// The same across it.
+    /// Mean absolute error of the shown future across the logged heading.
     pub across: f64,
     /// Index of the best future by mean distance.
     pub best: usize,
@@ -34,10 +34,11 @@ pub struct Measured {
 
 /// Greatest mean distance of a motion that follows a log, metres.
 const FOLLOWED_M: f64 = 0.3;
-/// Greatest difference of its last speed, m/s.
+/// Greatest difference of the last speeds, m/s.
 const ARRIVED_MPS: f64 = 1.5;
 
-/// Errors of `futures` (never empty, first steps right after the start), `shown` being the one on display.
+/// Errors of `futures` (never empty, first step right after the start); `shown` is the index of the shown
+/// one.
 pub fn measure(log: &Agent, case: &Case, subset: Subset, futures: &[Future], shown: usize) -> Measured {
     let known: Vec<(usize, State)> =
         (1..=HORIZON_STEPS).filter_map(|step| Some((step, log.state_at(step)?))).collect();
@@ -78,7 +79,7 @@ pub fn measure(log: &Agent, case: &Case, subset: Subset, futures: &[Future], sho
     }
 }
 
-/// Frame at which the end is measured: the goal's, or, where its position was given, the one before.
+/// Frame at which the end is measured: that of the goal or, if its position was given, the one before.
 fn end_step(log: &Agent, case: &Case, subset: Subset) -> usize {
     if !subset.has_position() {
         return case.goal_step;
@@ -98,7 +99,8 @@ pub fn likeliest(futures: &[Future]) -> usize {
     best
 }
 
-/// Probabilities of an answer's futures given that the road user moves, as in all cases it does: to stay has none.
+/// Probabilities of an answer's futures given that the road user moves, as in all cases: the probability of
+/// staying is zero.
 pub fn given_motion(futures: &[Future]) -> Vec<f64> {
     let stays = |f: &Future| f.states.windows(2).all(|pair| pair[0].position() == pair[1].position());
     let shares = futures.iter().map(|f| if stays(f) { 0.0 } else { f.probability });
@@ -107,7 +109,7 @@ pub fn given_motion(futures: &[Future]) -> Vec<f64> {
 }
 
 /// Negative log likelihood of the best future by [`given_motion`]; `None` for a single future, for a road
-/// user that is to stay, and for formulas, which have no probabilities.
+/// user that must stay, and for formulas, which have no probabilities.
 pub fn log_loss(probabilities: &[f64], best: usize) -> Option<f64> {
     let p = *probabilities.get(best)?;
     (probabilities.len() > 1 && p > 0.0).then(|| -p.max(1e-6).ln())
@@ -138,7 +140,7 @@ fn least(values: &[f64]) -> usize {
     (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0)
 }
 
-/// Remaining distance of a future to a case's goal when it is due, as [`goal_error`]; `None` if the future
+/// Remaining distance of a future to a case's goal when it is due, as in [`goal_error`]; `None` if the future
 /// ends earlier.
 pub fn left_to_goal(goal: &Goal, case: &Case, future: &Future) -> Option<[f64; 3]> {
     future.states.get(case.goal_step - 1).map(|state| goal_error(goal, state))
@@ -153,7 +155,7 @@ pub fn goal_error(goal: &Goal, state: &State) -> [f64; 3] {
     ]
 }
 
-/// Within 0.05 m, 0.02 rad and 0.05 m/s.
+/// Whether the rest is within 0.05 m, 0.02 rad and 0.05 m/s.
 pub fn is_met([position_m, heading_rad, speed_mps]: [f64; 3]) -> bool {
     position_m < 0.05 && heading_rad < 0.02 && speed_mps < 0.05
 }
@@ -169,7 +171,7 @@ pub fn following(log: &Agent, start: State) -> Trajectory {
     model.rollout(&fit(&model, &samples, Smoothing::WISHED))
 }
 
-/// Mean distance from a log, metres, of a motion given by its position at each step.
+/// Mean distance between a log and a motion given by its position at each step, metres.
 pub fn mean_distance_m(log: &Agent, at: impl Fn(usize) -> Vec2) -> f64 {
     let known = (1..=HORIZON_STEPS).filter_map(|step| Some((step, log.state_at(step)?)));
     mean(known.map(|(step, logged)| (logged.position() - at(step)).norm()))
@@ -177,7 +179,7 @@ pub fn mean_distance_m(log: &Agent, at: impl Fn(usize) -> Vec2) -> f64 {
 
 /// Whether the logged motion is physically possible: the motion that follows the log stays within
 /// [`FOLLOWED_M`] of it on average and arrives within [`ARRIVED_MPS`] of its last speed. Trackers that lose
-/// or mix up road users leave logs that no road user can follow.
+/// or confuse road users leave logs that no road user can follow.
 pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
     let motion = following(log, case.start);
     let arrives = log
@@ -187,7 +189,7 @@ pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
 }
 
 /// Whether a future breaks a limit of its road user. Exact rest breaks none, because a small speed at a
-/// standing start is the detector's noise.
+/// standing start is noise of the detector.
 pub fn is_outside_limits(agent: &Agent, start: &State, future: &Future) -> bool {
     if start.speed_mps() < STANDING_MPS && future.states.iter().all(|s| s.position() == start.position()) {
         return false;
@@ -212,7 +214,7 @@ mod tests {
 
     #[test]
     fn known_distances() {
-        // The log drives east at 10 m/s. One future is 2 m to the left all the time, one 10 % too fast.
+        // The log drives east at 10 m/s. One future is always 2 m to the left, one 10 % too fast.
         let log = log("a", 10.0, 91);
         let left = straight(0.25, 10.0, 2.0);
         let fast = straight(0.75, 11.0, 0.0);
@@ -274,7 +276,7 @@ mod tests {
     fn logs_that_nobody_can_follow_are_told() {
         let steady = log("a", 10.0, 91);
         assert!(can_be_followed(&steady, &case(&steady)));
-        // The tracker takes up another vehicle, 30 m ahead.
+        // The tracker jumps to another vehicle, 30 m ahead.
         let mut leap = steady.clone();
         for state in leap.track.states.iter_mut().skip(50).flatten() {
             state.x_m += 30.0;

@@ -1,4 +1,4 @@
-//! The rows of table 1 about what stands: does it stay, and does it move off as in the log?
+//! The rows of table 1 about standing vehicles: whether they stay, and whether they move off as in the log.
 
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// Most road users of one call.
 const MOST: usize = 128;
-/// Less than this is standing still, metres.
+/// A shorter distance counts as standing, metres.
 const MOVED_M: f64 = 1e-6;
 
 /// Vehicles that keep their place in the log: seen for 8 s, within 0.3 m, standing at the start.
@@ -44,22 +44,22 @@ fn drifts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<f64>>
     Ok(parked.iter().filter_map(drift).collect())
 }
 
-/// A vehicle that stands on a lane at the start, and what its log does.
+/// A vehicle that stands on a lane at the start, with the behaviour of its log.
 struct StandingStart {
     site: usize,
-    /// The log is off by [`OFF_M`] within the window, or stands for all of it.
+    /// Whether the log moves farther than [`OFF_M`] within the window; otherwise it stands for all of it.
     log_moves: bool,
     moves: bool,
 }
 
-/// A log that gets farther than this from its place moves off, metres.
+/// A log that gets farther than this from its start moves off, metres.
 const OFF_M: f64 = 5.0;
-/// A vehicle that stands on a lane is no farther from its middle, metres, and no more askew, radians.
+/// Greatest distance of a vehicle on a lane from the centre line, metres, and greatest angle to it, radians.
 const ON_LANE: (f64, f64) = (1.5, 0.5);
 
-/// Vehicles that stand on a lane at the start, of a whole scene that is generated without goals.
+/// Vehicles that stand on a lane at the start, from a whole scene that is generated without goals.
 fn standing_starts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<StandingStart>> {
-    // The lights are those of the recording: they are part of a scene, not of what its agents do.
+    // The signals are those of the recording: they belong to the scene, not to the motion of its agents.
     let mut blind = site.blind.clone();
     blind.signals.clone_from(&site.scene.signals);
     let mut request = Request::new(Arc::new(blind));
@@ -89,7 +89,7 @@ fn standing_starts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<
     Ok(each.filter_map(|(agent, states)| start(agent, states.as_ref()?)).collect())
 }
 
-/// Do those move off that do in the log, and those stay that stay?
+/// Shares of vehicles that move off as in the log, and that stay as in the log.
 ///
 /// # Errors
 /// When a generator fails.

@@ -12,7 +12,7 @@ use scene::{AgentFutures, AgentType, Scene, Size, Vec2};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Pictures of each kind.
+/// Number of pictures of each kind.
 const EACH: usize = 10;
 
 /// The ten best, ten worst and ten random cases of each type by minADE, without a goal and with its position
@@ -58,7 +58,7 @@ pub fn of_outcomes(
     Ok(drawn.filter_map(|(name, found)| found.map(|(who, svg)| (format!("{name}-{who}.svg"), svg))).collect())
 }
 
-/// Scene and road user as words for a file's name, and the picture.
+/// Scene and road user as words of a file name, and the picture.
 fn drawn(
     generator: &Generator,
     site: &Site<'_>,
@@ -69,7 +69,7 @@ fn drawn(
     let Some((futures, _)) = alone(generator, site, case, outcome.subset, true, seed)? else {
         return Ok(None);
     };
-    // The picture shows the log, which the experts were not shown.
+    // The picture shows the log, which the experts did not see.
     let mut scene = site.scene.clone();
     let agent = &mut scene.agents[case.agent];
     agent.conditions.goal = case.goal(site.scene, outcome.subset);
@@ -79,23 +79,23 @@ fn drawn(
     Ok(Some((who, futures_svg(&scene, &futures, case.start.position()))))
 }
 
-/// Scene and road user as words for a file's name.
+/// Scene and road user as words of a file name.
 pub(super) fn who(site: &Site<'_>, id: &str) -> String {
     let plain: String = site.name().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
     format!("{}-{}", if plain.is_empty() { "scene" } else { &plain }, id.replace(':', "_"))
 }
 
-/// Half the side of the square that is shown, metres.
+/// Half the side of the visible square, metres.
 const HALF_M: f64 = 70.0;
 const SIDE_PX: f64 = 900.0;
 
-/// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red with its box each second
-/// and what is wrong with it, goals as circles.
+/// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red with its box each
+/// second and its faults, goals as circles.
 pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, centre: Vec2) -> String {
     marked_svg(scene, futures, centre, None)
 }
 
-/// The same with a ring and its id at the start of one road user.
+/// The same picture with a ring at the start of one road user, and its id.
 pub fn marked_svg(
     scene: &Scene,
     futures: &BTreeMap<String, AgentFutures>,

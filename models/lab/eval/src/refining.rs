@@ -1,4 +1,4 @@
-//! Table 8: what refinement brings, and what each of its parts does.
+//! Table 8: the effect of refinement and of each of its parts.
 
 use super::coherence::{SceneCoherence, from_log_m, judge};
 use super::realism::closeness;
@@ -28,7 +28,7 @@ struct Variant {
     refining: Refining,
 }
 
-/// Rows of the table: the product first.
+/// Rows of the table; the first is the product.
 fn variants() -> Vec<Variant> {
     let full = Refining::default();
     let variant = |name, steps, refining| Variant { name, steps, diversity: 1.0, refining };
@@ -58,7 +58,7 @@ const COLUMNS: [(&str, Form); 9] = [
     ("first ADE", Form::Plain),
 ];
 
-/// Figures of one scene, column by column, and the time of its answer.
+/// Figures of one scene, by column, and the time of its answer.
 struct SceneFigures {
     values: [Option<Value>; COLUMNS.len()],
     took_ms: f64,
@@ -119,8 +119,7 @@ pub(super) const TABLE: TableSpec = TableSpec {
     },
 };
 
-/// The figures, and their paired differences to the complete product; and the times, which are
-/// never the same twice.
+/// The figures, their paired differences to the complete product, and the times, which differ in each run.
 ///
 /// # Errors
 /// When a generator fails.
@@ -245,7 +244,7 @@ mod tests {
                 [&figures.lines[block + variant], &figures.lines[block], line].map(|l| mean(&l.cells[3]));
             assert!((cells[0] - cells[1] - cells[2]).abs() < 1e-9, "{cells:?}");
         }
-        // The variants differ from each other, as far as random weights can show.
+        // The variants differ from each other as far as random weights can show it.
         let ades: BTreeSet<u64> =
             figures.lines[..count].iter().map(|l| mean(&l.cells[3]).to_bits()).collect();
         assert!(ades.len() >= count - 1, "{ades:?}");

@@ -16,9 +16,9 @@ pub struct CropReport {
     /// The crop.
     #[serde(flatten)]
     pub crop: Crop,
-    /// Scenes left out for having too few road users.
+    /// Scenes that were left out because they have too few road users.
     pub scenes_left_out: usize,
-    /// Road users outside, in the scenes that were kept.
+    /// Road users outside the crop, in the scenes that were kept.
     pub road_users_outside: usize,
 }
 
@@ -32,11 +32,11 @@ pub struct EvalReport {
     /// Effect of the crop before the evaluation; `None` without a crop.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crop: Option<CropReport>,
-    /// Hash of each expert's weights, by name of the judged.
+    /// Hash of each expert's weights, by the name of the evaluated weights.
     pub weights: BTreeMap<String, BTreeMap<String, String>>,
     /// Tables 1 to 5, 7 and 8.
     pub sheets: Vec<Sheet>,
-    /// Table 6 and the times of table 8: the clock's readings, never the same twice.
+    /// Table 6 and the times of table 8, which differ in each run.
     #[serde(skip)]
     pub cost: Vec<Sheet>,
     /// File name and SVG.

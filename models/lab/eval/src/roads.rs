@@ -6,26 +6,26 @@ use super::together::STRIDE;
 use scene::geometry::obb::OrientedBox;
 use scene::{AgentType, HORIZON_STEPS, State};
 
-/// Farther from every lane is off the road, metres.
+/// Distance from every lane above which a vehicle is off the road, metres.
 const OFF_LANES_M: f64 = 2.5;
-/// A corner farther beyond a road edge is past it, metres.
+/// Distance of a corner beyond a road edge above which it is past it, metres.
 const PAST_EDGE_M: f64 = 0.1;
 
-/// Steps that a vehicle spends off the road: of every third step at which its log is known.
+/// Steps that a vehicle spends off the road, of every third step at which its log is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OffRoad {
     /// Steps evaluated.
     pub steps: f64,
-    /// Those more than 2.5 m off every lane.
+    /// Evaluated steps more than 2.5 m off every lane.
     pub off_lanes: f64,
     /// Steps evaluated where the map has edges.
     pub edge_steps: f64,
-    /// Those with a corner past a road edge.
+    /// Evaluated steps with a corner past a road edge.
     pub past_edges: f64,
 }
 
 impl OffRoad {
-    /// Counts the states at steps 1 ..= 90 of an agent of the scene; zero for any other type than vehicle.
+    /// Counts the states at steps 1 ..= 90 of an agent of the scene; zero for all types except vehicles.
     pub fn of(site: &Site<'_>, agent: usize, states: &[State]) -> Self {
         let mut out = Self::default();
         let agent = &site.scene.agents[agent];

@@ -20,14 +20,14 @@ pub struct EvalOptions {
     pub seed: u64,
     /// Pictures of table 1's best, worst and random cases.
     pub pictures: bool,
-    /// Table 2 has a line for the product re-planned after so many steps each, 1..=90.
+    /// Steps between replans of the product, 1..=90; each has a line in table 2.
     pub replan_steps: Vec<usize>,
-    /// Which road users count, and how many a scene must have.
+    /// Crop: which road users count, and how many a scene needs.
     pub crop: Crop,
 }
 
-/// Makes the tables, telling `progress` what is under way and `made` what is there after each table. The first of `judged` is in the pictures, and
-/// `baselines` stand beside them in tables 1, 2 and 4.
+/// Makes the tables. `progress` is told the current step, and `made` the results after each table. The first
+/// of `judged` is in the pictures, and `baselines` are compared in tables 1, 2 and 4.
 ///
 /// # Errors
 /// When a generator or `made` fails, or the crop leaves no scene.
@@ -72,7 +72,7 @@ pub fn run(
     Ok(report)
 }
 
-/// The scenes that a crop leaves, and what it did.
+/// The scenes that a crop leaves, and its effect.
 fn cropped(scenes: &[Scene], crop: Crop) -> Result<(Cow<'_, [Scene]>, Option<CropReport>)> {
     if crop == Crop::default() {
         return Ok((scenes.into(), None));

@@ -149,7 +149,7 @@ impl Sheet {
     }
 }
 
-/// Sample count of a line's first figure; others say theirs where it is another.
+/// Sample count of a line's first figure; other figures state theirs if it differs.
 fn samples(line: &SheetRow) -> u64 {
     let of = |cell: &Cell| match cell {
         Cell::Estimate { estimate, .. } => Some(estimate.samples),

@@ -1,5 +1,5 @@
-//! Figures with intervals: means and shares with 95 % bootstrap intervals, resampled by scene, because road
-//! users of one scene share its map, its lights and each other.
+//! Figures with intervals: means and shares with 95 % bootstrap intervals. Whole scenes are resampled,
+//! because road users of one scene share its map, its signals and each other.
 
 use lab_train::quantile;
 use scene::random::Key;
@@ -11,11 +11,11 @@ const REPLICATES: usize = 1000;
 /// One measured value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
-    /// Scene it comes from, an index below the count that the [`Bootstrap`] was made for.
+    /// Index of its scene, below the count of the [`Bootstrap`].
     pub scene: usize,
     /// Numerator: the value itself, or a count.
     pub value: f64,
-    /// Denominator: 1, or what the count is a share of.
+    /// Denominator: 1, or the total of which the count is a share.
     pub weight: f64,
 }
 
@@ -45,7 +45,7 @@ pub struct Estimate {
     pub high: f64,
     /// Number of measurements: the sum of the weights.
     pub samples: u64,
-    /// Scenes that it was measured in.
+    /// Number of scenes with measurements.
     pub scenes: u64,
 }
 
@@ -56,7 +56,7 @@ pub struct Bootstrap {
 }
 
 impl Bootstrap {
-    /// Resamples of so many scenes.
+    /// Resamples of this many scenes.
     pub fn new(scenes: usize, seed: u64) -> Self {
         let mut draw = Key::default().number(seed).words(&["bootstrap"]).stream();
         let replicate = |_| {
@@ -71,7 +71,7 @@ impl Bootstrap {
         Self { counts: (0..REPLICATES).map(replicate).collect() }
     }
 
-    /// Mean of values, or the share where values are counts; `None` of nothing.
+    /// Mean of values, or the share if values are counts; `None` without values.
     pub fn estimate(&self, values: impl IntoIterator<Item = Value>) -> Option<Estimate> {
         let scenes = self.counts.first().map_or(0, Vec::len);
         let mut sums = vec![(0.0, 0.0); scenes];
@@ -96,7 +96,7 @@ impl Bootstrap {
     }
 }
 
-/// Mean of one replicate; `None` where none of its scenes has a value.
+/// Mean of one replicate; `None` if none of its scenes has a value.
 fn resampled(counts: &[u16], sums: &[(f64, f64)]) -> Option<f64> {
     let (value, weight) = counts.iter().zip(sums).fold((0.0, 0.0), |(value, weight), (count, sum)| {
         (value + f64::from(*count) * sum.0, weight + f64::from(*count) * sum.1)

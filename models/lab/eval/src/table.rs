@@ -10,7 +10,7 @@ use scene::Scene;
 /// A table of the evaluation.
 #[derive(Debug)]
 pub struct TableSpec {
-    /// Its number, which the titles of its sheets begin with.
+    /// Its number, with which the titles of its sheets begin.
     pub number: usize,
     /// Subject, as a name.
     pub name: &'static str,
@@ -26,13 +26,13 @@ pub(super) struct Trial<'a> {
     pub(super) baselines: &'a [Baseline],
     /// The scenes.
     pub(super) scenes: &'a [Scene],
-    /// The same, made ready.
+    /// The scenes, prepared for the evaluation.
     pub(super) sites: Vec<Site<'a>>,
     /// Resamples of the scenes.
     pub(super) boot: Bootstrap,
     /// Draws noise, drags and random pictures.
     pub(super) seed: u64,
-    /// Steps between replans of the product, a row of table 2 each.
+    /// Steps between replans of the product; each is a row of table 2.
     pub(super) replan_steps: &'a [usize],
     /// Whether to draw pictures.
     pub(super) pictures: bool,
@@ -50,7 +50,7 @@ impl Trial<'_> {
 pub(super) struct Made {
     /// Figures, the same for the same seed.
     pub(super) sheets: Vec<Sheet>,
-    /// The clock's readings, never the same twice.
+    /// Times, which differ in each run.
     pub(super) times: Vec<Sheet>,
     /// File name and SVG.
     pub(super) pictures: Vec<(String, String)>,

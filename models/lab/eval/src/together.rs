@@ -1,4 +1,4 @@
-//! Whole scenes: joint generation of all movable road users, and their overlaps.
+//! Whole scenes: joint generation of all road users that can move, and their overlaps.
 
 use super::measure::at;
 use super::{Site, Subset};
@@ -11,33 +11,34 @@ use std::sync::Arc;
 
 /// Most road users of one call.
 const MOST: usize = 128;
-/// Every third step is evaluated, without the start.
+/// Every third step is evaluated, except the start.
 pub const STRIDE: usize = 3;
 /// Number of evaluated moments.
 pub const MOMENTS: usize = HORIZON_STEPS / STRIDE;
-/// Intersection over union above which the paper calls it a collision.
+/// Intersection over union above which the paper counts a collision.
 pub const PAPER_IOU: f64 = 0.02;
-/// A goal this near a road user's start requires no motion, metres.
+/// A goal within this distance of a road user's start requires no motion, metres.
 const IN_PLACE_M: f64 = 0.3;
-/// A log that leaves its place by less than this stands, metres.
+/// A log that stays within this distance of its start stands, metres.
 const STANDING_M: f64 = 2.0;
 
 /// Options of a whole scene's request.
 #[derive(Clone, Copy, Debug)]
 pub struct Ask {
-    /// Goals from the log (position, speed, heading) for moving road users; the others keep their place.
+    /// Whether moving road users get goals from the log (position, speed, heading); the others keep their
+    /// place.
     pub goals: bool,
     /// Refinement steps.
     pub steps: usize,
     /// Scale of the draw's noise.
     pub diversity: f64,
-    /// Parts that run.
+    /// Stages that run.
     pub stages: Stages,
     /// Steps between replans; `None` plans once.
     pub replan_steps: Option<usize>,
     /// Joint scenes.
     pub samples: usize,
-    /// Repeats the answer.
+    /// Seed; equal seeds give equal answers.
     pub seed: u64,
 }
 
@@ -126,7 +127,7 @@ pub fn motions_of(site: &Site<'_>, sample: &Sample) -> Motions {
     site.scene.agents.iter().map(|agent| shown(&agent.id)).collect()
 }
 
-/// A standing road user without a goal elsewhere keeps its place.
+/// Whether a standing road user keeps its place because it has no goal elsewhere.
 pub(super) fn rests(start: &State, goal: &Goal) -> bool {
     let stays = |place: Vec2| (place - start.position()).norm() < IN_PLACE_M;
     start.speed_mps() < STANDING_MPS && goal.position.is_none_or(stays)
@@ -150,19 +151,19 @@ pub fn motions_by(
     out
 }
 
-/// Those generated, as logged.
+/// Logged motions of the road users that are generated.
 pub fn motions_of_log(site: &Site<'_>) -> Motions {
     let mut out: Motions = vec![None; site.scene.agents.len()];
     for i in generated(site) {
         let log = &site.scene.agents[i];
-        // Gaps are never looked at: a moment counts where the log is known.
+        // Gaps are never read: a moment counts only if the log is known.
         let states = (1..=HORIZON_STEPS).map(|step| log.state_at(step).unwrap_or_default());
         out[i] = Some(states.collect());
     }
     out
 }
 
-/// Boxes of the generated at the moments at which their log is known.
+/// Boxes of the generated road users at the moments at which their log is known.
 pub struct Boxes {
     boxes: Vec<(usize, Vec<Option<OrientedBox>>)>,
 }
@@ -183,12 +184,13 @@ impl Boxes {
         Self { boxes: (0..motions.len()).filter_map(of).collect() }
     }
 
-    /// First moment at which each pair of agents overlaps, and whether it ever does so in the paper's form.
+    /// First moment of overlap of each pair of agents, and whether it ever is a collision by the paper's
+    /// definition.
     pub fn meetings(&self) -> Vec<OverlappingPair> {
         self.meetings_over(PAPER_IOU)
     }
 
-    /// The same with another threshold of the intersection over union in the paper's form.
+    /// Overlaps with another threshold of the intersection over union for the paper's definition.
     pub fn meetings_over(&self, threshold: f64) -> Vec<OverlappingPair> {
         let mut out = Vec::new();
         for (k, (i, a)) in self.boxes.iter().enumerate() {
@@ -210,7 +212,7 @@ impl Boxes {
 pub struct OverlappingPair {
     /// Agents of the scene, the lower index first.
     pub pair: (usize, usize),
-    /// Moment at which it begins, from 0.
+    /// Moment at which the overlap begins, from 0.
     pub first: usize,
     /// The boxes' intersection over union exceeds the threshold at some moment; the default is 0.02.
     pub paper: bool,

@@ -1,5 +1,6 @@
-//! Table 9: what a traffic engineer would say of dragged goals. Faults of what is shown and of all six, by whether the
-//! road leads to the goal; reactions and their causes; near-copies; jumps of what is shown; red lights.
+//! Table 9: dragged goals from the view of a traffic engineer. Faults of the shown future and of all six, by
+//! whether the road leads to the goal; reactions and their causes; near copies; jumps of the shown future;
+//! red lights.
 
 use super::control;
 use super::goal_ways::{self, InTime};
@@ -20,15 +21,15 @@ use scene::random::Key;
 use scene::{AgentFutures, AgentId, AgentType, Future, Goal, Vec2};
 use std::collections::BTreeSet;
 
-/// Most road users with dragged goals; ten drags each.
+/// Most road users with dragged goals, with ten drags each.
 const MOST_CASES: usize = 150;
 /// Distances by which goals are moved, metres; each along the lane and across it, with alternating sign.
 const MOVES_M: [f64; 5] = [2.0, -4.0, 8.0, -15.0, 30.0];
 /// Shift of the goal that tests for jumps of the answer, metres.
 const NUDGE_M: f64 = 0.05;
-/// Futures nearer than this on average are copies, metres.
+/// Futures whose mean distance is below this are copies, metres.
 const COPY_M: f64 = 0.5;
-/// A driver this far before a red stop line gets a goal that requires waiting, metres.
+/// A driver within this distance of a red stop line gets a goal that requires waiting, metres.
 const BEFORE_LINE_M: f64 = 50.0;
 /// Half seconds of a window.
 const SHOWN: usize = 18;
@@ -62,7 +63,7 @@ pub(super) const TABLE: TableSpec = TableSpec {
 /// Pictures of the worst drags of each kind.
 const WORST: usize = 20;
 
-/// One drag with what came of it.
+/// One drag with its result.
 struct Drag {
     site: usize,
     /// Index into the site's cases, and where the goal was put.
@@ -76,20 +77,22 @@ struct Drag {
     by_road: InTime,
     /// No logged road user occupies the goal when it is due.
     free: bool,
-    /// Of the shown future.
+    /// Faults of the shown future.
     shown: BTreeSet<FaultKind>,
-    /// Futures with each fault, and all.
+    /// Faults of each future.
     all: Vec<BTreeSet<FaultKind>>,
-    /// The shown future is farther past the road's edges than the judge's tolerance and nothing says so.
+    /// Whether the shown future is farther past the road's edges than the tolerance, without a fault that
+    /// reports it.
     unsaid: bool,
-    /// It collides with a road user that was not there at the start.
+    /// Whether it collides with a road user that was absent at the start.
     hits_late: bool,
-    /// Others that got another motion, those without a cause among them.
+    /// Number of others with a changed motion, and the number of those without a cause.
     changed: [usize; 2],
-    /// Futures that are near another, and lists in which two have the same relations and manoeuvre.
+    /// Futures that are near another one, and lists in which two have the same relations and manoeuvre.
     copies: usize,
     repeats: bool,
-    /// Farthest that the shown future moved when its goal moved by 5 cm, metres, and whether its letter changed.
+    /// Greatest displacement of the shown future when its goal moves by 5 cm, metres, and whether its letter
+    /// changed.
     jump_m: f64,
     letter_changed: bool,
 }
@@ -272,7 +275,8 @@ fn last_shown(future: &Future) -> ShownLast {
     ShownLast { anchor: future.anchor, places: places.collect() }
 }
 
-/// Past the road's edges by half a metre or more, from inside them, without a fault that says so.
+/// Whether it goes past the road's edges by half a metre or more, from inside them, without a fault that
+/// reports it.
 fn leaves_unsaid(site: &Site<'_>, case: &Case, future: &Future) -> bool {
     let size = site.log(case).size;
     let outside = |state: &scene::State| {
@@ -284,7 +288,7 @@ fn leaves_unsaid(site: &Site<'_>, case: &Case, future: &Future) -> bool {
         && !future.about.faults.iter().any(said)
 }
 
-/// Futures that are a copy of one before them.
+/// Number of futures that are a copy of an earlier one.
 fn copies(futures: &AgentFutures) -> usize {
     let apart = |a: &Future, b: &Future| {
         let pairs = a.states.iter().zip(&b.states).step_by(5);
@@ -296,7 +300,7 @@ fn copies(futures: &AgentFutures) -> usize {
     (1..modes.len()).filter(|&i| (0..i).any(|j| apart(&modes[i], &modes[j]) < COPY_M)).count()
 }
 
-/// Two futures do the same before, after and behind the same.
+/// Whether two futures have the same manoeuvre and relations to the same road users.
 fn repeats(futures: &AgentFutures) -> bool {
     let key = |f: &Future| {
         let relations: BTreeSet<(RelationKind, AgentId)> =
@@ -307,8 +311,8 @@ fn repeats(futures: &AgentFutures) -> bool {
     keys.len() < futures.modes.len()
 }
 
-/// A driver before a line that is red at the start: probability of running it without a goal, and whether the shown
-/// future does.
+/// A driver before a line that is red at the start: its probability of running the light without a goal, and
+/// whether the shown future does.
 struct RedLightCase {
     site: usize,
     runs: f64,
@@ -340,7 +344,7 @@ fn before_red(generator: &Generator, sites: &[Site<'_>], seed: u64) -> Result<Ve
     Ok(found?.into_iter().flatten().collect())
 }
 
-/// A vehicle at most so far before a stop line that is red at the start, on its lane.
+/// Whether a vehicle is within this distance before a stop line that is red at the start, on its lane.
 fn is_before_red(site: &Site<'_>, agent: &scene::Agent) -> bool {
     let Some(state) = agent.state_at(0).filter(|_| agent.agent_type == AgentType::Vehicle) else {
         return false;

@@ -1,4 +1,4 @@
-//! Table 5: are the futures different, and does asking for more variety give it?
+//! Table 5: whether the futures differ, and whether the diversity setting increases the difference.
 
 use super::measure::measure;
 use super::quality::request;
@@ -15,9 +15,9 @@ use std::collections::BTreeSet;
 
 /// Settings of diversity that are compared.
 const DIVERSITIES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
-/// Samples without a goal in which exits are looked for.
+/// Samples without a goal in which exits are searched.
 const SAMPLES: usize = 12;
-/// Exits count as one if their headings differ by less.
+/// Exits count as one if their headings differ by less than this.
 const SAME_EXIT_RAD: f64 = 0.5;
 /// A future that ends this near a route has taken it, metres.
 const ON_ROUTE_M: f64 = 3.0;
@@ -166,7 +166,7 @@ fn distance(a: &Future, b: &Future) -> f64 {
     sum / a.states.len().min(b.states.len()).max(1) as f64
 }
 
-/// Share of futures nearer than this to one before them.
+/// Share of futures within this distance of an earlier one.
 fn copies(futures: &AgentFutures, same_m: f64) -> f64 {
     let modes = &futures.modes;
     let copy = |i: &usize| modes[..*i].iter().any(|other| distance(&modes[*i], other) < same_m);
@@ -247,7 +247,8 @@ fn exits(graph: &LaneGraph, case: &Case) -> Vec<Vec<Polyline>> {
     out
 }
 
-/// The only direction whose routes contain a future's end; `None` before the routes part, or off all of them.
+/// The only direction whose routes contain a future's end; `None` before the routes diverge, or off all of
+/// them.
 fn exit_of(exits: &[Vec<Polyline>], future: &Future) -> Option<usize> {
     let end = future.states.last()?;
     let on = |path: &Polyline| {
@@ -277,7 +278,7 @@ mod tests {
         let left = Polyline::new([Vec2::new(0.0, 0.0), Vec2::new(50.0, 0.0), Vec2::new(50.0, 90.0)]);
         let exits = vec![vec![on], vec![left]];
         assert_eq!(exit_of(&exits, &straight(1.0, 10.0, 0.0)), Some(0));
-        // Before the fork both fit.
+        // Before the fork, both routes fit.
         assert_eq!(exit_of(&exits, &straight(1.0, 4.0, 0.0)), None);
         assert_eq!(exit_of(&exits, &straight(1.0, 10.0, 20.0)), None);
     }

@@ -1,4 +1,4 @@
-//! Maps that placement fills are safe to start from: nothing goes wrong before anybody could do something about it.
+//! Scenes that placement fills are a safe start: no fault occurs before any road user could react.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use experts::Engine;
@@ -15,7 +15,7 @@ fn filled_templates_start_without_collisions_and_near_misses() {
         faults.filter(|f| f.kind == kind && f.time_s < than_s).map(|f| f.what.as_str()).collect()
     };
     assert_eq!(sooner("collision", 1.0), Vec::<&str>::new());
-    // One may begin to change lanes at once.
+    // One road user may begin a lane change at once.
     assert!(sooner("near miss", 0.35).len() <= 1, "{:#?}", sooner("near miss", 0.35));
     assert!(markdown(&filled, false).contains("40 filled scenes"));
 }

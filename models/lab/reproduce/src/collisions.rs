@@ -1,5 +1,5 @@
 //! Table II: collision rates with all road users generated together and replanned. The scenes are those of
-//! the recording with the most encounters between different road user types.
+//! the recording with the most encounters between road users of different types.
 
 use crate::methods::{Answerer, Entrants, Method};
 use crate::paper;
@@ -13,7 +13,7 @@ use lab_eval::stats::{Bootstrap, Value};
 use lab_eval::together::{Ask, Boxes, Motions, logged_pairs, motions_by, motions_of, motions_of_log, scenes};
 use std::collections::BTreeSet;
 
-/// Steps of a second.
+/// Steps per second.
 const STEPS_A_SECOND: usize = 10;
 /// Methods that generate whole scenes.
 const METHODS: [Method; 4] = [Method::Mixture, Method::Paper, Method::OursTrained, Method::OursShipped];
@@ -29,17 +29,17 @@ pub struct CollisionOptions {
     pub seed: u64,
 }
 
-/// Shares of the road users that collide in one scene.
+/// Shares of colliding road users in one scene.
 struct CollisionShares {
     scene: usize,
     log: f64,
-    /// Least effort to each end, planned once.
+    /// The path of least effort to each end, planned once.
     formula: f64,
     /// By [`paper::ROLLOUTS_S`] and [`METHODS`].
     rates: Vec<[Option<f64>; METHODS.len()]>,
 }
 
-/// The paper's Table II with its own figures beside, and how many scenes were chosen.
+/// The paper's Table II beside its own figures, and the number of chosen scenes.
 ///
 /// # Errors
 /// When a network fails, the data have changed, or the run is stopped.

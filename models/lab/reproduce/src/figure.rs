@@ -1,5 +1,5 @@
-//! The paper's qualitative figure, "creating, editing and correction", on whatever scenes there are: its cases (a) to (d)
-//! and one of each task, as a page of pictures.
+//! The paper's qualitative figure, "creating, editing and correction", on the available scenes: its cases (a)
+//! to (d) and one of each task, as a page of pictures.
 
 mod choose;
 mod panels;
@@ -18,7 +18,7 @@ use std::fmt::Write as _;
 /// File of the page in the folder of a run.
 pub const FIGURE_FILE: &str = "figure.html";
 
-/// All panels; what no scene shows is left out and named.
+/// All panels; panels without a suitable scene are left out and named.
 ///
 /// # Errors
 /// When the generator fails, the data have changed, or the run is stopped.
@@ -31,7 +31,7 @@ pub fn make(
     stop: &Stop,
     progress: &dyn Fn(&str),
 ) -> Result<Vec<Panel>> {
-    // The ego's squares; where the filters leave none, those about people.
+    // The squares around the ego; if the filters leave none, those around people.
     let of = |centre: Option<Centre>| -> Vec<TestCase> {
         let all = sets.tests.iter().filter(|case| centre.is_none_or(|c| c == case.centre));
         all.cloned().collect()

@@ -1,13 +1,12 @@
-//! The paper by one command: from a folder of recordings to its Tables I and II in their shape and order, with its own
-//! figures beside, on whatever data there is; and its figure of creating, editing and correcting.
+//! Reproduces the paper by one command: from a folder of recordings to Tables I and II in the paper's form,
+//! beside the paper's own figures, on any data; and to its figure of creating, editing and correcting.
 //!
 //! ```text
 //! recordings -> sets (records, list of tests) -> training (weights) -> quality, collisions -> report
 //! ```
 //!
-//! Each step leaves its result in the folder of the run, and a run that goes on begins after the last one
-//! that is done. The same data, settings and seed give the same files; the clock is read only for progress
-//! messages.
+//! Each step leaves its result in the folder of the run, and a resumed run begins after the last complete
+//! step. The same data, settings and seed give the same files; the clock is used only for progress messages.
 
 mod collisions;
 mod figure;
@@ -32,7 +31,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Set by others to end a run soon.
+/// A flag by which other threads stop a run.
 pub type Stop = Arc<AtomicBool>;
 
 /// The run was stopped on request; finished parts are kept.
@@ -49,7 +48,7 @@ fn stopped(stop: &Stop) -> anyhow::Result<()> {
 /// A file with the place of a scene in it.
 type ScenePlace = ((sets::Part, usize), usize);
 
-/// Numbers of the scenes that cases come from: what figures are resampled by.
+/// Indices of the scenes of the cases, by which figures are resampled.
 fn scene_index(cases: &[sets::TestCase]) -> BTreeMap<ScenePlace, usize> {
     let mut out = BTreeMap::new();
     for case in cases {

@@ -20,16 +20,16 @@ pub enum Method {
     Mixture,
     /// The paper's own.
     Paper,
-    /// Our experts trained on the same records for as long.
+    /// Our experts trained on the same records with the same schedule.
     OursTrained,
-    /// Our experts as they are shipped.
+    /// Our shipped experts.
     OursShipped,
-    /// A cubic spline to the end: what can be had without learning.
+    /// A cubic spline to the end: the result without learning.
     Spline,
 }
 
 impl Method {
-    /// In the order of the tables.
+    /// All methods, in the order of the tables.
     pub const ALL: [Self; 6] =
         [Self::TrafficGen, Self::Mixture, Self::Paper, Self::OursTrained, Self::OursShipped, Self::Spline];
 
@@ -53,13 +53,13 @@ pub struct Entrants {
     paper: Option<Baseline>,
     trained: Option<Generator>,
     shipped: Generator,
-    /// Sets that there were records to learn from.
+    /// Sets with training records.
     learned: [bool; 3],
 }
 
-/// Answering part of a method.
+/// The answering part of a method.
 pub enum Answerer<'a> {
-    /// A learned rival, and whether it is shown the condition.
+    /// A learned rival, and whether it sees the condition.
     Learned(&'a Baseline, bool),
     /// Experts.
     Ours(&'a Generator),
@@ -68,8 +68,9 @@ pub enum Answerer<'a> {
 }
 
 impl Entrants {
-    /// Loads what was trained; for types that there was nothing to learn from, ours of the same records are the shipped
-    /// ones in whole scenes, and have no line of their own. `shipped` is used on one thread, as scenes are judged side by side.
+    /// Loads the trained networks. For types without training data, the shipped experts replace ours of the
+    /// same records in whole scenes, and these have no line of their own. `shipped` runs on one thread, since
+    /// scenes are evaluated in parallel.
     ///
     /// # Errors
     /// When weights cannot be read.

@@ -1,4 +1,4 @@
-//! Table I: how near the best of six futures comes to the recording, one road user at a time.
+//! Table I: distance between the best of six futures and the recording, one road user at a time.
 
 use crate::methods::{Answerer, Entrants, Method};
 use crate::paper;
@@ -20,7 +20,7 @@ struct AgentErrors {
     errors: [Option<Measured>; Method::ALL.len()],
 }
 
-/// The paper's Table I with its own figures beside, and how many road users there were.
+/// The paper's Table I beside its own figures, and the number of road users.
 ///
 /// # Errors
 /// When a network fails, the data have changed, or the run is stopped.
@@ -99,7 +99,7 @@ pub fn table(
     Ok(sheet)
 }
 
-/// All road users of one square.
+/// Evaluates all road users of one square.
 fn judge(
     case: &TestCase,
     cut: &Cut,

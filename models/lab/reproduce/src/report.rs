@@ -11,17 +11,17 @@ use std::path::Path;
 /// File of the tables in the folder of a run.
 pub const TABLES_FILE: &str = "tables.md";
 
-/// All that the tables rest on.
+/// Everything that the tables are based on.
 pub struct Report<'a> {
     /// Options of the sets.
     pub options: &'a SetOptions,
     /// The sets.
     pub sets: &'a Sets,
-    /// The test scenes are a set of their own.
+    /// Whether the test scenes are a separate set.
     pub own_tests: bool,
     /// Trained networks.
     pub trained: &'a [Trained],
-    /// Hidden numbers of the condition's MLP.
+    /// Hidden size of the condition's MLP.
     pub condition_width: usize,
     /// Seed.
     pub seed: u64,

@@ -14,12 +14,12 @@ use scene::ContentHash;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Which results are made.
+/// Results to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     /// Tables I and II, and the trainings that they need.
     pub tables: bool,
-    /// The page of pictures, with the weights as they are shipped.
+    /// The page of pictures, with the shipped weights.
     pub figure: bool,
 }
 
@@ -34,17 +34,17 @@ pub struct RunOptions {
     pub sets: SetOptions,
     /// Schedule of the trainings.
     pub schedule: Schedule,
-    /// Hidden numbers of the condition's MLP.
+    /// Hidden size of the condition's MLP.
     pub condition_width: usize,
     /// Options of Table II.
     pub collisions: CollisionOptions,
     /// Parts to make.
     pub parts: Parts,
-    /// Draws everything.
+    /// Seed of all draws.
     pub seed: u64,
     /// Threads that share a step of training.
     pub threads: usize,
-    /// Ends the run.
+    /// Flag that ends the run.
     pub stop: Stop,
 }
 
@@ -72,7 +72,8 @@ struct Settings {
 const SETTINGS_FILE: &str = "settings.json";
 const SETS_FILE: &str = "sets.json";
 
-/// Makes sets, pictures, weights and tables, as far as sets and weights are not there yet; gives the tables as Markdown.
+/// Makes sets, pictures, weights and tables, except existing sets and weights; returns the tables as
+/// Markdown.
 ///
 /// # Errors
 /// [`OtherRun`] if the folder belongs to another run, [`crate::Stopped`] if a stop was requested, and errors
@@ -121,7 +122,7 @@ pub fn run(options: &RunOptions, engine: Engine, progress: &dyn Fn(&str)) -> Res
     Ok(report.markdown())
 }
 
-/// Takes hold of the folder, or finds that it is this run's.
+/// Claims the folder, or checks that it belongs to this run.
 fn begin(options: &RunOptions) -> Result<()> {
     let mut names = String::new();
     for part in [Part::Data, Part::Test] {
@@ -159,7 +160,7 @@ fn begin(options: &RunOptions) -> Result<()> {
     }
 }
 
-/// The sets of a run, made where they are not there.
+/// The sets of a run, made if they are missing.
 fn sets_of(options: &RunOptions, progress: &dyn Fn(&str)) -> Result<Sets> {
     let path = options.out.join(SETS_FILE);
     if path.exists() {

@@ -1,5 +1,6 @@
-//! The paper's three sets from recordings (its section on the dataset): 6 s intervals, a 120 m square with at least 32
-//! road users, centred on the ego, on cyclists and on pedestrians, 30 frames and a valid end, split by place.
+//! The paper's three sets from recordings (its section on the dataset): 6 s intervals, a 120 m square with at
+//! least 32 road users, centred on the ego, on cyclists and on pedestrians, 30 frames and a valid end, split
+//! by place.
 
 mod cut;
 mod files;
@@ -15,7 +16,7 @@ use scene::{AgentType, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Centre of a square, which also decides the judged road users: in the ego's squares all vehicles, in the
+/// Centre of a square, which also decides the evaluated road users: in the ego's squares all vehicles, in the
 /// others only the centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -29,15 +30,15 @@ pub enum Centre {
 }
 
 impl Centre {
-    /// In the order of the paper's Table I.
+    /// All centres, in the order of the paper's Table I.
     pub const ALL: [Self; 3] = [Self::Ego, Self::Pedestrian, Self::Cyclist];
 
-    /// Place in [`Centre::ALL`].
+    /// Index in [`Centre::ALL`].
     pub fn index(self) -> usize {
         self as usize
     }
 
-    /// Type of the road users that are learned and judged.
+    /// Type of the road users for training and evaluation.
     pub fn judged(self) -> AgentType {
         match self {
             Self::Ego => AgentType::Vehicle,
@@ -70,13 +71,13 @@ impl Centre {
 pub struct SetOptions {
     /// Steps from the start of an interval to its end, and from one start to the next.
     pub interval_steps: usize,
-    /// The square, and how many road users it must hold.
+    /// The square, and the least number of road users in it.
     pub crop: Crop,
-    /// Frames after the first at which a judged road user is known, at least.
+    /// Least number of frames after the first at which an evaluated road user is known.
     pub least_frames: usize,
-    /// Drawn ends of each road user that is learned from.
+    /// Drawn ends of each road user for training.
     pub draws: usize,
-    /// Vehicles learned from in one of the ego's squares, at most.
+    /// Most vehicles for training in one of the ego's squares.
     pub most_vehicles: usize,
     /// Draws ends and vehicles.
     pub seed: u64,
@@ -85,7 +86,7 @@ pub struct SetOptions {
 /// Sources of the scenes.
 #[derive(Clone, Debug)]
 pub struct Data {
-    /// Files or folders to learn from; a tenth of their places is kept for tests unless `test` has some.
+    /// Files or folders for training; a tenth of their places is reserved for tests unless `test` has some.
     pub data: Vec<PathBuf>,
     /// Files or folders only for tests.
     pub test: Vec<PathBuf>,
@@ -94,7 +95,7 @@ pub struct Data {
 }
 
 impl Data {
-    /// Files of one part, sorted, evenly thinned out to the most there may be.
+    /// Files of one part, sorted, evenly thinned to the greatest number.
     ///
     /// # Errors
     /// When a folder cannot be listed or holds nothing.
@@ -122,7 +123,7 @@ pub enum Part {
     Test,
 }
 
-/// Scenes of a file; none of one that cannot be read.
+/// Scenes of a file; none if it cannot be read.
 fn scenes(path: &Path) -> Vec<Scene> {
     read_scenes(path).unwrap_or_default()
 }
@@ -131,11 +132,11 @@ fn scenes(path: &Path) -> Vec<Scene> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Share {
-    /// Learned from.
+    /// Training.
     Train,
-    /// Says which weights are kept.
+    /// Selection of the weights to keep.
     Validation,
-    /// Judged.
+    /// Evaluation.
     Test,
 }
 
@@ -172,17 +173,18 @@ impl Shares {
 /// Counts of one set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetCounts {
-    /// Squares considered: an interval about the ego, or about one pedestrian or cyclist that may be judged.
+    /// Squares considered: an interval about the ego, or about one pedestrian or cyclist that may be
+    /// evaluated.
     pub squares: usize,
     /// Squares with too few road users.
     pub too_few: usize,
-    /// Squares without any road user to judge.
+    /// Squares without a road user to evaluate.
     pub nobody: usize,
-    /// Cases: what is left.
+    /// Cases: the remaining squares.
     pub cases: Shares,
-    /// Road users in them that are learned from or judged.
+    /// Road users in them for training or evaluation.
     pub judged: Shares,
-    /// Training records made of them.
+    /// Training records from them.
     pub records: usize,
 }
 
@@ -213,10 +215,10 @@ impl Interest {
     }
 }
 
-/// One square that is judged, and where it is cut from.
+/// One evaluated square, and its origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TestCase {
-    /// Part and place of its file in the sorted list.
+    /// Part and index of its file in the sorted list.
     pub file: (Part, usize),
     /// Scene of the file.
     pub scene: usize,
@@ -231,7 +233,7 @@ pub struct TestCase {
 }
 
 impl TestCase {
-    /// Which scene of which file it is cut from.
+    /// File and scene that it is cut from.
     pub fn place(&self) -> ((Part, usize), usize) {
         (self.file, self.scene)
     }
@@ -242,21 +244,21 @@ impl TestCase {
 pub struct Sets {
     /// Files considered.
     pub files: usize,
-    /// Those of them that hold no scene that can be read.
+    /// Files without a readable scene.
     pub unreadable: usize,
     /// Scenes read.
     pub scenes: usize,
     /// Sources of the scenes, with their licences.
     pub sources: Provenance,
-    /// Seconds that they last.
+    /// Their duration, seconds.
     pub seconds: f64,
     /// Intervals cut from them.
     pub intervals: usize,
     /// Scenes left out of training because their place is among the tests.
     pub shared_places: usize,
-    /// Places by what they are for.
+    /// Places by their use.
     pub places: Shares,
-    /// By [`Centre::ALL`].
+    /// Counts in the order of [`Centre::ALL`].
     pub sets: [SetCounts; 3],
     /// Test cases.
     pub tests: Vec<TestCase>,

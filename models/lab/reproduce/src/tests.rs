@@ -32,8 +32,8 @@ pub(crate) fn walker(id: &str, speed_mps: f64, (x_m, y_m): (f64, f64)) -> Agent 
     agent
 }
 
-/// A recording of 9.1 s at a place of its own: two vehicles with the ego, pedestrians, one cyclist, one
-/// crossing pedestrian.
+/// A recording of 9.1 s at its own place: two vehicles with the ego, pedestrians, one cyclist, one crossing
+/// pedestrian.
 fn recording(place: usize) -> Scene {
     let pace = 5.0 + 0.1 * place as f64;
     let mut ego = log("ego", pace, 91);
@@ -107,7 +107,7 @@ fn places_are_learned_from_or_judged_and_never_both() {
     assert!((2..14).contains(&sets.places.test) && (2..14).contains(&sets.places.validation));
     assert_eq!(learned.iter().filter(|key| is_held_out(**key)).count(), sets.places.validation);
     // One square about the ego, two about pedestrians, one about the cyclist; the standing road user in the
-    // ego's square is learned from too.
+    // ego's square is used for training too.
     let cases = |centre: Centre| sets.sets[centre.index()].cases.all();
     assert_eq!(Centre::ALL.map(cases), [60, 120, 60]);
     assert_eq!(sets.sets[0].judged.test, 2 * sets.places.test);
@@ -122,7 +122,7 @@ fn tests_of_their_own_take_their_places_out_of_training() {
     let sets = made(&data, folder.path());
     let (learned, judged) = (learned(folder.path()), judged(&data, &sets));
     assert!(learned.is_disjoint(&judged));
-    // No tenth of the data is kept for tests then.
+    // In this case, no tenth of the data is reserved for tests.
     assert_eq!((learned.len(), judged.len(), sets.shared_places), (25, 15, 5));
 }
 
@@ -176,7 +176,7 @@ fn a_run_repeats_goes_on_where_it_was_stopped_and_knows_its_folder() {
     let straight = of("straight");
     let text = go(&straight, &|_| {}).unwrap();
     let expected = results(&straight.out);
-    // Stopped in the second training: the same files in the end.
+    // Stopped in the second training: the final files are the same.
     let stopped = of("stopped");
     let ended = go(&stopped, &|line| {
         if line.starts_with("mixture") {
@@ -188,7 +188,7 @@ fn a_run_repeats_goes_on_where_it_was_stopped_and_knows_its_folder() {
     stopped.stop.store(false, Ordering::Relaxed);
     go(&stopped, &|line| assert!(!line.starts_with("trafficgen:"), "{line}")).unwrap();
     assert!(results(&stopped.out) == expected);
-    // Once more changes nothing, and trains nothing.
+    // Another run changes nothing, and trains nothing.
     go(&stopped, &|line| assert!(!line.contains("steps"), "{line}")).unwrap();
     assert!(results(&stopped.out) == expected);
     let other = go(&RunOptions { condition_width: 24, ..stopped.clone() }, &|_| {}).unwrap_err();

@@ -18,7 +18,7 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Length {
-    /// Times through the records.
+    /// Number of epochs.
     Epochs(f64),
     /// Optimiser steps.
     Steps(u64),
@@ -36,24 +36,24 @@ impl Length {
 /// Training schedule of the networks (the paper's implementation details).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Schedule {
-    /// Only the paper's denoiser.
+    /// The paper's denoiser alone.
     pub denoiser: Length,
     /// Regressors: the baselines, the paper's initializer and ours.
     pub regressor: Length,
     /// Fine-tuning of both together, the paper's and ours.
     pub joint: Length,
-    /// Learning rate at first.
+    /// Initial learning rate.
     pub rate: f64,
-    /// And at the end.
+    /// Final learning rate.
     pub rate_end: f64,
-    /// Records a step.
+    /// Records per step.
     pub batch: usize,
 }
 
 impl Schedule {
-    /// The paper's: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it states 0.0004, which would be no decay).
-    /// It gives no batch size, and no separate length for the initializer, which takes that of the other
-    /// regressors.
+    /// The paper's schedule: 100, 150 and 40 epochs, 3e-4 falling to 4e-5 (it states 0.0004, which would be
+    /// no decay). It states no batch size, and no separate length for the initializer, which gets that of the
+    /// other regressors.
     pub const PAPER: Self = Self {
         denoiser: Length::Epochs(100.0),
         regressor: Length::Epochs(150.0),
@@ -62,7 +62,7 @@ impl Schedule {
         rate_end: 4e-5,
         batch: 64,
     };
-    /// Minutes of work on two cores.
+    /// A schedule for minutes of work on two cores.
     pub const QUICK: Self = Self {
         denoiser: Length::Steps(200),
         regressor: Length::Steps(400),
@@ -77,7 +77,7 @@ impl Schedule {
 #[derive(Clone, Debug)]
 struct TrainingJob {
     method: Method,
-    /// Below the folder, without ending.
+    /// Path below the folder, without the ending.
     name: String,
     expert: &'static str,
     records: Vec<PathBuf>,
@@ -107,9 +107,9 @@ impl TrainingJob {
     }
 }
 
-/// Trainings, in order.
+/// All trainings, in order.
 fn jobs(folder: &Path, sets: &Sets, schedule: &Schedule) -> Vec<TrainingJob> {
-    // Records that are trained on: those of validation lie in the same file.
+    // Training records: those of validation are in the same file.
     let share = |centre: Centre, records: usize| {
         let judged = &sets.sets[centre.index()].judged;
         let known = judged.train + judged.validation;
@@ -175,17 +175,17 @@ pub struct Training<'a> {
     pub folder: &'a Path,
     /// Lengths and rates.
     pub schedule: Schedule,
-    /// Hidden numbers of the condition's MLP.
+    /// Hidden size of the condition's MLP.
     pub condition_width: usize,
     /// Draws weights, batches and noise.
     pub seed: u64,
     /// Threads that share a step; the result does not depend on it.
     pub threads: usize,
-    /// Ends the run.
+    /// Flag that ends the run.
     pub stop: &'a Stop,
 }
 
-/// Steps of each training that the tables were made with.
+/// Steps of each training behind the tables.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Trained {
     /// Name below the folder of weights.
@@ -194,13 +194,13 @@ pub struct Trained {
     pub stage: Stage,
     /// Optimiser steps.
     pub steps: u64,
-    /// Times through its records.
+    /// Number of epochs.
     pub epochs: f64,
 }
 
 impl Training<'_> {
-    /// Trains what is not there yet; a run that was stopped goes on where it was. Of each stage the weights of least loss
-    /// on what is held out are kept.
+    /// Trains what is missing; a stopped run continues. For each stage, the weights with the least held-out
+    /// loss are kept.
     ///
     /// # Errors
     /// When records or weights cannot be read or written, or the run is stopped.
@@ -225,7 +225,7 @@ impl Training<'_> {
     }
 
     fn train(&self, job: &TrainingJob, pace: &mut Pace, progress: &dyn Fn(&str)) -> Result<()> {
-        // Elsewhere until it is done: what lies among the weights is finished.
+        // Elsewhere until it is finished: the folder of weights contains only finished ones.
         let out = self.folder.join(format!("training/{}.safetensors", job.name));
         if let Some(parent) = out.parent() {
             std::fs::create_dir_all(parent).with_context(|| format!("make {}", parent.display()))?;

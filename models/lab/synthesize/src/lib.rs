@@ -143,11 +143,11 @@ impl Default for SynthesizeOptions {
 /// One finished seed.
 #[derive(Clone, Debug)]
 pub struct SeedProgress {
-    /// Which.
+    /// Its seed.
     pub seed: u64,
-    /// Windows in its file; `None` when the file was there already.
+    /// Windows in its file; `None` if the file existed already.
     pub windows: Option<usize>,
-    /// Seeds finished so far, this one included, and in all.
+    /// Number of finished seeds, this one included, and number of all seeds.
     pub finished: (u64, u64),
 }
 
@@ -156,26 +156,26 @@ pub struct SeedProgress {
 pub struct SynthesizeReport {
     /// Files written.
     pub written: u64,
-    /// Files that were there already.
+    /// Files that existed already.
     pub skipped: u64,
     /// Windows in the files written.
     pub windows: u64,
     /// Vehicles, pedestrians and cyclists in those windows.
     pub agents: [u64; 3],
-    /// Seeds that gave no file, and why.
+    /// Seeds without a file, each with the reason.
     pub failed: Vec<(u64, String)>,
 }
 
-/// Why a run could not be done at all. Single seeds that fail are in the [`SynthesizeReport`].
+/// Why a run could not start. Failures of single seeds are in the [`SynthesizeReport`].
 #[derive(Debug, thiserror::Error)]
 pub enum SynthesizeError {
-    /// SUMO is not there.
+    /// SUMO is missing.
     #[error(transparent)]
     Program(#[from] ProgramError),
-    /// The folder cannot be made.
+    /// The folder cannot be created.
     #[error("cannot make the folder {path}")]
     Folder {
-        /// Which folder.
+        /// The folder.
         path: PathBuf,
         /// Error of the system.
         source: std::io::Error,
@@ -196,10 +196,10 @@ fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Res
 }
 
 /// Makes one file of windows for each seed. A seed with an existing file is skipped, so that an interrupted
-/// run goes on where it stopped.
+/// run continues where it stopped.
 ///
 /// # Errors
-/// When SUMO is missing or the folder cannot be made. A seed that fails does not stop the others.
+/// When SUMO is missing or the folder cannot be created. A seed that fails does not stop the others.
 pub fn run(
     options: &SynthesizeOptions,
     progress: &(dyn Fn(SeedProgress) + Sync),
@@ -259,13 +259,13 @@ fn one(sumo: &Sumo, options: &SynthesizeOptions, seed: u64) -> Result<SeedOutcom
     Ok(SeedOutcome::Written(scenes))
 }
 
-/// An error and what caused it.
+/// An error with its causes.
 fn with_causes(error: &dyn std::error::Error) -> String {
     let all = std::iter::successors(Some(error), |error| error.source());
     all.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }
 
-/// Writes windows to a file of its own, then gives it its name: a file with the name is whole.
+/// Writes windows to a temporary file and then renames it: a file with the final name is complete.
 fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
     let partial = path.with_extension(format!("tmp{}", std::process::id()));
     let plain: Vec<Scene> = scenes.iter().map(without_footways).collect();
@@ -274,8 +274,8 @@ fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
     std::fs::rename(&partial, path)
 }
 
-/// The scene without lanes that the format cannot name: it would make untyped lanes of them, on which
-/// readers let cars drive.
+/// The scene without the lanes that the format cannot name: they would become untyped lanes, on which readers
+/// allow cars.
 fn without_footways(scene: &Scene) -> Scene {
     let mut map = (*scene.map).clone();
     map.lanes.retain(|l| !matches!(l.lane_type, LaneType::Sidewalk | LaneType::Parking));
@@ -314,7 +314,7 @@ impl SynthesizeReport {
 mod tests {
     use super::*;
 
-    /// Runs a small job, or says why it cannot.
+    /// Runs a small job, or reports why it cannot.
     fn made(name: &str, seed: u64) -> Option<(tempfile::TempDir, SynthesizeOptions, SynthesizeReport)> {
         let folder = tempfile::tempdir().unwrap();
         let options = SynthesizeOptions {

@@ -24,7 +24,7 @@ pub mod samples;
 pub mod scenes;
 pub mod training;
 
-/// Linear between the two nearest of sorted values; zero of none.
+/// Linear interpolation between the two nearest of sorted values; zero without values.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
     let at = share.clamp(0.0, 1.0) * last as f64;

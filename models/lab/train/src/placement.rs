@@ -13,11 +13,12 @@ use scene::{AgentType, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Steps of a window that are read; they lie far enough apart for the traffic to move on.
+/// Steps of a window that are read; they are far enough apart for the traffic to change.
 const STEPS: [usize; 3] = [0, 45, 90];
 /// Sweeps over the factors; each step is exact for one feature, and they settle quickly.
 const SWEEPS: usize = 60;
-/// Road users that a class of a feature is held to have had at the average rate: rare classes stay near it.
+/// Number of fictitious road users at the average rate in each class of a feature, so that rare classes stay
+/// near it.
 const PRIOR_COUNT: f64 = 2.0;
 /// The same of a speed context, towards the one without the leader.
 const PRIOR_SPEEDS: f64 = 8.0;

@@ -5,7 +5,7 @@ use scene::{AgentType, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Licence of weights from data without any terms.
+/// Licence of weights if the data have no terms.
 const OWN: &str = "MIT OR Apache-2.0";
 
 /// Sources of records.
@@ -19,7 +19,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Of records for an expert, from no scene yet.
+    /// An empty provenance for an expert.
     pub fn of(agent_type: AgentType) -> Self {
         let expert = experts::weights::EXPERTS.iter().find(|(known, _)| *known == agent_type);
         Self { expert: expert.map(|(_, name)| (*name).to_owned()).unwrap_or_default(), ..Self::default() }
@@ -41,14 +41,14 @@ impl Provenance {
         }
     }
 
-    /// Licence of weights that learned from it: the program's own where the data ask for nothing, else the strictest
-    /// of the data's.
+    /// Licence of weights that learned from it: the program's own if the data have no terms, otherwise the
+    /// strictest of the data's.
     pub fn licence(&self) -> String {
         let of_data = strictest(self.scenes.values().flat_map(|l| l.keys().map(String::as_str)));
         of_data.filter(|licence| !is_open(licence)).unwrap_or_else(|| OWN.to_owned())
     }
 
-    /// In words, for the weights' header.
+    /// A description for the weights' header.
     pub fn words(&self) -> String {
         let one = |(source, licences): (&String, &BTreeMap<String, u64>)| {
             let parts: Vec<String> = licences

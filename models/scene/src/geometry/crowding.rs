@@ -1,33 +1,33 @@
-//! How crowded lines are: what work with a grid over them grows with.
+//! Density of lines, which determines the cost of work with a grid over them.
 //!
-//! A question about a place looks at the pieces of the cells around it. Lines that lie over each other a thousand
-//! times make each question cost as much as a whole map elsewhere, whatever they are.
+//! A query about a place looks at the pieces in the cells around it. Where a thousand lines overlap, each
+//! query costs as much as a whole map elsewhere.
 
 use super::Vec2;
 use super::segments::{Segment, cells_along};
 use crate::message::Message;
 use crate::sentences::{self, what};
 
-/// Most cells that pieces may pass through, counted once for each piece: ten times what a large map has.
+/// Limit of cells that pieces pass through, counted once per piece: ten times the number of a large map.
 pub const MAX_CELLS: usize = 2_000_000;
-/// Most pieces in one cell of 8 m x 8 m.
+/// Limit of pieces in one cell of 8 m x 8 m.
 pub const MAX_CELL_PIECES: u64 = 8_192;
-/// Most pairs of pieces that pass through the same cell, over all cells.
+/// Limit of pairs of pieces that pass through the same cell, over all cells.
 pub const MAX_CELL_PAIRS: u64 = 100_000_000;
 
 /// Pieces of lines by the cells that they pass through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Crowding {
-    /// Cells, counted once for each piece in them; more than [`MAX_CELLS`] where counting was given up.
+    /// Number of cells, counted once per piece in them; more than [`MAX_CELLS`] if counting stopped early.
     pub entries: usize,
-    /// Most pieces of one cell.
+    /// Largest number of pieces in one cell.
     pub most: u64,
-    /// Sum over all cells of the pieces' number squared.
+    /// Sum over all cells of the squared number of pieces.
     pub pairs: u64,
 }
 
 impl Crowding {
-    /// Of lines, each with whether it is closed.
+    /// Counts lines, each with whether it is closed.
     pub fn of<'a>(lines: impl Iterator<Item = (&'a [Vec2], bool)>) -> Self {
         let mut cells: Vec<u64> = Vec::new();
         let mut own: Vec<u64> = Vec::new();
@@ -54,7 +54,7 @@ impl Crowding {
         })
     }
 
-    /// What is too much, in words; `None` where all bounds are kept.
+    /// The exceeded limit as a message; `None` if all limits hold.
     pub fn excess(&self) -> Option<Message> {
         if self.entries > MAX_CELLS {
             return Some(sentences::more_than(MAX_CELLS, what::SQUARES));
@@ -108,7 +108,7 @@ mod tests {
         );
         let far: Vec<Vec<Vec2>> = (0..100).map(|_| tangle(4_096, 20_000.0)).collect();
         let of_all = Crowding::of(far.iter().map(|line| (&line[..], false)));
-        // Counting ends soon behind the bound.
+        // Counting stops soon after the limit.
         assert!(of_all.entries < MAX_CELLS + 20_000 && of_all.excess().is_some(), "{of_all:?}");
     }
 }

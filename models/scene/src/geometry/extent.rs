@@ -1,54 +1,54 @@
-//! Upright rectangles about places.
+//! Upright rectangles around points.
 
 use super::Vec2;
 
-/// Upright rectangle, metres. One without a place ([`Extent::NONE`]) is away from everything.
+/// Upright rectangle, metres. The empty rectangle ([`Extent::NONE`]) is far from everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// Least coordinates.
+    /// Smallest coordinates.
     pub low: Vec2,
-    /// Greatest coordinates.
+    /// Largest coordinates.
     pub high: Vec2,
 }
 
 impl Extent {
-    /// About no place.
+    /// The empty rectangle.
     pub const NONE: Self = Self {
         low: Vec2::new(f64::INFINITY, f64::INFINITY),
         high: Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
 
-    /// The least one that holds these places.
+    /// The smallest rectangle around these points; empty if there are none.
     pub fn of(places: impl IntoIterator<Item = Vec2>) -> Self {
         places.into_iter().fold(Self::NONE, Self::with)
     }
 
-    /// The least one that holds these places; `None` without any.
+    /// The smallest rectangle around these points; `None` if there are none.
     pub fn about(places: impl IntoIterator<Item = Vec2>) -> Option<Self> {
         let extent = Self::of(places);
         (extent.low.x <= extent.high.x).then_some(extent)
     }
 
-    /// One that holds this place too.
+    /// The smallest rectangle around this one and a point.
     #[must_use]
     pub fn with(self, place: Vec2) -> Self {
         Self { low: self.low.inf(&place), high: self.high.sup(&place) }
     }
 
-    /// One that holds the other too.
+    /// The smallest rectangle around this one and another.
     #[must_use]
     pub fn joined(self, other: &Self) -> Self {
         Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    /// One that reaches so many metres further to each side.
+    /// The rectangle extended by `by_m` on each side, metres.
     #[must_use]
     pub fn grown(self, by_m: f64) -> Self {
         let by = Vec2::repeat(by_m);
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// The point in the middle.
+    /// Its centre.
     pub fn middle(&self) -> Vec2 {
         0.5 * (self.low + self.high)
     }
@@ -58,13 +58,14 @@ impl Extent {
         self.high - self.low
     }
 
-    /// How far a place is outside along the axis along which it is farther; not above zero for one inside.
+    /// The larger of the two distances by which a point is outside along x and along y, metres; at most zero
+    /// for a point inside.
     pub fn outside_m(&self, place: Vec2) -> f64 {
         let beyond = (self.low - place).sup(&(place - self.high));
         beyond.x.max(beyond.y)
     }
 
-    /// The two come nearer than this along both axes.
+    /// Whether two rectangles are closer than a margin along both axes.
     pub fn is_near(&self, other: &Self, margin_m: f64) -> bool {
         self.low.x < other.high.x + margin_m
             && other.low.x < self.high.x + margin_m
@@ -72,7 +73,7 @@ impl Extent {
             && other.low.y < self.high.y + margin_m
     }
 
-    /// The two share a point.
+    /// Whether two rectangles share a point.
     pub fn touches(&self, other: &Self) -> bool {
         self.low.x <= other.high.x
             && other.low.x <= self.high.x

@@ -1,5 +1,5 @@
-//! Short lists of numbers for each fine cell of a rectangle of cells. A list is made when a point in its cell is first
-//! asked for, and kept for all later points.
+//! A short list of numbers for each fine cell of a rectangle of cells. A list is computed at the first query
+//! in its cell and kept for later ones.
 
 use super::Vec2;
 use std::sync::OnceLock;
@@ -7,21 +7,21 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Fine cells along a side of a cell.
 const FINE: usize = 4;
-/// Cells whose fine cells are kept: 360 m by 360 m of cells of 8 m.
+/// Limit of cells with stored fine cells: 360 m by 360 m in cells of 8 m.
 const MOST_KEPT: usize = 2_048;
-/// Numbers of a list that its bytes are counted for, about as many as a list has.
+/// Numbers per list that the estimate of bytes assumes, close to the usual length.
 const USUAL: usize = 12;
 
 type Lists = [OnceLock<Box<[u32]>>; FINE * FINE];
 
-/// A square, by its centre.
+/// A square, given by its centre.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Square {
     pub(super) centre: Vec2,
     pub(super) side_m: f64,
 }
 
-/// The lists of a rectangle of cells; read and filled by any number of threads.
+/// The lists of a rectangle of cells; any number of threads may read and fill them.
 #[derive(Debug)]
 pub(super) struct FineCells {
     cell_m: f64,
@@ -30,18 +30,18 @@ pub(super) struct FineCells {
     columns: usize,
     rows: usize,
     cells: Box<[OnceLock<Box<Lists>>]>,
-    /// Cells that may still be filled.
+    /// Number of cells that may still be filled.
     left: AtomicUsize,
 }
 
 impl FineCells {
-    /// Of `columns` by `rows` cells with this side from a column and row on, all empty.
+    /// An empty table of `columns` by `rows` cells with this side length, from a column and row on.
     pub(super) fn new(cell_m: f64, first: [i32; 2], columns: usize, rows: usize) -> Self {
         let cells = (0..columns * rows).map(|_| OnceLock::new()).collect();
         Self { cell_m, first, columns, rows, cells, left: AtomicUsize::new(MOST_KEPT) }
     }
 
-    /// The list of the fine cell that a point lies in, made by `make` where it is not there yet. `None` outside the
+    /// The list of the fine cell that contains a point; `make` computes it on first use. `None` outside the
     /// rectangle, and once too many cells are filled.
     pub(super) fn list(&self, point: Vec2, make: impl FnOnce(Square) -> Box<[u32]>) -> Option<&[u32]> {
         let at = point / self.cell_m;
@@ -69,7 +69,7 @@ impl FineCells {
         Some(cell.get_or_init(|| Box::new(std::array::from_fn(|_| OnceLock::new()))))
     }
 
-    /// About how many bytes of memory the lists take.
+    /// Approximate bytes of memory of the lists.
     pub(super) fn bytes(&self) -> usize {
         let kept = MOST_KEPT - self.left.load(Ordering::Relaxed);
         let list = size_of::<OnceLock<Box<[u32]>>>() + USUAL * size_of::<u32>();

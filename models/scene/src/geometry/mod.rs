@@ -15,11 +15,11 @@ pub use nalgebra::Vector2;
 /// A point or vector in the plane, metres (or m/s), scene frame.
 pub type Vec2 = Vector2<f64>;
 
-/// Wraps an angle to [-pi, pi). The one place where angles are wrapped.
+/// Wraps an angle to [-pi, pi). No other function wraps angles.
 pub fn wrap_angle(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let turned = angle_rad + PI;
-    // Most angles are in range: the remainder, which is slow, would be the angle itself.
+    // Most angles are in range, and the remainder is slow.
     let wrapped = if (0.0..TAU).contains(&turned) { turned } else { turned.rem_euclid(TAU) } - PI;
     // rem_euclid may round up to TAU itself for tiny negative input.
     if wrapped >= PI { wrapped - TAU } else { wrapped }

@@ -22,8 +22,8 @@ impl OrientedBox {
         Self::facing(center, (half_length_m, half_width_m), heading_rad, direction(heading_rad))
     }
 
-    /// The same where the unit vector along `heading_rad` is known: many boxes of one moment need it once. Half
-    /// length, then half width.
+    /// The same with a known unit vector along `heading_rad`, which many boxes of one moment share. `half_m`
+    /// is half length, then half width.
     pub(crate) fn facing(center: Vec2, half_m: (f64, f64), heading_rad: f64, forward: Vec2) -> Self {
         let (half_length_m, half_width_m) = (half_m.0.max(0.0), half_m.1.max(0.0));
         let radius_m = (half_length_m * half_length_m + half_width_m * half_width_m).sqrt();
@@ -97,10 +97,10 @@ impl OrientedBox {
         ]
     }
 
-    /// Some of the straight piece between two points lies in the box.
+    /// Whether the segment between two points and the box share a point.
     pub fn meets_segment(&self, from: Vec2, to: Vec2) -> bool {
         let (from, to) = (self.local(from), self.local(to));
-        // The part of the piece that is left after each pair of sides has cut it.
+        // The part of the segment that is left after each pair of sides has clipped it.
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         for (start, way, half) in
             [(from.x, to.x - from.x, self.half_length_m), (from.y, to.y - from.y, self.half_width_m)]

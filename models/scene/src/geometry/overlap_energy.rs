@@ -1,30 +1,30 @@
-//! A smooth energy that pushes moving boxes apart: it grows where two of them come closer than half a metre,
-//! and its gradient is the way out. Training and generation call the same functions.
+//! A smooth energy that pushes moving boxes apart: it grows when two of them come closer than half a metre,
+//! and its negative gradient separates them. Training and generation call the same functions.
 //!
-//! A moving box is its poses at equal instants. The box that is moved counts as three discs along its length,
-//! the others as they are.
+//! A moving box is a sequence of poses at equally spaced instants. The box that is moved is represented by
+//! three discs along its length, the others by their rectangles.
 
 /// Gap below which the energy grows, metres.
 const MARGIN: f32 = 0.5;
-/// Weight of a square metre that is missing.
+/// Energy per squared metre of missing gap.
 const WEIGHT: f32 = 0.3;
 
 /// Centre x and y, cosine and sine of the heading at each instant. All zero: absent.
 pub type Poses<const N: usize> = [[f32; 4]; N];
 
-/// A box that is in the way.
+/// A box that acts as an obstacle.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingBox<'a, const N: usize> {
-    /// Where it is.
+    /// Its poses at the instants.
     pub poses: &'a Poses<N>,
     /// Half length and half width, metres.
     pub half: [f32; 2],
 }
 
-/// How the energy grows with the missing gap.
+/// How the energy grows as the gap shrinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growth {
-    /// With its square: the input of the refiner.
+    /// Quadratically: the input of the refiner.
     Square,
     /// Linearly, up to two metres: the penalty in training.
     Linear,
@@ -35,7 +35,8 @@ pub enum Growth {
 pub struct Bounds([f32; 4]);
 
 impl Bounds {
-    /// Around the instants at which the box is present. Without any, the bounds are far from all others.
+    /// Bounds over the instants at which the box is present. If it never is, the bounds are far from all
+    /// others.
     pub fn of<const N: usize>(poses: &Poses<N>) -> Self {
         let mut all = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
         for pose in poses.iter().filter(|p| !absent(p)) {
@@ -47,7 +48,7 @@ impl Bounds {
         Self(all)
     }
 
-    /// Two boxes of these half sizes may have an energy somewhere within these bounds: false only where
+    /// Whether two boxes of these half sizes may have an energy within these bounds. False guarantees that
     /// [`overlap_energy`] is zero.
     pub fn may_touch(&self, half: [f32; 2], other: &Self, other_half: [f32; 2]) -> bool {
         let reach = reach_of(half, other_half);
@@ -57,22 +58,21 @@ impl Bounds {
     }
 }
 
-/// Greatest distance of two centres along x or along y at which their boxes can be within the margin of each
-/// other.
+/// Greatest distance of two centres along x or y at which their boxes can be within each other's margin.
 fn reach_of(half: [f32; 2], other: [f32; 2]) -> f32 {
     MARGIN + half[0] + half[1] + other[0] + other[1]
 }
 
-/// Energy of a moving box, and its gradient to the centre's x and y at each instant.
+/// Energy of a moving box, and its gradient with respect to the centre's x and y at each instant.
 #[derive(Clone, Debug)]
 pub struct OverlapEnergy<const N: usize> {
     /// Sum over obstacles and instants.
     pub energy: f32,
-    /// Gradient [instant][x, y], headings held.
+    /// Gradient [instant][x, y] for fixed headings.
     pub gradient: [[f32; 2]; N],
 }
 
-/// The energy of a box of `half` length and width that moves by `own` among obstacles.
+/// The energy of a box of half sizes `half` that moves by `own` among obstacles.
 pub fn overlap_energy<'a, const N: usize>(
     own: &Poses<N>,
     half: [f32; 2],
@@ -122,7 +122,8 @@ pub fn carried_on<const N: usize>(poses: &Poses<N>, share: f32) -> Poses<N> {
     out
 }
 
-/// A gradient to the centres of [`carried_on`] boxes as one to the centres they were made from.
+/// Converts a gradient with respect to the centres of [`carried_on`] boxes to one with respect to the
+/// original centres.
 pub fn carried_back<const N: usize>(gradient: &[[f32; 2]; N], share: f32) -> [[f32; 2]; N] {
     let mut out = [[0.0; 2]; N];
     for instant in 1..N {
@@ -139,8 +140,8 @@ pub fn absent(pose: &[f32; 4]) -> bool {
     pose[2] == 0.0 && pose[3] == 0.0
 }
 
-/// Gap between a box, as three discs along its length, and another box (negative when they overlap),
-/// and its gradient to the first box's centre.
+/// Gap between a box, as three discs along its length, and another box (negative if they overlap), and its
+/// gradient with respect to the first box's centre.
 pub fn gap(a: [f32; 4], half: [f32; 2], b: [f32; 4], other: [f32; 2]) -> (f32, [f32; 2]) {
     let mut best = (f32::INFINITY, [0.0; 2]);
     let ends = (half[0] - half[1]).max(0.0);

@@ -6,19 +6,19 @@ use std::sync::OnceLock;
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
 
-/// Places that are probed before the search for the foot of a point.
+/// Number of points probed before the search for the foot of a point.
 const PROBES: usize = 12;
 
-/// Rounding that passing over pieces allows for, metres.
+/// Tolerance for rounding when pieces are skipped, metres.
 const SLACK_M: f64 = 1e-6;
 
 /// Greatest turn between the middle of an end piece and its inner vertex on a smooth line, radians.
 const MAX_SMOOTH_TURN_RAD: f64 = 0.15;
 
-/// A place and a direction, metres and radians, scene frame.
+/// A position and a heading, scene frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Where.
+    /// Position, metres.
     pub position: Vec2,
     /// Counter-clockwise from +x.
     pub heading_rad: f64,
@@ -64,11 +64,11 @@ pub struct Polyline {
     points: Vec<Vec2>,
     /// Arc length of each point, metres.
     arc: Vec<f64>,
-    /// See [`Polyline::headings_rad`]; computed on first use, since most lines are intermediate results.
+    /// See [`Polyline::headings_rad`]; computed on first use, because most lines are intermediate results.
     headings: OnceLock<Vec<f64>>,
 }
 
-/// All else follows from the points.
+/// Compares the points, from which everything else follows.
 impl PartialEq for Polyline {
     fn eq(&self, other: &Self) -> bool {
         self.points == other.points
@@ -190,7 +190,7 @@ impl Polyline {
         if self.points.len() < 2 || s.is_nan() {
             return (0, 0.0);
         }
-        // Most lines are evenly spaced: the piece is where the share of the length says, or next to it.
+        // Most lines are evenly spaced, so the piece is at the share of the length or next to it.
         let pieces = self.points.len() - 1;
         let guess = (s / self.length_m() * pieces as f64) as usize;
         let holds = |i: usize| i + 1 < pieces && self.arc[i] <= s && s < self.arc[i + 1];
@@ -272,15 +272,15 @@ impl Polyline {
         }
     }
 
-    /// Foot of `point` on the whole line; `None` where that is farther than `within_m`. Fast for lines that
-    /// are far from most query points: it reads few of their pieces.
+    /// Foot of `point` on the whole line; `None` if it is farther than `within_m`. Fast for lines that are
+    /// far from most query points, because it reads few of their pieces.
     pub fn project_within(&self, point: Vec2, within_m: f64) -> Option<Foot> {
         let (piece, s_m) = self.nearest(point, 0.0, f64::INFINITY, within_m)?;
         Some(self.foot_at(piece, s_m, point)).filter(|foot| foot.distance_m <= within_m)
     }
 
-    /// Piece and arc length of the foot of `point` on the part from `from_m` to `to_m`, the first one of equals. One
-    /// that is farther than `within_m` may be missed.
+    /// Piece and arc length of the foot of `point` on the part from `from_m` to `to_m`; the first one wins
+    /// ties. A foot farther than `within_m` may be missed.
     fn nearest(&self, point: Vec2, from_m: f64, to_m: f64, within_m: f64) -> Option<(usize, f64)> {
         let (mut best, mut best_d2, mut bound_m) = (None, f64::INFINITY, within_m + SLACK_M);
         let mut i = self.arc.iter().skip(1).take_while(|s| **s < from_m).count();
@@ -291,7 +291,8 @@ impl Polyline {
                 bound_m = bound_m.min(d2.sqrt() + SLACK_M);
             }
             i += 1;
-            // No place is nearer than this one's distance less the way there: what cannot be the foot is passed over.
+            // No point within that distance along the line is nearer, so the search skips pieces that cannot
+            // contain the foot.
             let away2 = (self.points[i] - point).norm_squared();
             if away2 > bound_m * bound_m {
                 let clear_m = self.arc[i] + away2.sqrt() - bound_m;
@@ -346,8 +347,8 @@ impl Polyline {
         Self::new((0..=pieces).map(|i| self.position_at(length * (i as f64 / pieces as f64))))
     }
 
-    /// Mean over a window of `2 half_m` around each point, the window narrowing towards the ends so that
-    /// these stay: rounds off the kinks where lanes meet. Meant for evenly spaced lines.
+    /// Moving average over a window of `2 half_m` around each point. The window narrows towards the ends, so
+    /// that they do not move. Rounds off the kinks between lanes; meant for evenly spaced lines.
     pub fn smoothed(&self, half_m: f64) -> Self {
         let n = self.points.len();
         let spacing = self.length_m() / n.saturating_sub(1).max(1) as f64;
@@ -456,7 +457,7 @@ mod tests {
             prop_assert!(foot.lateral_m.abs() <= foot.distance_m + 1e-9);
         }
 
-        /// Passing over pieces finds what looking at all of them finds, to the last bit.
+        /// Skipping pieces finds the same foot as testing all of them, bit for bit.
         #[test]
         fn no_foot_is_passed_over(
             corners in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 2..12),

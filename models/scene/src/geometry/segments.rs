@@ -1,8 +1,9 @@
-//! Straight pieces of lines in a uniform grid: the few that lie near a point, quickly. The one spatial index of
-//! lanes, road edges and areas.
+//! Straight pieces of lines in a uniform grid, for fast queries of the pieces near a point. The only spatial
+//! index of lanes, road edges and areas.
 //!
-//! The grid is one sorted array of occupied cells, with a table of where each cell begins: quick to build, small,
-//! without hashing. Where stray pieces lie far from everything there is no table, and cells are searched for.
+//! The grid is one sorted array of occupied cells, with a table of where each cell begins. It is fast to
+//! build and small, and needs no hashing. If a few pieces lie far from all others, there is no table, and
+//! cells are found by binary search.
 
 use super::fine_cells::{FineCells, Square};
 use super::{Vec2, cross};
@@ -10,21 +11,21 @@ use std::sync::{Arc, OnceLock};
 
 /// Side of a grid cell, metres.
 const CELL_M: f64 = 8.0;
-/// Most stretches that a piece is cut into to find its cells; only coordinates far outside any scene need more.
+/// Most parts into which a piece is cut to find its cells; only coordinates far outside any scene need more.
 const MOST_STRETCHES: f64 = 4_096.0;
-/// Points that lie this near the chord of their neighbours are left out, metres.
+/// Points within this distance of the chord of their neighbours are left out, metres.
 const THIN_M: f64 = 0.03;
 
 /// A straight piece of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Where it begins.
+    /// Start point.
     pub from: Vec2,
-    /// Where it ends.
+    /// End point.
     pub to: Vec2,
-    /// The line: a lane, polygon or edge by index.
+    /// Index of its line: a lane, polygon or edge.
     pub owner: u32,
-    /// Which piece of the line, from 0.
+    /// Number of the piece within its line, from 0.
     pub piece: u32,
 }
 
@@ -37,7 +38,7 @@ impl Segment {
         self.from + along * part.clamp(0.0, 1.0)
     }
 
-    /// The piece crosses the straight line between two points.
+    /// Whether the piece crosses the segment between two points.
     pub fn crosses(&self, p: Vec2, q: Vec2) -> bool {
         let (along, other) = (self.to - self.from, q - p);
         let beside = |base: Vec2, direction: Vec2, point: Vec2| cross(direction, point - base);
@@ -55,7 +56,7 @@ pub fn pieces(points: &[Vec2], owner: u32) -> impl Iterator<Item = Segment> {
     points.windows(2).enumerate().map(number)
 }
 
-/// Pieces of a line with near-straight points left out; closed adds the piece back to the start.
+/// Pieces of a line without its nearly collinear points; `closed` adds the piece back to the start.
 pub fn thinned_pieces(points: &[Vec2], closed: bool, owner: u32) -> Vec<Segment> {
     let mut kept = thinned(points);
     if closed {
@@ -64,7 +65,7 @@ pub fn thinned_pieces(points: &[Vec2], closed: bool, owner: u32) -> Vec<Segment>
     pieces(&kept, owner).filter(|s| s.from != s.to).collect()
 }
 
-/// Leaves out points while all of them stay near the chord that replaces them.
+/// Leaves out points as long as all of them stay near the chord that replaces them.
 fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     let mut kept = Vec::new();
     let mut anchor = 0;
@@ -84,29 +85,30 @@ fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     kept
 }
 
-/// Cells of a table for each entry of the array, and in any case.
+/// Limit of table cells per entry of the array, and independently of it.
 const CELLS_AN_ENTRY: usize = 16;
 const CELLS_ANYWAY: usize = 4_096;
-/// Within this the nearest piece mostly is, metres.
+/// Radius that usually contains the nearest piece, metres.
 const NEAREST_M: f64 = 2.0;
-/// Pieces lie so far outside the cells that they are listed in, at most; metres.
+/// Greatest distance of a piece outside the cells in which it is listed, by rounding, metres.
 const ROUNDING_M: f64 = 1e-6;
-/// Lists of the likely nearest pieces reach so far, metres, and are no longer than this.
+/// Reach, metres, and greatest length of the lists of candidates for the nearest piece.
 const LISTED_M: f64 = 1_000.0;
 const MOST_LISTED: usize = 64;
 
-/// Grid of pieces. Built once a map; read by any number of threads.
+/// Grid of pieces. Built once per map; read by any number of threads.
 #[derive(Clone, Debug, Default)]
 pub struct SegmentIndex {
     all: Vec<Segment>,
-    /// Cells in rows from south to north, each with a piece that passes through it.
+    /// Cells by row from south to north, each with the index of a piece that passes through it.
     cells: Vec<(u64, u32)>,
     table: Option<CellTable>,
-    /// In each fine cell, the pieces of which one is the nearest to any point there. Empty where they are far or many.
+    /// For each fine cell, the candidates for the nearest piece to any point in it. Empty if they are far or
+    /// many.
     likely: OnceLock<Arc<FineCells>>,
 }
 
-/// Where each cell of a rectangle of cells begins in the array.
+/// Start of each cell of a rectangle of cells in the array.
 #[derive(Clone, Debug)]
 struct CellTable {
     left: i32,
@@ -118,7 +120,7 @@ struct CellTable {
 }
 
 impl CellTable {
-    /// Of sorted cells; `None` where they are few for the ground that they lie on.
+    /// The table of sorted cells; `None` if they are sparse in their rectangle.
     fn of(cells: &[(u64, u32)]) -> Option<Self> {
         let (low, high) = (cells.first()?.0, cells.last()?.0);
         let left = cells.iter().map(|c| column_of(c.0)).min()?;
@@ -155,7 +157,7 @@ impl CellTable {
         self.first[base + left as usize] as usize..self.first[base + right as usize + 1] as usize
     }
 
-    /// The rows of the rectangle among these.
+    /// The given rows, clipped to the rectangle.
     fn rows(&self, bottom: i32, top: i32) -> (i32, i32) {
         let last = i64::from(self.bottom) + self.rows as i64 - 1;
         (bottom.max(self.bottom), i64::from(top).min(last) as i32)
@@ -180,8 +182,8 @@ impl SegmentIndex {
         self.all.is_empty()
     }
 
-    /// Pieces that may come within `radius_m` of `point` (some come twice, some are farther). None for a point or
-    /// radius that is no number.
+    /// Pieces that may come within `radius_m` of `point`; some occur twice, some are farther. Empty if the
+    /// point or radius is NaN.
     pub fn near(&self, point: Vec2, radius_m: f64) -> impl Iterator<Item = &Segment> {
         self.around(point, radius_m).map(|(_, number)| &self.all[number as usize])
     }
@@ -191,7 +193,8 @@ impl SegmentIndex {
         self.within(point - reach, point + reach)
     }
 
-    /// Cells of pieces that may enter the rectangle between two corners (some come twice, some do not).
+    /// Cells of pieces that may enter the rectangle between two corners; some occur twice, some do not enter
+    /// it.
     fn within(&self, low: Vec2, high: Vec2) -> Within<'_> {
         let empty = low.x.is_nan() || low.y.is_nan() || !(low.x <= high.x && low.y <= high.y);
         let (left, right) = (cell(low.x), cell(high.x));
@@ -205,7 +208,7 @@ impl SegmentIndex {
         within
     }
 
-    /// Nearest piece within `most_m`, with its foot and distance; of several the first.
+    /// Nearest piece within `most_m`, with its foot and distance; the first wins ties.
     pub fn nearest(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
         match self.likely_nearest(point) {
             Some(likely) => self.nearest_of(likely.iter().copied(), point).filter(|found| found.2 <= most_m),
@@ -225,7 +228,7 @@ impl SegmentIndex {
         best.map(|(number, foot, distance)| (&self.all[number as usize], foot, distance))
     }
 
-    /// The nearest piece, looked for farther and farther.
+    /// The nearest piece, by a search with growing radius.
     fn nearest_by_search(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
         let mut radius = NEAREST_M.min(most_m);
         loop {
@@ -248,9 +251,9 @@ impl SegmentIndex {
         }
     }
 
-    /// Calls `look` with the pieces that may come within `radius_m` of `point`, those of the nearest cells first; some
-    /// come twice, some are farther. It returns the distance beyond which no more are wanted, so that a crowd of pieces
-    /// far away costs no more than its nearest cells.
+    /// Calls `look` with the pieces that may come within `radius_m` of `point`, nearest cells first. Some
+    /// occur twice, some are farther. `look` returns the distance beyond which it wants no more pieces, so
+    /// that many distant pieces cost no more than their nearest cells.
     pub fn outwards(&self, point: Vec2, radius_m: f64, mut look: impl FnMut(u32, &Segment) -> f64) {
         let reach = Vec2::repeat(radius_m);
         let mut rows = self.within(point - reach, point + reach);
@@ -275,7 +278,7 @@ impl SegmentIndex {
         }
     }
 
-    /// Numbers of the pieces of which one is the nearest to a point; `None` where a search has to find it.
+    /// Indices of the candidates for the nearest piece to a point; `None` if a search has to find it.
     fn likely_nearest(&self, point: Vec2) -> Option<&[u32]> {
         let table = self.table.as_ref()?;
         let lists = self.likely.get_or_init(|| {
@@ -284,8 +287,8 @@ impl SegmentIndex {
         lists.list(point, |square| self.likely_in(square)).filter(|likely| !likely.is_empty())
     }
 
-    /// Numbers of the pieces of which one is the nearest to any point of a square. From its centre such a piece is
-    /// farther than the nearest by at most the diagonal.
+    /// Indices of the candidates for the nearest piece to any point of a square. From its centre, a candidate
+    /// is farther than the nearest piece by at most the diagonal.
     fn likely_in(&self, Square { centre, side_m }: Square) -> Box<[u32]> {
         let Some((.., least_m)) = self.nearest_by_search(centre, LISTED_M) else { return Box::default() };
         let reach_m = least_m + 1.5 * side_m;
@@ -296,12 +299,12 @@ impl SegmentIndex {
         if likely.len() > MOST_LISTED { Box::default() } else { likely.into() }
     }
 
-    /// About how many bytes of memory the lists of the nearest pieces take.
+    /// Approximate bytes of memory of the lists of candidates.
     pub(crate) fn listed_bytes(&self) -> usize {
         self.likely.get().map_or(0, |lists| lists.bytes())
     }
 
-    /// Distance from `from` along the unit vector `way` to the first piece that is met, at most `most_m`; metres.
+    /// Distance from `from` along the unit vector `way` to the first piece on it, at most `most_m`, metres.
     pub fn ray_m(&self, from: Vec2, way: Vec2, most_m: f64) -> Option<f64> {
         let to = from + way * most_m;
         let ray = to - from;
@@ -320,10 +323,10 @@ impl SegmentIndex {
     }
 }
 
-/// Cells with pieces in a rectangle, and the number of each piece.
+/// Cells with pieces in a rectangle, and the index of each piece.
 struct Within<'a> {
     index: &'a SegmentIndex,
-    /// Of the row before `row`, those left.
+    /// Remaining entries of the row before `row`.
     entries: std::ops::Range<usize>,
     left: i32,
     right: i32,
@@ -332,7 +335,7 @@ struct Within<'a> {
 }
 
 impl Within<'_> {
-    /// Takes up the next row; false where none is left.
+    /// Advances to the next row; false if there is none.
     fn next_row(&mut self) -> bool {
         let Self { index, left, right, .. } = *self;
         if self.row > self.top {
@@ -375,7 +378,7 @@ impl Iterator for Within<'_> {
 }
 
 fn cell(coordinate_m: f64) -> i32 {
-    // The cast saturates, which is what a far coordinate needs.
+    // The cast saturates, which is right for far coordinates.
     (coordinate_m / CELL_M).floor() as i32
 }
 
@@ -385,7 +388,7 @@ fn key(column: i32, row: i32) -> u64 {
     (biased(row) << 32) | biased(column)
 }
 
-/// Distance from a point to a cell, metres, less what rounding may take of it.
+/// Lower bound of the distance from a point to a cell, metres, with a margin for rounding.
 fn least_m(cell: u64, point: Vec2) -> f64 {
     let beyond = |coordinate_m: f64, number: i32| {
         let low_m = f64::from(number) * CELL_M;
@@ -402,7 +405,7 @@ fn column_of(key: u64) -> i32 {
     (key as u32 ^ 0x8000_0000) as i32
 }
 
-/// Calls `found` with the cells around a piece, stretch by stretch.
+/// Calls `found` with the cells around a piece, part by part.
 pub(super) fn cells_along(segment: &Segment, mut found: impl FnMut(u64)) {
     let (a, b) = (segment.from, segment.to);
     let stretches = ((b - a).norm() / CELL_M).ceil().clamp(1.0, MOST_STRETCHES);

@@ -169,7 +169,7 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// With figures as they are written: to a thousandth.
+    /// The reaction with its numbers rounded to a thousandth, as they are written.
     #[must_use]
     pub fn rounded(self) -> Self {
         let [delay_s, time_s, x_m, y_m, speed_mps] =

@@ -1,5 +1,5 @@
-//! Faults towards those who change their motion because of the judged one: it forces them to brake hard, or takes the
-//! crosswalk from a pedestrian.
+//! Faults towards agents that change their motion because of the judged one: it forces them to brake hard, or
+//! takes the crosswalk from a pedestrian.
 
 use super::{Fault, FaultKind, Judge, near, new};
 use crate::geometry::obb::OrientedBox;
@@ -10,14 +10,14 @@ use crate::score::kinematic::hardest_braking;
 use crate::{AgentType, STEP_S, State, wrap_angle};
 use std::f64::consts::FRAC_PI_6;
 
-/// A pedestrian who steps onto a crosswalk later by less is not kept waiting, seconds.
+/// A pedestrian who steps onto a crosswalk less than this later was not kept waiting, seconds.
 const WAITS_S: f64 = 1.0;
-/// A motion that turns by more than this over a crosswalk's surroundings has to let pedestrians cross on green too.
+/// A motion that turns by more than this near a crosswalk must let pedestrians cross on green too.
 const TURNS_RAD: f64 = FRAC_PI_6;
-/// Time before a crosswalk over which a turn towards it is looked for, steps.
+/// Time before a crosswalk in which a turn towards it is searched, steps.
 const TURN_STEPS: usize = 40;
 
-/// The motion of another agent as it is because of the judged one, and as it would be without it.
+/// The motion of another agent with and without the judged one.
 pub struct Change<'a> {
     /// With the judged motion.
     pub now: Actor<'a>,
@@ -26,8 +26,8 @@ pub struct Change<'a> {
 }
 
 impl Judge<'_> {
-    /// Faults of a motion towards those who change because of it; `extent` is the braking in m/s2, or the pedestrian's
-    /// delay in seconds.
+    /// Faults of a motion towards agents that change because of it. `extent` is the braking in m/s2, or the
+    /// pedestrian's delay in seconds.
     pub fn towards(&self, actor: &Actor<'_>, changes: &[Change<'_>]) -> Vec<Fault> {
         changes
             .iter()
@@ -39,7 +39,7 @@ impl Judge<'_> {
     }
 
     fn forces_braking(&self, actor: &Actor<'_>, change: &Change<'_>) -> Option<Fault> {
-        // Who follows from the start keeps the distance itself.
+        // A follower is responsible for its own distance.
         if starts_behind(&change.before, actor, self.input.steps.start) {
             return None;
         }
@@ -55,7 +55,8 @@ impl Judge<'_> {
         Some(Fault { with, ..new(FaultKind::ForcesBraking, (time_s, time_s), state, Some(braking)) })
     }
 
-    /// A vehicle or rider drives over a crosswalk that a pedestrian would have stepped onto, and the pedestrian waits.
+    /// A vehicle or rider drives over a crosswalk that a pedestrian would have stepped onto, so the
+    /// pedestrian waits.
     fn takes_the_crosswalk(&self, actor: &Actor<'_>, change: &Change<'_>) -> Option<Fault> {
         if actor.agent_type == AgentType::Pedestrian {
             return None;
@@ -70,7 +71,7 @@ impl Judge<'_> {
         };
         self.input.map.crosswalks.iter().find_map(|area| {
             let (wanted, mine) = (on(area, &change.before)?, on(area, actor)?);
-            // Somebody who is on it already goes on.
+            // A pedestrian who is already on the crosswalk continues.
             let starts_on_it = wanted == steps.start || mine == steps.start;
             let stepped = on(area, &change.now).unwrap_or(steps.end);
             let waited_s = stepped.saturating_sub(wanted) as f64 * STEP_S;
@@ -85,7 +86,8 @@ impl Judge<'_> {
         })
     }
 
-    /// It goes straight over the crosswalk on a lane with lights: those tell who goes first.
+    /// Whether the motion goes straight over the crosswalk on a lane with lights, which decide who goes
+    /// first.
     fn has_right_of_way(&self, actor: &Actor<'_>, at: usize) -> bool {
         let heading = |step: usize| actor.state(step).map(|s| s.heading_rad);
         let from = at.saturating_sub(TURN_STEPS).max(self.input.steps.start);
@@ -94,7 +96,7 @@ impl Judge<'_> {
     }
 }
 
-/// The one is behind the other on its line at this step.
+/// Whether one agent is behind the other on its line at this step.
 fn starts_behind(one: &Actor<'_>, other: &Actor<'_>, step: usize) -> bool {
     let Some((behind, ahead)) = one.state(step).zip(other.state(step)) else { return false };
     let forward = direction(behind.heading_rad);
@@ -122,7 +124,7 @@ mod tests {
         faults.iter().map(|f| (f.kind, f.extent.unwrap_or_default())).collect()
     }
 
-    /// 15 m/s for 2 s, then slower by this rate for 2 s.
+    /// 15 m/s for 2 s, then braking at this rate for 2 s.
     fn braking(rate: f64) -> Actor<'static> {
         let mut actor = straight("behind", CAR, (0.0, 0.0), 0.0, 15.0);
         for (i, state) in actor.track.to_mut().states.iter_mut().enumerate() {

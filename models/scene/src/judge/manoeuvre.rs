@@ -8,26 +8,26 @@ use std::collections::VecDeque;
 
 /// Steps between the states that are compared.
 const STRIDE: usize = 5;
-/// A motion of less is a stay, metres.
+/// A motion shorter than this is a stay, metres.
 pub const STAYS_M: f64 = 1.0;
-/// Turning by more is a turn, radians: 34 degrees.
+/// Change of heading above which a motion is a turn, radians: 34 degrees.
 pub const TURN_RAD: f64 = 0.6;
-/// Turning by more is turning round, radians: 150 degrees.
+/// Change of heading above which a motion is a U-turn, radians: 150 degrees.
 pub const ROUND_RAD: f64 = 2.6;
-/// Straight on whatever the lanes, radians and metres.
+/// Below this a motion is straight whatever the lanes, radians and metres.
 const AHEAD_RAD: f64 = 0.1;
 const AHEAD_M: f64 = 1.2;
-/// A lane is driven on within this, metres.
+/// Greatest distance from the lane that is driven, metres.
 pub const ON_LANE_M: f64 = 2.5;
-/// A lane that leads elsewhere is not driven on, radians.
+/// Greatest difference of heading from the lane that is driven, radians.
 pub const ALONG_LANE_RAD: f64 = 0.8;
-/// Most lanes that are searched between start and end.
+/// Number of lanes that are searched between start and end.
 const MOST_LANES: usize = 64;
-/// Lane changes of one motion.
+/// Most lane changes of one motion.
 const MOST_CHANGES: i32 = 3;
 
-/// Manoeuvre of states on consecutive steps. With lanes, a bend of the road is no turn, and lane changes are
-/// recognized.
+/// Manoeuvre of states on consecutive steps. With lanes, a bend of the road is not a turn, and lane changes
+/// are recognized.
 pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGraph>) -> Option<Manoeuvre> {
     if states.is_empty() {
         return None;
@@ -63,11 +63,11 @@ pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGra
 
 struct PathShape {
     way_m: f64,
-    /// Of it with the back ahead.
+    /// Part of the length that is driven backwards, metres.
     backwards_m: f64,
-    /// Left is positive.
+    /// Change of heading, positive to the left, radians.
     turn_rad: f64,
-    /// The end, left of the start's heading, metres.
+    /// Offset of the end to the left of the start's heading, metres.
     aside_m: f64,
 }
 
@@ -94,9 +94,9 @@ impl PathShape {
 
 /// How the lanes lead from start to end.
 struct LaneTransition {
-    /// Lanes changed to the left, less those to the right.
+    /// Lane changes to the left minus those to the right.
     shift: i32,
-    /// Through a junction, or where the ways part.
+    /// The path leads through a junction or a fork.
     junction: bool,
 }
 
@@ -106,12 +106,12 @@ fn taken(lanes: &LaneGraph, agent_type: AgentType, states: &[State]) -> Option<L
         lanes.nearest_for(state.position(), ON_LANE_M, agent_type).into_iter().filter(along).collect()
     };
     let start = on(states.first()?).first()?.lane;
-    // Where the map ends before the motion does, its last place on a lane says where it went.
+    // If the map ends before the motion does, the last place on a lane shows where it went.
     let ends = states.iter().rev().step_by(STRIDE).map(on).find(|hits| !hits.is_empty())?;
     let nearest = ends.first()?.distance_m;
-    // Where ways part or meet, lanes lie upon each other.
+    // At forks and merges, lanes overlap.
     let is_end = |lane: usize| ends.iter().any(|e| e.lane == lane && e.distance_m < nearest + 0.3);
-    // Lanes by the fewest changes: on along the lane first, then beside it.
+    // Lanes with the fewest changes first: on along the lane, then beside it.
     let mut queue = VecDeque::from([(start, 0_i32, false)]);
     let mut seen: Vec<(usize, i32)> = Vec::new();
     while let Some((at, shift, junction)) = queue.pop_front() {
@@ -145,7 +145,7 @@ mod tests {
     use crate::Vec2;
     use crate::map::Lane;
 
-    /// From the origin to the east, turning by `turn_rad` in all, drifting aside by `aside_m`.
+    /// From the origin to the east, turning by `turn_rad` in all and drifting aside by `aside_m`.
     fn ride(speed_mps: f64, turn_rad: f64, aside_m: f64) -> Vec<State> {
         let mut at = Vec2::zeros();
         (0..90)
@@ -193,7 +193,7 @@ mod tests {
         let mut back = ride(10.0, 0.0, -3.5);
         back.iter_mut().for_each(|s| s.y_m += 3.5);
         assert_eq!(of(&back, Some(&street)), Manoeuvre::LaneRight);
-        // A road that bends with it.
+        // A road with the same bend.
         let bend: Vec<Vec2> = ride(10.0, 0.9, 0.0).iter().step_by(3).map(State::position).collect();
         let bend = LaneGraph::new(&LaneMap { lanes: vec![Lane::street("a", bend)], ..LaneMap::default() });
         assert_eq!(of(&ride(10.0, 0.9, 0.0), Some(&bend)), Manoeuvre::Straight);

@@ -26,25 +26,25 @@ use std::cell::LazyCell;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// A wheel that touches the kerb is no event: metres past the edge.
+/// A corner this far past the edge is a wheel on the kerb, not a fault, metres.
 const PAST_EDGE_M: f64 = 0.15;
-/// Shorter stretches off the road are touches, metres driven.
+/// Stretches off the road shorter than this are ignored, metres driven.
 const TOUCH_M: f64 = 0.3;
-/// Shorter stretches against the traffic are turns across it: metres driven, unless it faces the traffic so long,
-/// seconds, or ends so.
+/// Stretches against the traffic shorter than this are turns across it, metres driven. They count if the
+/// vehicle faces the traffic for a longer time, seconds, or ends that way.
 const WRONG_WAY_M: f64 = 4.0;
 const FACING_S: f64 = 1.0;
-/// Shorter braking and steering is a jerk of the wheel or of the record, seconds.
+/// Harsh braking and steering shorter than this is noise, seconds.
 pub const HARSH_S: f64 = 0.2;
 
-/// The rules of one scene over a stretch of time. Cheap to make; judges any number of motions.
+/// The rules of one scene over a range of steps. Cheap to make; judges any number of motions.
 pub struct Judge<'a> {
     /// An input without actors: the map, the time and the thresholds.
     input: ScoreInput<'a>,
     lines: Vec<SignalStopLine<'a>>,
 }
 
-/// Another agent with the motion that may be met.
+/// Another agent, with the motion that the judged one may meet.
 pub struct Other<'a> {
     actor: Actor<'a>,
     bounds: MoverBounds,
@@ -60,7 +60,7 @@ impl Other<'_> {
 }
 
 impl<'a> Judge<'a> {
-    /// `steps` are the scene steps that are judged, the start of the motions first.
+    /// A judge for the scene steps `steps`, the start of the motions first.
     pub fn new(map: &'a LaneMap, signals: &'a [Signal], drivable: &'a Drivable, steps: Range<usize>) -> Self {
         let input = ScoreInput {
             actors: Vec::new(),
@@ -75,7 +75,7 @@ impl<'a> Judge<'a> {
         Self { lines: stop_lines(&input), input }
     }
 
-    /// The same by other thresholds; a wheel that touches the kerb stays no event.
+    /// Replaces the thresholds; a wheel on the kerb is still no fault.
     #[must_use]
     pub fn with_thresholds(mut self, thresholds: Thresholds) -> Self {
         self.input.thresholds = Thresholds { offroad_m: thresholds.offroad_m.max(PAST_EDGE_M), ..thresholds };
@@ -131,12 +131,12 @@ impl<'a> Judge<'a> {
         found
     }
 
-    /// There are signals to obey.
+    /// Whether there are signals to obey.
     pub fn has_lights(&self) -> bool {
         !self.lines.is_empty()
     }
 
-    /// A motion crosses a stop line at red.
+    /// Whether a motion crosses a stop line at red.
     pub fn runs_red(&self, actor: &Actor<'_>) -> bool {
         !crossed_at_red(&self.input, actor, &self.lines).is_empty()
     }
@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
-                // Boxes that touch have met, however little.
+                // Boxes that touch have collided, however little.
                 Meeting::Overlap { time_s, .. } => (FaultKind::Collision, time_s, 0.0),
                 Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };
@@ -170,14 +170,14 @@ impl<'a> Judge<'a> {
         others.filter(|o| o.actor.id != actor.id).filter_map(meets).collect()
     }
 
-    /// A lane at its place leads through a junction: which way to face cannot be told.
+    /// Whether a lane at its place leads through a junction, where the right heading is ambiguous.
     fn is_in_junction(&self, actor: &Actor<'_>, step: usize) -> bool {
         let lanes = actor.state(step).map(|s| self.input.drivable.vehicle_lanes(s.position()));
         lanes.into_iter().flatten().any(|(_, band)| band.in_junction)
     }
 
-    /// Metres driven in a stretch and the step before it, which covers a vehicle that leaves the kerb at
-    /// once.
+    /// Metres driven in a stretch and in the step before it. That step covers a vehicle that leaves the kerb
+    /// at once.
     fn driven_m(&self, actor: &Actor<'_>, stretch: &Stretch) -> f64 {
         let steps = step(stretch.time_s).saturating_sub(1)..step(stretch.until_s);
         steps.filter_map(|i| actor.state(i)).map(|s| s.speed_mps() * STEP_S).sum()
@@ -225,7 +225,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// The worst first, then by time: the order of [`About::faults`].
+/// Sorts the worst first, then by time: the order of [`About::faults`].
 pub fn by_weight(faults: &mut [Fault]) {
     faults.sort_by(|a, b| a.kind.cmp(&b.kind).then(a.time_s.total_cmp(&b.time_s)));
 }
@@ -264,7 +264,7 @@ fn at_red(actor: &Actor<'_>, found: RedLight) -> Fault {
     new(FaultKind::RedLight, (found.time_s, found.time_s), &state, Some(found.speed_mps))
 }
 
-/// To a millimetre, as coordinates are written.
+/// Rounded to a millimetre, as coordinates are written.
 fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
@@ -320,10 +320,10 @@ mod tests {
             let judge = Judge::new(&map, &[], &drivable, 0..steps);
             judge.alone(&me).iter().any(|f| f.kind == FaultKind::GoalMissed)
         };
-        // It is known for 9 s of the scene.
+        // The motion is known for 9 s of the scene.
         assert!(!misses(151, 14.0));
         assert!(misses(151, 9.0));
-        // Nothing comes after what is known: it ends short of its goal.
+        // Nothing is known after its end, so it ends short of its goal.
         assert!(misses(91, 14.0));
     }
 

@@ -1,4 +1,4 @@
-//! Relations of a motion to others: order at crossing paths, following, yielding.
+//! Relations of a motion to others: order at crossing paths, following, giving way.
 
 use super::trace::{
     GOES_M, MOMENT_S, Moment, QUEUE_M, SAME_WAY_RAD, STRIDE, SharedGround, Trace, WINDOW_S, crossing,
@@ -9,17 +9,17 @@ use crate::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 
 /// Most relations of a motion.
 const MOST: usize = 4;
-/// Behind another by more than this is not following it, seconds.
+/// An agent farther behind than this does not follow, seconds.
 const HEADWAY_S: f64 = 3.0;
-/// Following lasts so long, seconds.
+/// Shortest duration of following, seconds.
 const FOLLOWS_FOR_S: f64 = 1.2;
-/// Slowing down so near to the shared ground is because of it, metres of way.
+/// Distance before the shared ground within which slowing down is attributed to it, metres along the path.
 const SLOWS_WITHIN_M: f64 = 30.0;
-/// Slower than this share of the speed before is giving way.
+/// Share of the earlier speed below which an agent gives way.
 const SLOWED: f64 = 0.6;
 
-/// Relations of `me` to the others, at most [`MOST`]: crossing paths first, by the time at which it is there,
-/// then its leader. `start_step` is the scene step of all traces' first moments.
+/// Relations of `me` to the others, at most [`MOST`]: crossing paths first, by the time at which `me` is
+/// there, then its leader. `start_step` is the scene step of the first moment of all traces.
 pub fn relations<'a>(
     me: &Trace,
     others: impl IntoIterator<Item = &'a Trace>,
@@ -32,7 +32,7 @@ pub fn relations<'a>(
         }
         found.extend(relation(me, other));
     }
-    // The most telling stay, the rest is left out.
+    // Only the most significant relations stay.
     found.sort_by(|a, b| a.weight().total_cmp(&b.weight()).then_with(|| a.with.cmp(b.with)));
     found.truncate(MOST);
     let follows = |f: &Found<'_>| f.kind == RelationKind::Follows;
@@ -57,7 +57,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// Rank, lower first: yielding, then crossing with a small gap, then following.
+    /// Rank, lower first: giving way, then crossing with a small gap, then following.
     fn weight(&self) -> f64 {
         let gap_s = self.gap_s.unwrap_or(0.0);
         match self.kind {
@@ -90,7 +90,7 @@ fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &SharedGround) -> Option<
     }
 }
 
-/// It slows down or waits before the shared ground until the other has been there.
+/// Whether the agent slows down or waits before the shared ground until the other has passed it.
 fn gives_way(me: &Trace, ground: &SharedGround) -> bool {
     let enters = ground.enters.0;
     let Some(at) = me.moments.get(enters).and_then(Option::as_ref) else { return false };
@@ -110,7 +110,7 @@ fn gives_way(me: &Trace, ground: &SharedGround) -> bool {
     slowed || waits
 }
 
-/// Behind the other on the same way, for long enough.
+/// Whether the agent is behind the other on the same path for long enough.
 fn follows<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
     if me.way_m < GOES_M || me.agent_type == AgentType::Pedestrian {
         return None;
@@ -131,7 +131,7 @@ fn follows<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
     long.then_some(Found { kind: RelationKind::Follows, with: &other.id, moment, place, gap_s })
 }
 
-/// Seconds behind the other at a moment, if it is ahead on the same way and within [`HEADWAY_S`].
+/// Seconds behind the other at a moment, if the other is ahead on the same path and within [`HEADWAY_S`].
 fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f64> {
     let now = other.moments.get(i)?.as_ref()?;
     let speed = moment.speed_mps.max(0.5);
@@ -144,7 +144,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
     if turned > 2.0 * SAME_WAY_RAD {
         return None;
     }
-    // Straight ahead of it, or where it will be within the headway.
+    // Straight ahead, or where the other will be within the headway.
     let facing = me.forward(moment);
     let (along, aside) = (between.dot(&facing), cross(facing, between));
     let bumper = along - 0.5 * (me.size.length_m + other.size.length_m);
@@ -180,7 +180,7 @@ mod tests {
         Size::default_for(agent_type, Subtype::Unknown)
     }
 
-    /// Along a straight line, at the speed of each step.
+    /// Along a straight line, at the given speed of each time.
     fn ride(from: (f64, f64), heading_rad: f64, speed: impl Fn(f64) -> f64) -> Vec<State> {
         let (mut at, ahead) = (Vec2::new(from.0, from.1), direction(heading_rad));
         (0..90)
@@ -206,7 +206,7 @@ mod tests {
         trace(id, AgentType::Pedestrian, states)
     }
 
-    /// Eastwards through x = 40 at 10 m/s: there at 4 s.
+    /// Eastwards through x = 40 at 10 m/s, at 4 s.
     fn east() -> Vec<State> {
         ride((0.0, 0.0), 0.0, |_| 10.0)
     }
@@ -221,12 +221,12 @@ mod tests {
         let me = car("me", &east());
         let later = relations(&me, &[car("late", &north(6.0))], 10);
         assert_eq!(later[0].kind, RelationKind::Before);
-        // 2 s between the centres; the boxes take 0.67 s of it.
+        // 2 s between the centres, of which the boxes take 0.67 s.
         let gap_s = later[0].gap_s.unwrap();
         assert!((gap_s - 1.4).abs() < 0.21, "{gap_s}");
         assert!((later[0].time_s - 4.7).abs() < 0.4 && (later[0].x_m - 37.0).abs() < 3.0, "{later:?}");
         assert_eq!(kinds(&me, &[car("early", &north(2.0))]), [(RelationKind::After, "early".into())]);
-        // Neither is first where they collide, nor where ten seconds lie between them.
+        // There is no order where they collide, nor if ten seconds lie between them.
         assert!(kinds(&me, &[car("meets", &north(4.0))]).is_empty());
         assert!(kinds(&me, &[car("never", &north(12.0))]).is_empty());
     }
@@ -273,7 +273,7 @@ mod tests {
         assert!(kinds(&me, &[ahead(-20.0)]).is_empty());
         assert!(kinds(&me, &[car("b", &ride((15.0, 3.5), 0.0, |_| 10.0))]).is_empty());
         assert!(kinds(&me, &[car("o", &ride((90.0, 3.5), PI, |_| 10.0))]).is_empty());
-        // In the queue behind one that stands.
+        // In the queue behind a standing agent.
         let queue = car("me", &ride((0.0, 0.0), 0.0, |t| (6.0 - 1.5 * t).max(0.0)));
         let stands = car("s", &ride((18.5, 0.0), 0.0, |_| 0.0));
         assert_eq!(kinds(&queue, &[stands]), [(RelationKind::Follows, "s".into())]);
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn merging_has_an_order() {
         let me = car("me", &east());
-        // From the side onto the same lane, there 3 s after.
+        // From the side onto the same lane, 3 s after the other.
         let mut merging = ride((10.0, -30.0), FRAC_PI_2, |_| 5.0);
         for (i, state) in merging.iter_mut().enumerate().skip(60) {
             let x = 10.0 + 0.5 * (i as f64 - 60.0);

@@ -1,8 +1,9 @@
 //! Traces of motions, and the ground that two of them share.
 //!
-//! Boxes are compared at different times: where the box of one at one moment meets the box of the other at
-//! another moment, the two share ground. The time shift between the moments gives the order (compare the
-//! post-encroachment time of the score, which needs paths that cross at an angle; merging counts here too).
+//! Boxes are compared at different times: if the box of one at one moment overlaps the box of the other at
+//! another moment, the two share ground. The time shift between the moments gives their order. The
+//! post-encroachment time of the score is similar, but needs paths that cross at an angle; merging counts
+//! here too.
 
 use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::geometry::{Extent, direction};
@@ -13,18 +14,18 @@ use std::sync::OnceLock;
 pub(super) const STRIDE: usize = 2;
 /// Seconds between two moments.
 pub(super) const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
-/// Shared ground with a larger time shift is no relation, seconds.
+/// Shared ground with a larger time shift makes no relation, seconds.
 pub(super) const WINDOW_S: f64 = 6.0;
-/// Paths whose headings differ by less have the same direction, radians: 35 degrees.
+/// Paths whose headings differ by less than this have the same direction, radians: 35 degrees.
 pub const SAME_WAY_RAD: f64 = 0.61;
-/// Standing bumper to bumper is following too, metres.
+/// Gap between bumpers below which a standing agent follows, metres.
 pub(super) const QUEUE_M: f64 = 6.0;
-/// A motion of less has no relation, metres.
+/// A motion shorter than this has no relation, metres.
 pub(super) const GOES_M: f64 = 2.0;
-/// An agent that ends slower than this is assumed to go on, m/s, and by this distance, metres.
+/// An agent that ends slower than this is assumed to continue, m/s, by this distance, metres.
 const WAITING_MPS: f64 = 1.0;
 const GOES_ON_M: f64 = 7.0;
-/// Goes on, metres a moment.
+/// Distance of the assumed continuation per moment, metres.
 const GOES_ON_STEP_M: f64 = 1.0;
 
 /// A road user at one moment.
@@ -32,10 +33,10 @@ const GOES_ON_STEP_M: f64 = 1.0;
 pub(super) struct Moment {
     pub(super) center: Vec2,
     pub(super) heading_rad: f64,
-    /// Its place among the moments.
+    /// Index of the moment.
     at: usize,
     pub(super) speed_mps: f64,
-    /// Way from the first moment, metres.
+    /// Path length from the first moment, metres.
     pub(super) way_m: f64,
 }
 
@@ -45,21 +46,21 @@ pub struct Trace {
     pub(super) id: AgentId,
     pub(super) agent_type: AgentType,
     pub(super) size: Size,
-    /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
+    /// One per [`MOMENT_S`], the first at the start; `None` while the road user is absent.
     pub(super) moments: Vec<Option<Moment>>,
-    /// By moment, the unit vector along its heading; computed on first use, since most traces meet none.
+    /// Unit vector along the heading, by moment; computed on first use, because most traces meet no other.
     forwards: OnceLock<Box<[Vec2]>>,
-    /// Where it would go on from its last moment, for one that waits at its end.
+    /// Assumed continuation after its last moment, for an agent that waits at its end.
     goes_on: Vec<Moment>,
     extent: Extent,
     pub(super) radius_m: f64,
-    /// Farthest way between two moments, metres.
+    /// Longest distance between two moments, metres.
     stride_m: f64,
     pub(super) way_m: f64,
 }
 
 impl Trace {
-    /// Of the states `at` steps 0 .. `steps`.
+    /// The trace of the states that `at` returns for steps 0 .. `steps`.
     pub fn new(
         id: &str,
         agent_type: AgentType,
@@ -101,7 +102,7 @@ impl Trace {
         trace
     }
 
-    /// The same for one that is looked at itself: where it would go on from its end counts too.
+    /// Adds the assumed continuation, for the trace whose relations are wanted.
     #[must_use]
     pub fn going_on(mut self) -> Self {
         if let Some(last) = self.moments.iter().rev().flatten().next().copied()
@@ -139,13 +140,13 @@ impl Trace {
         moment as f64 * MOMENT_S
     }
 
-    /// Both are somewhere near each other, at whatever time.
+    /// Whether the two are ever near each other, at any times.
     pub fn may_meet(&self, other: &Self) -> bool {
         let reach = self.radius_m + other.radius_m + QUEUE_M;
         self.extent.is_near(&other.extent, reach)
     }
 
-    /// The boxes overlap at some moment after the first.
+    /// Whether the boxes overlap at some moment after the first.
     pub fn meets(&self, other: &Self) -> bool {
         let reach = self.radius_m + other.radius_m;
         let closing_m = (self.stride_m + other.stride_m).max(1e-6);
@@ -178,7 +179,7 @@ impl Trace {
         OrientedBox::facing(moment.center, half_m, moment.heading_rad, self.forward(moment))
     }
 
-    /// The boxes of two at these moments overlap.
+    /// Whether the boxes of two traces at these moments overlap.
     pub(super) fn overlaps(&self, mine: &Moment, other: &Self, theirs: &Moment) -> bool {
         let reach = self.radius_m + other.radius_m;
         (mine.center - theirs.center).norm_squared() < reach * reach
@@ -191,25 +192,26 @@ impl Trace {
     }
 }
 
-/// Ground that two agents use within [`WINDOW_S`] of each other: moments of both.
+/// Ground that two agents use within [`WINDOW_S`] of each other, as moments of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SharedGround {
-    /// The moment at which the first of the two comes there, and the other's that it meets first.
+    /// The moment at which the first agent gets there, and the moment of the other whose box it then
+    /// overlaps.
     pub(super) enters: (usize, usize),
-    /// The pair of moments with the least shift.
+    /// The pair of moments with the smallest time shift.
     pub(super) nearest: (usize, usize),
-    /// The first one's first and last moment there.
+    /// First and last moment of the first agent there.
     pub mine: (usize, usize),
-    /// The other's first and last moment there.
+    /// First and last moment of the other agent there.
     pub theirs: (usize, usize),
-    /// Least and greatest shift in moments: positive where the first one is there first.
+    /// Least and greatest shift in moments; positive if the first agent is there first.
     pub(super) shift: (i64, i64),
-    /// The first one only would come there, had it gone on.
+    /// The first agent gets there only in its assumed continuation.
     pub(super) beyond: bool,
 }
 
 impl SharedGround {
-    /// Order: 1 if the first agent is first, -1 if the other is, 0 where they meet.
+    /// Order: 1 if the first agent goes first, -1 if the other does, 0 if they meet.
     pub fn order(&self) -> i64 {
         match self.shift {
             (least, _) if least > 0 => 1,
@@ -218,13 +220,13 @@ impl SharedGround {
         }
     }
 
-    /// Moments between the two, the fewer the closer; zero where they meet.
+    /// Smallest number of moments between the two; zero if they meet.
     pub fn least_shift(&self) -> i64 {
         if self.order() == 0 { 0 } else { self.shift.0.abs().min(self.shift.1.abs()) }
     }
 }
 
-/// Ground where the paths of two agents cross or merge; `None` for two agents that follow each other from the
+/// Ground where the paths of two agents cross or merge. `None` for two agents that follow each other from the
 /// start on, and for two pedestrians.
 pub fn crossing(me: &Trace, other: &Trace) -> Option<SharedGround> {
     let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
@@ -234,7 +236,8 @@ pub fn crossing(me: &Trace, other: &Trace) -> Option<SharedGround> {
     if came_the_same_way(me, other) { None } else { ground(me, other) }
 }
 
-/// One of the two starts on the way of the other: behind each other from the start on, not merging.
+/// Whether one of the two starts on the path of the other: they follow each other from the start and do not
+/// merge.
 fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
     let starts_on = |a: &Trace, b: &Trace| {
         let Some(start) = a.moments.iter().flatten().next() else { return false };
@@ -256,7 +259,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
         if beyond && found.is_some_and(|f| !f.beyond) {
             break;
         }
-        // Far from all that the other does.
+        // Far from everything that the other does.
         if other.extent.outside_m(here.center) > reach {
             continue;
         }
@@ -270,7 +273,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
             };
             let apart = (moment.center - here.center).norm() - reach;
             if apart > 0.0 {
-                // It cannot be here before it has come so far.
+                // The other cannot be here before it has covered this distance.
                 j += 1 + if other.stride_m > 0.0 { (apart / other.stride_m) as usize } else { to };
                 continue;
             }

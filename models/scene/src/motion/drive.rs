@@ -1,8 +1,8 @@
-//! Wheels: a reference point behind the box centre moves with acceleration a and curvature k.
+//! Wheeled motion: a reference point behind the box centre moves with acceleration a and curvature k.
 //!
-//! Each step of 0.1 s takes both at its middle and follows the circular arc they give, which is exact
-//! while the curvature is constant. Speed stays within zero and the top speed; the curvature within
-//! the wheels' limit and within what sideways grip allows at the speed of the moment.
+//! Each step of 0.1 s uses both values at its middle and follows the circular arc they give, which is exact
+//! for constant curvature. Speed stays between zero and the top speed. Curvature stays within the steering
+//! limit and within lateral grip at the present speed.
 
 use super::{CONTROLS, Gear, Knots, MotionModel, MotionState, REVERSE_SPEED_MPS, Trajectory};
 use crate::{HORIZON_STEPS, KNOTS, STEP_S, Vec2};
@@ -10,7 +10,7 @@ use crate::{HORIZON_STEPS, KNOTS, STEP_S, Vec2};
 /// Values of one step that the rollout and its sensitivities share.
 struct Step {
     speed_next: f64,
-    /// Speed was not cut at a bound.
+    /// The speed was not clamped.
     speed_free: bool,
     /// Signed distance along the heading.
     ds: f64,
@@ -18,7 +18,7 @@ struct Step {
     bound: CurvatureBound,
 }
 
-/// What decided the curvature of a step.
+/// What determined the curvature of a step.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CurvatureBound {
     Free,
@@ -26,7 +26,7 @@ enum CurvatureBound {
     Grip,
 }
 
-/// Bounds of the speed for this start: a start above the top speed may only get slower.
+/// Upper bound of the speed for this start: a start above the top speed may only slow down.
 fn top_speed(model: &MotionModel, v0: f64) -> f64 {
     match model.gear {
         Gear::Forward => model.limits.speed_mps.max(v0),
@@ -115,7 +115,7 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
     let mut out = Vec::with_capacity(at.len());
     let last = at.last().copied().unwrap_or(0);
     let (mut x, mut y, mut heading, mut speed) = (-offset, 0.0, 0.0_f64, v0);
-    // Acceleration knots, then curvature knots. Loops of a known length over each take half the time.
+    // Acceleration knots, then curvature knots. Separate loops of known length take half the time.
     let (mut dx, mut dy, mut dh) = ([[0.0; KNOTS]; 2], [[0.0; KNOTS]; 2], [[0.0; KNOTS]; 2]);
     let mut dv = [0.0; KNOTS];
     let mut next = 0;
@@ -193,7 +193,7 @@ fn at_centre(
     Sensitivity { value: [x + offset * cos, y + offset * sin, heading, speed * swing], jacobian }
 }
 
-/// Share of steps up to `until` at which grip or the wheels' limit cut the curvature.
+/// Share of steps up to `until` at which grip, and the steering limit, cut the curvature.
 pub(crate) fn curvature_cut(model: &MotionModel, knots: &Knots, until: usize) -> (f64, f64) {
     let knots = legal(model, knots);
     let mut speed = model.start_speed_mps();

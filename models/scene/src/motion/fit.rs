@@ -1,8 +1,8 @@
-//! Knots from positions: least squares of a logged track, or of a path with a speed profile.
+//! Knots from positions: least squares on a recorded track, or on a path with a speed profile.
 //!
-//! Two linear problems give a start (arc length to acceleration, heading to curvature); three
-//! Gauss-Newton steps on the positions finish it. A straight start would leave
-//! 10 to 20 % of turning cars unfitted.
+//! Two linear problems give an initial guess (arc length to acceleration, heading to curvature); three
+//! Gauss-Newton steps on the positions follow. A straight initial guess would leave 10 to 20 % of turning
+//! cars unfitted.
 
 use super::drive::{rollout, sensitivities};
 use super::walk::position_row;
@@ -13,11 +13,11 @@ use nalgebra::{SMatrix, SVector};
 /// One wanted state of the box centre, scene frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    /// 1 ..= [`crate::HORIZON_STEPS`], rising over a list.
+    /// 1 ..= [`crate::HORIZON_STEPS`], rising within a list.
     pub step: usize,
     /// Metres.
     pub position: Vec2,
-    /// Radians; for a path its tangent does.
+    /// Radians; for a path its tangent.
     pub heading_rad: f64,
 }
 
@@ -26,13 +26,13 @@ pub struct Sampled {
 pub struct Smoothing(f64);
 
 impl Smoothing {
-    /// For samples that are wished for, such as a path with a speed profile, or that a sensor has seen.
+    /// For wanted samples, such as a path with a speed profile, and for sensor data.
     pub const WISHED: Self = Self(1.0);
     /// For samples of a motion that was rolled out from knots: there is nothing to smooth.
     pub const DRIVEN: Self = Self(0.01);
 }
 
-/// Weight of the knots' second differences: keeps them smooth where few samples speak.
+/// Weight of the knots' second differences, which keeps knots smooth where samples are few.
 const ROUGHNESS: [f64; 2] = [0.02, 2.0];
 /// Weight of the knots themselves.
 const SIZE: [f64; 2] = [1e-3, 2e-2];
@@ -40,7 +40,7 @@ const GAUSS_NEWTON_STEPS: usize = 3;
 
 type Square<const N: usize> = SMatrix<f64, N, N>;
 
-/// Knots whose rollout is as close to the samples as the limits allow. One sample each 0.5 s is enough. An
+/// Knots whose rollout is as close to the samples as the limits allow. One sample per 0.5 s is enough. An
 /// empty list gives the coasting knots.
 pub fn fit(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Knots {
     if samples.is_empty() {
@@ -52,8 +52,8 @@ pub fn fit(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Kn
     }
 }
 
-/// The same motion up to a step, and from there on past the samples after it: on wheels, what was changed to meet a goal
-/// at that step leaves it with another place, speed and heading than the knots after it were made for.
+/// The same motion up to a step, then past the samples after it. A vehicle that was changed to meet a goal at
+/// that step leaves it with another place, speed and heading than the later knots were made for.
 pub fn refit_after(
     model: &MotionModel,
     knots: &Knots,
@@ -61,7 +61,7 @@ pub fn refit_after(
     samples: &[Sampled],
     smoothing: Smoothing,
 ) -> Knots {
-    // Up to the one before, the motion before that step depends on them.
+    // The motion before that step depends on the knots before this one.
     let free = step.div_ceil(KNOT_STEPS) + 1;
     let after = samples.partition_point(|s| s.step <= step);
     if model.kind != MotionKind::Drive || free >= KNOTS || after == samples.len() {
@@ -163,7 +163,7 @@ fn fit_headings(
     ridge(&rows, &wanted, &(smoothness(ROUGHNESS[1], SIZE[1]) * smoothing.0))
 }
 
-/// Steps towards knots that pass the samples; those before `free` stay as they are.
+/// Gauss-Newton steps towards knots that pass the samples; knots before `free` stay fixed.
 fn refine_positions(
     model: &MotionModel,
     samples: &[Sampled],
@@ -220,7 +220,8 @@ fn refine_positions(
     best.1
 }
 
-/// Adds the product of a row with itself. Only the lower half of the sum is complete: all that its factors are made of.
+/// Adds the outer product of a row. Only the lower half of the sum is complete, which is all that its
+/// factorization reads.
 fn add_outer(sum: &mut Square<CONTROLS>, row: &[f64; CONTROLS]) {
     let columns = sum.as_mut_slice().as_chunks_mut::<CONTROLS>().0;
     for j in 0..CONTROLS {

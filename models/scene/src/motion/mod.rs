@@ -1,8 +1,8 @@
-//! Motion in control space: what a road user does is a set of [`Knots`], and every rollout of any knots
+//! Motion in control space: the motion of a road user is a set of [`Knots`], and every rollout of any knots
 //! obeys the limits of its kind.
 //!
-//! Vehicles and cyclists are driven by acceleration and curvature of a reference point near the rear
-//! axle ([`drive`]); people on foot by their velocity ([`walk`]).
+//! Vehicles and cyclists are controlled by acceleration and curvature of a reference point near the rear axle
+//! ([`drive`]), pedestrians by their velocity ([`walk`]).
 
 pub mod drive;
 pub mod fit;
@@ -41,7 +41,7 @@ impl Knots {
         (step / KNOT_STEPS, 1.0 - f, f)
     }
 
-    /// All values are finite.
+    /// Whether all values are finite.
     pub fn is_finite(&self) -> bool {
         self.first.iter().chain(&self.second).all(|v| v.is_finite())
     }
@@ -80,7 +80,7 @@ impl From<&MotionState> for State {
 /// `HORIZON_STEPS + 1` states, the start first.
 pub type Trajectory = Vec<MotionState>;
 
-/// Which way a vehicle moves for the whole window; a future never mixes the two.
+/// Direction of travel of a vehicle for the whole window; a future never mixes the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Gear {
     /// Forwards.
@@ -112,7 +112,7 @@ pub struct MotionModel {
     pub offset_m: f64,
     /// Direction of travel on wheels.
     pub gear: Gear,
-    /// On foot: heading to turn to when standing at this step.
+    /// On foot: step and heading, for a pedestrian that stands at this step and turns.
     pub turn_to: Option<(usize, f64)>,
 }
 
@@ -133,7 +133,8 @@ impl MotionModel {
         Self { gear, ..self }
     }
 
-    /// The same model of a hurried agent, which leaves out what only an emergency asks for. On foot nothing is left out.
+    /// The same model with the limits of a hurried driver, below those of an emergency. On foot nothing
+    /// changes.
     pub fn hurried(self) -> Self {
         match self.kind {
             MotionKind::Drive => Self { limits: self.limits.within(self.limits.hurried), ..self },
@@ -146,7 +147,7 @@ impl MotionModel {
         let along = self.start.velocity().dot(&direction(self.start.heading_rad));
         match (self.kind, self.gear) {
             (MotionKind::Walk, _) => self.start.speed_mps(),
-            // A logged velocity has a sideways part from turning; the norm is the better speed.
+            // A recorded velocity has a lateral part from turning, so the norm is the better speed.
             (MotionKind::Drive, Gear::Forward) if along > 0.0 => self.start.speed_mps(),
             (MotionKind::Drive, Gear::Forward) => 0.0,
             (MotionKind::Drive, Gear::Reverse) => (-along).max(0.0),
@@ -163,7 +164,7 @@ impl MotionModel {
         self.start.position() + rotate(point, self.start.heading_rad)
     }
 
-    /// The knots of staying put or moving on unchanged: no acceleration, no turning.
+    /// The knots without acceleration or turning: the road user stands or continues at constant velocity.
     pub fn coasting(&self) -> Knots {
         match self.kind {
             MotionKind::Drive => Knots::default(),
@@ -182,7 +183,7 @@ impl MotionModel {
         }
     }
 
-    /// Motion of these knots from the start, scene frame. Never breaks a limit, whatever the knots.
+    /// Motion of these knots from the start, scene frame. It never exceeds a limit, whatever the knots.
     pub fn rollout(&self, knots: &Knots) -> Trajectory {
         let mut local = match self.kind {
             MotionKind::Drive => drive::rollout(self, knots),
@@ -197,8 +198,8 @@ impl MotionModel {
     }
 }
 
-/// How far a rollout goes beyond its model's limits: the largest excess over any of them, in the limit's
-/// own unit, zero or less when all hold. A hair of rounding is allowed for.
+/// How far a rollout exceeds its model's limits: the largest excess over any of them, in the limit's own
+/// unit; at most zero if all hold. Allows for rounding.
 pub fn limit_excess(model: &MotionModel, states: &[MotionState]) -> f64 {
     let l = &model.limits;
     let top = l.speed_mps.max(model.start.speed_mps());
@@ -226,7 +227,7 @@ pub fn limit_excess(model: &MotionModel, states: &[MotionState]) -> f64 {
         }
     }
     if model.kind == MotionKind::Drive {
-        // Speeding up and braking from the distances of neighbouring steps.
+        // Acceleration and braking from the distances of neighbouring steps.
         for w in states.windows(3) {
             let first = (reference(&w[1]) - reference(&w[0])).norm();
             let second = (reference(&w[2]) - reference(&w[1])).norm();

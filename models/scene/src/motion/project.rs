@@ -1,7 +1,8 @@
-//! Meets goals exactly: the smallest change of the knots whose rollout ends at the goal, within the limits.
+//! Projects motions onto goals exactly: the smallest change of the knots whose rollout ends at the goal,
+//! within the limits.
 //!
-//! Gauss-Newton on the rollout with its analytic Jacobian, in the metric of [`super::whiten`], with an
-//! active set at the bounds. A hard start is tried from several first guesses.
+//! Gauss-Newton on the rollout with its analytic Jacobian, in the metric of [`super::whiten`], with an active
+//! set at the bounds. Hard cases are tried from several initial guesses.
 
 use super::drive::{curvature_cut, sensitivities};
 use super::fit::{Sampled, Smoothing, fit};
@@ -28,13 +29,13 @@ pub struct Target {
 }
 
 impl Target {
-    /// All fields are free.
+    /// Whether all fields are free.
     pub fn is_free(&self) -> bool {
         self.position.is_none() && self.heading_rad.is_none() && self.speed_mps.is_none()
     }
 
-    /// The fixed velocity at the end, m/s. A free speed or direction is taken from `natural`. `None` when
-    /// both are free.
+    /// The fixed velocity at the end, m/s. A free speed or direction is taken from `natural`. `None` if both
+    /// are free.
     pub fn end_velocity(&self, natural: Vec2) -> Option<Vec2> {
         match (self.heading_rad, self.speed_mps) {
             (Some(heading), speed) => Some(direction(heading) * speed.unwrap_or_else(|| natural.norm())),
@@ -44,7 +45,7 @@ impl Target {
     }
 }
 
-/// How far a state is from a target; zero for free fields.
+/// Deviation of a state from a target; zero for free fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TargetError {
     /// Metres.
@@ -56,7 +57,7 @@ pub struct TargetError {
 }
 
 impl TargetError {
-    /// Of a state against a target.
+    /// Deviation of a state from a target.
     pub fn of(state: &MotionState, target: &Target) -> Self {
         Self {
             position_m: target.position.map_or(0.0, |p| (p - state.position).norm()),
@@ -65,7 +66,7 @@ impl TargetError {
         }
     }
 
-    /// Within 5 cm, 0.015 rad and 5 cm/s: a smaller error is invisible.
+    /// Whether the deviation is within 5 cm, 0.015 rad and 5 cm/s, which is invisible.
     pub fn is_met(&self) -> bool {
         self.position_m < 0.05 && self.heading_rad < 0.015 && self.speed_mps < 0.05
     }
@@ -100,21 +101,21 @@ pub enum Limiting {
 pub enum Reach {
     /// All fixed fields hold.
     Reached(TargetError),
-    /// No motion within the limits was found that meets it.
+    /// No motion within the limits that meets it was found.
     Unreachable {
-        /// State at the target's step that came nearest.
+        /// The nearest state at the target's step.
         nearest: MotionState,
-        /// What is left.
+        /// Remaining deviation.
         residuals: TargetError,
         /// The limit that binds.
         limiting: Limiting,
-        /// The amount that the target would take, in that limit's unit, where a formula gives it.
+        /// The amount that the target would need, in that limit's unit, if a formula gives it.
         needs: Option<f64>,
     },
 }
 
 impl Reach {
-    /// True for `Reached`.
+    /// Whether the target is reached.
     pub fn is_reached(&self) -> bool {
         matches!(self, Self::Reached(_))
     }
@@ -125,7 +126,7 @@ impl Reach {
     }
 }
 
-/// Knots after projection and the motion they make.
+/// Projected knots and their motion.
 #[derive(Clone, Debug)]
 pub struct Projection {
     /// Within the limits.
@@ -136,7 +137,7 @@ pub struct Projection {
     pub reach: Reach,
 }
 
-/// One radian of heading counts as this many metres.
+/// Metres that one radian of heading counts as.
 const HEADING_SCALE: f64 = 5.0;
 const ITERATIONS: usize = 10;
 /// The last iterations go to the nearest root instead of towards the wanted knots.
@@ -182,19 +183,19 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     judged(&variant, knots, trajectory, &target)
 }
 
-/// A place that a motion is at on its way to a target, at a step.
+/// A place that a motion passes at a step on its way to a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pass {
     /// 1 ..= [`HORIZON_STEPS`].
     pub step: usize,
     /// Box centre, metres, scene frame.
     pub position: Vec2,
-    /// Only how far it is to the side of this heading counts, radians: it may be there earlier or later.
+    /// If set, only the deviation across this heading counts, radians: the motion may pass earlier or later.
     pub across_rad: Option<f64>,
 }
 
-/// The motion near `near` that is at these places, at most [`MAX_VIAS`], on its way to the target, as nearly as the
-/// limits allow; `guess` is where the search begins.
+/// The motion near `near` that passes these places, at most [`MAX_VIAS`], on its way to the target, as
+/// closely as the limits allow. `guess` is the initial guess of the search.
 pub fn project_through(
     model: &MotionModel,
     near: &Knots,
@@ -230,7 +231,7 @@ fn judged(model: &MotionModel, knots: Knots, trajectory: Trajectory, target: &Ta
 /// Limits the goal's effect to the time before it: later knots return to the wanted ones, so that a hurry
 /// ends at the goal. On foot they keep the velocity at the goal.
 fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Target) -> Knots {
-    // Up to this knot the motion before the goal depends on them.
+    // The motion before the goal depends on the knots up to this one.
     let last = target.step.div_ceil(KNOT_STEPS);
     for i in last + 1..KNOTS {
         (knots.first[i], knots.second[i]) = match model.kind {
@@ -243,7 +244,7 @@ fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Targ
 
 type FirstGuess = fn(&MotionModel, &Knots, &Target, Option<&Knots>) -> Knots;
 
-/// Models and first guesses in the order they are tried.
+/// Models and initial guesses, in the order in which they are tried.
 fn attempts(
     model: &MotionModel,
     near: &Knots,
@@ -277,7 +278,8 @@ fn attempts(
             if warm.is_some() {
                 out.push((*model, from_warm));
             }
-            // Knots that were not made for this goal start badly: an arc through it does better.
+            // Knots that were not made for this goal are a bad initial guess; an arc through the goal is
+            // better.
             let idle = near.first.iter().chain(&near.second).all(|v| v.abs() < 1e-6);
             if idle && target.position.is_some() {
                 out.extend([(*model, from_arc), (*model, from_near)]);
@@ -306,8 +308,8 @@ impl<const ROWS: usize> Linearized<ROWS> {
         self.residual.norm()
     }
 
-    /// Asks for what a pass wants in its two rows: `here` is the place of the motion then, `change` how it changes
-    /// with the knots, both in the start's frame.
+    /// Sets the two rows of a pass. `here` is the present place of the motion, `change` its derivative by the
+    /// knots, both in the start's frame.
     fn pass(
         &mut self,
         model: &MotionModel,
@@ -429,8 +431,8 @@ fn linearise_walk<const ROWS: usize>(
     let wanted = match target.speed_mps {
         Some(speed) => Some(speed),
         None if standing => Some(0.0),
-        // With a fixed heading and a free speed the end must move along the heading, so that the body follows
-        // it.
+        // With a fixed heading and a free speed, the end must move along the heading, so that the body
+        // follows it.
         None if along < 0.4 => Some(0.5),
         None => None,
     };
@@ -492,7 +494,7 @@ fn unpack(controls: &Controls) -> Knots {
     knots
 }
 
-/// Knots that moved back when the limits were applied are held there in the second half of a step.
+/// Knots that the limits moved back are fixed in the second half of a step.
 fn inside(wanted: &Controls, legal: &Controls) -> [bool; CONTROLS] {
     std::array::from_fn(|i| (wanted[i] - legal[i]).abs() < 1e-12)
 }
@@ -522,7 +524,7 @@ fn solve<const ROWS: usize>(
         let full = if (cut - wanted).amax() < 1e-9 {
             wanted
         } else {
-            // Hold what the limits cut and let the rest make up for it.
+            // Fix the knots that the limits cut, and let the others compensate.
             let free = inside(&wanted, &cut);
             let held = Controls::from_fn(|i, _| if free[i] { u[i] } else { cut[i] });
             let residual = linear.residual - linear.jacobian * (held - u);
@@ -618,7 +620,7 @@ fn curve_guess(model: &MotionModel, target: &Target, bulge: f64) -> Knots {
     fit(model, &samples, Smoothing::WISHED)
 }
 
-/// Which limit keeps `target` out of reach, and what it would take.
+/// Which limit keeps `target` out of reach, and the value that it would need.
 fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Option<f64>) {
     let seconds = target.step as f64 * STEP_S;
     let v0 = model.start_speed_mps();
@@ -664,8 +666,8 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
     explain_turn(model, knots, target)
 }
 
-/// Neither distance nor speed explains it: the turn does, by grip or by steering lock, unless the
-/// knots stand at an acceleration bound.
+/// For a target that neither distance nor speed puts out of reach: the turn does, by grip or by steering
+/// lock, unless the knots are at an acceleration bound.
 fn explain_turn(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Option<f64>) {
     let l = &model.limits;
     let (grip, wheels) = curvature_cut(model, knots, target.step);

@@ -1,30 +1,30 @@
-//! Curves in time whose velocity soon returns to a constant one: how people walk to a place.
+//! Curves in time whose velocity soon returns to a constant one: how pedestrians walk to a place.
 //!
-//! A cubic in time carries the velocity of the first moment through the whole way. A walker's does not last:
-//! most of it is sway and gait. The curve here keeps both acceleration and departure from an even velocity
-//! small, in squares and with the [relaxation time](Tension::to_target) between them (a spline under tension,
-//! Schweikert 1966, in time). It is a straight line where that time is short and the cubic where it is long.
+//! A cubic in time carries the initial velocity through the whole curve. A pedestrian's initial velocity does
+//! not last: most of it is sway and gait. This curve minimizes the squares of both acceleration and deviation
+//! from a constant velocity, with the [relaxation time](Tension::to_target) as their ratio (a spline under
+//! tension, Schweikert 1966, in time). It approaches a straight line for short relaxation times and the cubic
+//! for long ones.
 
 use super::Target;
 use crate::{STEP_S, Vec2};
 
-/// A spline under tension between two places: an even velocity, and departures from it that fade away from
-/// either end.
+/// A spline under tension between two places: a constant velocity plus deviations that decay from either end.
 #[derive(Clone, Copy, Debug)]
 pub struct Tension {
     origin: Vec2,
     even: Vec2,
-    /// Departures that begin and that end with the curve, metres.
+    /// Deviations that decay from the start, and towards the end, metres.
     fading: [Vec2; 2],
     seconds: f64,
     relax_s: f64,
 }
 
 impl Tension {
-    /// The curve from a place and velocity (m, m/s) to a target's position, met at its step. A departure from
-    /// the even velocity fades to 1/e of itself in `relax_s` seconds, which must be above 0. The velocity at
-    /// the end follows the target's speed and heading where they are fixed. A free end has no acceleration;
-    /// where only the speed is fixed, it gives the direction. `None` for a target without a position.
+    /// The curve from a place and velocity (m, m/s) to a target's position at its step. A deviation from the
+    /// constant velocity decays to 1/e in `relax_s` seconds, which must be above 0. The velocity at the end
+    /// follows the target's speed and heading if they are fixed. A free end has no acceleration; if only the
+    /// speed is fixed, the free end gives the direction. `None` for a target without a position.
     pub fn to_target(from: (Vec2, Vec2), target: &Target, relax_s: f64) -> Option<Self> {
         let to = target.position?;
         let seconds = target.step.max(1) as f64 * STEP_S;
@@ -33,8 +33,8 @@ impl Tension {
         Some(end.map_or(free, |end| Self::new(from, to, Some(end), seconds, relax_s)))
     }
 
-    /// The place is origin + even t + fading0 e^(-t/r) + fading1 e^(-(T-t)/r); both ends and their velocities
-    /// (a free end's acceleration of zero) decide the four.
+    /// The place is origin + even t + fading0 e^(-t/r) + fading1 e^(-(T-t)/r). The four follow from both ends
+    /// and their velocities; a free end has acceleration zero instead.
     fn new(from: (Vec2, Vec2), to: Vec2, end: Option<Vec2>, seconds: f64, relax_s: f64) -> Self {
         let (length, left) = (seconds / relax_s, (-seconds / relax_s).exp());
         let beyond = to - from.0 - from.1 * seconds;
@@ -54,7 +54,7 @@ impl Tension {
         Self { origin: from.0 - fading[0] - fading[1] * left, even, fading, seconds, relax_s }
     }
 
-    /// Place and velocity after `t` seconds; beyond the end the motion goes on unchanged.
+    /// Place and velocity after `t` seconds; beyond the end the velocity is constant.
     pub fn at(&self, t: f64) -> (Vec2, Vec2) {
         let inside = t.min(self.seconds);
         let fade = [(-inside / self.relax_s).exp(), ((inside - self.seconds) / self.relax_s).exp()];
@@ -106,7 +106,8 @@ mod tests {
         let curve = Tension::to_target(FROM, &target(), 0.5).unwrap();
         let even = curve.at(3.0).1;
         assert!((curve.at(2.5).1 - even).norm() < 0.01 && (FROM.1 - even).norm() > 0.5);
-        // With a long memory it is the cubic: the velocity of a free end is 1.5 times the mean less half the first.
+        // For a long relaxation time it is the cubic: the velocity of a free end is 1.5 times the mean minus
+        // half the initial one.
         let cubic = Tension::to_target(FROM, &target(), 1e3).unwrap();
         let natural = (Vec2::new(9.0, 4.0) - FROM.0) * (1.5 / 6.0) - FROM.1 * 0.5;
         assert!((cubic.at(6.0).1 - natural).norm() < 1e-3);

@@ -19,7 +19,7 @@ fn knots() -> impl Strategy<Value = Knots> {
         .prop_map(|(first, second)| Knots { first, second })
 }
 
-/// A target that some legal motion of the model certainly meets.
+/// A target that some motion of the model within its limits certainly meets.
 fn reachable(model: &MotionModel, knots: &Knots, step: usize, subset: u8) -> Target {
     let state = model.rollout(knots)[step];
     Target {
@@ -49,7 +49,7 @@ proptest! {
         prop_assert!(limit_excess(&model, &trajectory) <= 0.0);
         for w in trajectory.windows(2) {
             let along = (w[1].position - w[0].position).dot(&direction(w[0].heading_rad));
-            // Off-tracking of the box centre may move it by millimetres ahead while it swings.
+            // Off-tracking may move the box centre ahead by millimetres while it swings.
             prop_assert!(along <= 0.02, "{along}");
         }
     }
@@ -92,7 +92,7 @@ fn jacobian_matches_finite_differences() {
     }
 }
 
-/// Random knots of the size that traffic shows.
+/// Random knots of the size that occurs in traffic.
 fn gentle(kind: AgentType) -> impl Strategy<Value = Knots> {
     let second = if kind == AgentType::Pedestrian { 0.8 } else { 0.05 };
     let (lo, hi) = if kind == AgentType::Pedestrian { (0.2, 2.0) } else { (-1.2, 1.2) };

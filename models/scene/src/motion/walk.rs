@@ -1,14 +1,14 @@
-//! Feet: velocity knots in the start's frame. The first knot is the start velocity itself; changes
-//! from knot to knot stay within the acceleration limit, speeds within the top speed.
+//! Walking: velocity knots in the start's frame. The first knot is the start velocity; changes from knot to
+//! knot stay within the acceleration limit, speeds within the top speed.
 //!
-//! The heading follows the motion above 0.3 m/s, is held below, and turns on the spot to a fixed goal
-//! heading where the walk ends standing.
+//! The heading follows the motion above 0.3 m/s and is held below. A pedestrian that ends standing turns on
+//! the spot to a fixed goal heading.
 
 use super::{Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::rotate;
 use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 
-/// Fastest turning of the body, radians a step.
+/// Fastest turning of the body, radians per step.
 const TURN_PER_STEP_RAD: f64 = 0.35;
 /// Steps over which a standing person turns to a goal heading.
 const TURN_STEPS: usize = 12;
@@ -18,7 +18,7 @@ fn start_velocity(model: &MotionModel) -> Vec2 {
     rotate(model.start.velocity(), -model.start.heading_rad)
 }
 
-/// Knots within reach of the start velocity and the limits: cut one after the other.
+/// Knots within reach of the start velocity and the limits, clamped one after the other.
 pub(crate) fn legal(model: &MotionModel, knots: &Knots) -> Knots {
     let mut out = Knots::default();
     let mut last = start_velocity(model);
@@ -40,7 +40,7 @@ pub(crate) fn legal(model: &MotionModel, knots: &Knots) -> Knots {
     out
 }
 
-/// The knot before a step's end and how far the end is towards the next, 0 to 1.
+/// The knot before a step's end, and the share of the way to the next knot, 0 to 1.
 fn end_weight(step: usize) -> (usize, f64) {
     let j = (step / KNOT_STEPS).min(KNOTS - 2);
     (j, (step - j * KNOT_STEPS) as f64 / KNOT_STEPS as f64)

@@ -1,6 +1,6 @@
-//! The metric of knot changes: changes of neighbouring knots go together, and curvature counts
-//! the more the faster the road user is. Lengths of 4 s for acceleration and 1.5 s for curvature gave the
-//! motions nearest to recorded ones of those tried.
+//! The metric of knot changes: changes of neighbouring knots are correlated, and curvature counts more at
+//! higher speed. Of the correlation lengths tried, 4 s for acceleration and 1.5 s for curvature gave the
+//! motions nearest to recorded ones.
 
 use super::{CONTROLS, MotionKind, MotionModel};
 use crate::{KNOT_S, KNOTS};
@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 
 type Square = SMatrix<f64, KNOTS, KNOTS>;
 
-/// Lower Cholesky factor of the squared-exponential covariance between knots, `[KNOTS, KNOTS]`: ones on its
-/// diagonal but for a nugget of 1e-4 that keeps it definite.
+/// Lower Cholesky factor of the squared-exponential covariance between knots, `[KNOTS, KNOTS]`: variance one,
+/// plus a nugget of 1e-4 that keeps it positive definite.
 pub fn knot_covariance_factor(correlation_s: f64) -> Square {
     let covariance = Square::from_fn(|i, j| {
         let d = (i as f64 - j as f64) * KNOT_S / correlation_s;
@@ -21,7 +21,7 @@ pub fn knot_covariance_factor(correlation_s: f64) -> Square {
 
 static ACCELERATION: LazyLock<Square> = LazyLock::new(|| knot_covariance_factor(4.0));
 static CURVATURE: LazyLock<Square> = LazyLock::new(|| knot_covariance_factor(1.5));
-/// Walking: the first knot is the start velocity and never moves, so the rest is conditioned on it.
+/// Walking: the first knot is the fixed start velocity, so the others are conditioned on it.
 static VELOCITY: LazyLock<Square> = LazyLock::new(|| {
     let correlation = |i: usize, j: usize| {
         let d = (i as f64 - j as f64) * KNOT_S;

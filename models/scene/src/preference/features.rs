@@ -7,9 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A larger time gap is free room, seconds.
+/// Largest time gap that counts, seconds; a larger one is free room.
 const ROOM_S: f64 = 5.0;
-/// Steps between the speeds that an acceleration is taken from. Shorter changes are jitter.
+/// Steps between the speeds of which an acceleration is the difference. Shorter changes are jitter.
 const ACCEL_STEPS: usize = 5;
 /// Steps between places.
 const PLACE_STEPS: usize = 5;
@@ -75,7 +75,7 @@ pub struct Features {
 }
 
 impl Features {
-    /// Of motions that are made together.
+    /// Features of motions that are made together.
     pub fn of<'a>(scene: &Scene, motions: impl Iterator<Item = (&'a str, &'a Future)>) -> Self {
         let mut features = Self { gap_s: ROOM_S, ..Self::default() };
         let (mut count, mut logged) = (0.0, Vec::new());
@@ -113,7 +113,7 @@ impl Features {
         features
     }
 
-    /// The value of a trait: of an order or a manoeuvre 1 for yes, -1 for no, and 0 where it does not come to that.
+    /// The value of a trait. An order or a manoeuvre is 1 for yes, -1 for no, and 0 if it does not occur.
     pub fn value(&self, of: &Trait) -> Option<f64> {
         let signed = |yes: bool| if yes { 1.0 } else { -1.0 };
         match of {
@@ -129,7 +129,7 @@ impl Features {
         }
     }
 
-    /// Quantities by the names of their fields, each with the most that it can be.
+    /// Quantities by the names of their fields, each with its upper bound.
     pub fn quantities(&self) -> impl Iterator<Item = (&'static str, f64, f64)> {
         let known = [
             ("pace_mps", self.pace_mps, 150.0),
@@ -140,7 +140,7 @@ impl Features {
         known.into_iter().chain(self.from_log_m.map(|m| ("from_log_m", m, 1e5)))
     }
 
-    /// The traits that it has a value of.
+    /// The traits for which it has a value.
     pub fn traits(&self) -> Vec<Trait> {
         let mut traits = vec![Trait::Pace, Trait::Gap, Trait::Harshness, Trait::Standing];
         traits.extend(self.from_log_m.map(|_| Trait::FromLog));
@@ -154,13 +154,13 @@ impl Features {
 }
 
 impl Trait {
-    /// It is a quantity, not a yes or no.
+    /// Whether it is a quantity, not a yes or no.
     pub(super) fn is_quantity(&self) -> bool {
         !matches!(self, Self::First { .. } | Self::Does { .. })
     }
 }
 
-/// The future breaks a rule or misses its goal, and so is no useful card.
+/// Whether the future breaks a rule or misses its goal, so that it is no useful card.
 pub(super) fn is_broken(future: &Future) -> bool {
     use FaultKind::{
         Collision, GoalMissed, OffMap, OffRoad, OnCarriageway, OverMedian, RedLight, ViaMissed, WrongWay,
@@ -171,7 +171,7 @@ pub(super) fn is_broken(future: &Future) -> bool {
     future.about.faults.iter().any(|fault| broken(fault.kind))
 }
 
-/// Where motions are at every half second.
+/// Places of motions at every half second.
 pub(super) fn places<'a>(motions: impl Iterator<Item = (&'a str, &'a Future)>) -> Places {
     let at =
         |future: &Future| future.states.iter().step_by(PLACE_STEPS).map(crate::State::position).collect();

@@ -65,13 +65,13 @@ pub struct Wish {
 /// A card that was judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedCard {
-    /// What it was like.
+    /// Features of the card.
     pub features: Features,
-    /// What was said.
+    /// The person's verdict.
     pub verdict: Verdict,
-    /// What should be otherwise, or was liked, if that was said.
+    /// The trait that was criticized or liked, if any.
     pub why: Option<Wish>,
-    /// Box centres at every half second, by road user, so that nothing like it comes again.
+    /// Box centres at every half second, by road user, so that no similar card comes again.
     pub places: Places,
 }
 
@@ -83,8 +83,8 @@ pub type Places = BTreeMap<AgentId, Vec<Vec2>>;
 pub struct Feedback {
     /// Judged cards, the first round's first.
     pub answers: Vec<JudgedCard>,
-    /// Wishes that were said outright.
+    /// Explicit wishes.
     pub wishes: Vec<Wish>,
-    /// Traits that do not count, whatever the answers show.
+    /// Traits that are ignored, whatever the answers show.
     pub forgotten: Vec<Trait>,
 }

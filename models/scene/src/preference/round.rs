@@ -1,4 +1,4 @@
-//! The next cards.
+//! Selection of the next cards.
 
 use super::features::{self, Features, PLACE_S};
 use super::taste::Taste;
@@ -10,13 +10,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Two cards are somewhere this far apart, metres...
+/// Some place of two different cards is this far apart, metres...
 const APART_M: f64 = 1.5;
-/// ...or, of the slow, as far as they go in this time, seconds.
+/// ...or, for slow motions, as far as they go in this time, seconds.
 const APART_S: f64 = 1.0;
-/// Least distance that makes two almost standing motions different, metres.
+/// Smallest distance that distinguishes two almost standing motions, metres.
 pub const LEAST_APART_M: f64 = 0.3;
-/// Nearer than this share of it, a card is one that was judged.
+/// Below this share of that distance, a card counts as one that was already judged.
 const SAME_SHARE: f64 = 0.3;
 /// Rule-keeping candidates suffice for a round if there are this many times as many as cards.
 const ENOUGH_TIMES: usize = 2;
@@ -24,11 +24,11 @@ const ENOUGH_TIMES: usize = 2;
 /// A motion that may become a card: a future of one road user, or a joint scene.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Which sample of the draw.
+    /// Index of the sample.
     pub sample: usize,
-    /// Which of its futures; `None` takes the sample as it is.
+    /// Index of its future; `None` for the whole sample.
     pub mode: Option<usize>,
-    /// What it is like.
+    /// Its features.
     pub features: Features,
     places: Places,
     broken: bool,
@@ -46,16 +46,16 @@ pub struct RoundCard {
     pub places: BTreeMap<AgentId, Vec<[f64; 2]>>,
 }
 
-/// A round: which candidates are shown, and what is known by now.
+/// A round: the shown candidates, and what has been learned so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Round {
-    /// Positions among the candidates, the best liked first.
+    /// Indices of the shown candidates, the best liked first.
     pub taken: Vec<usize>,
-    /// As many cards.
+    /// The cards, parallel to `taken`.
     pub cards: Vec<RoundCard>,
-    /// Shares of belief that each is liked best; they sum to one.
+    /// Probability of each card to be liked best; they sum to one.
     pub shares: Vec<f64>,
-    /// Wishes that the answers agree upon, the surest first.
+    /// Wishes on which the answers agree, the most certain first.
     pub wishes: Vec<Learned>,
 }
 
@@ -79,7 +79,7 @@ impl Candidate {
         samples.iter().enumerate().map(one).collect()
     }
 
-    /// It breaks no rule and meets its goal.
+    /// Whether it breaks no rule and meets its goal.
     pub fn is_clean(&self) -> bool {
         !self.broken
     }
@@ -99,7 +99,7 @@ impl Candidate {
         }
     }
 
-    /// As a card that was judged.
+    /// The candidate as a judged card.
     pub fn judged(&self, verdict: Verdict, why: Option<Wish>) -> JudgedCard {
         JudgedCard { features: self.features.clone(), verdict, why, places: self.places.clone() }
     }
@@ -114,10 +114,10 @@ impl Candidate {
     }
 }
 
-/// The next `count` cards out of a draw. The same draw, feedback and seed give the same cards. The first card
-/// has the greatest posterior mean; each of the others is the best by one draw of the posterior. Candidates
-/// that break a rule are taken only where few keep all rules. No card resembles another card or a judged one,
-/// so an exhausted draw gives fewer cards.
+/// The next `count` cards from a draw. Equal draws, feedback and seeds give equal cards. The first card has
+/// the greatest posterior mean; each of the others is the best by one draw of the posterior. Candidates that
+/// break a rule are taken only if few keep all rules. No card resembles another card or a judged one, so an
+/// exhausted draw gives fewer cards.
 pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed: u64) -> Round {
     let clean: Vec<usize> = (0..candidates.len()).filter(|i| candidates[*i].is_clean()).collect();
     let open = if clean.len() >= ENOUGH_TIMES * count { clean } else { (0..candidates.len()).collect() };
@@ -134,7 +134,7 @@ pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed:
         left.reduce(|best, k| if likings[k] > likings[best] { k } else { best })
     };
     let known: Vec<f64> = draw.iter().map(|features| taste.liking(features)).collect();
-    // Before anything is known the draw's own first guess leads.
+    // Before anything is known, the draw's own first guess leads.
     taken.extend(best(&known, &[]));
     while taken.len() < count
         && let Some(next) = best(&taste.maybe(&mut stream, &draw), &taken)
@@ -160,7 +160,8 @@ fn is_new(candidate: &Candidate, feedback: &Feedback) -> bool {
     feedback.answers.iter().all(|answer| are_apart(&candidate.places, &answer.places, SAME_SHARE))
 }
 
-/// Whether some road user is elsewhere in `b`, by `share` of the distance that makes two cards different.
+/// Whether some road user in `b` is elsewhere than in `a`, by `share` of the distance that distinguishes two
+/// cards.
 fn are_apart(a: &Places, b: &Places, share: f64) -> bool {
     let differs = |(id, mine): (&String, &Vec<Vec2>)| {
         let Some(other) = b.get(id) else { return true };

@@ -1,55 +1,56 @@
-//! The posterior of what is liked.
+//! The posterior of a person's preference.
 
 use super::features::{Features, Trait};
 use super::{Feedback, Verdict, Wish};
 use crate::random::Stream;
 use nalgebra::{DMatrix, DVector};
 
-/// How much a trait may matter before anything is known, and the bend of it: a liking may have its top in the middle.
+/// Prior deviation of a trait's slope and curvature. A preference may have its maximum in the middle.
 const SLOPE: f64 = 1.0;
 const BEND: f64 = 0.7;
-/// A wish that was said outright: its slope, and how sure.
+/// Slope of an explicit wish, and its certainty.
 const SAID_SLOPE: f64 = 1.5;
 const SAID_DEVIATION: f64 = 0.4;
-/// A motion that was judged is compared with so many of the rejected, the last ones.
+/// Number of the latest rejected motions with which a judged motion is compared.
 const MOST_COMPARED: usize = 24;
-/// Newton's method has found the top within fewer; the objective is concave.
+/// Limit of Newton steps; the concave objective needs fewer.
 const MOST_STEPS: usize = 30;
-/// It is found when no weight moves by more.
+/// Convergence: no weight moves by more than this.
 const FOUND: f64 = 1e-8;
-/// Quantities are measured in deviations of the draw, and none counts as more than these: outliers are no wishes.
+/// Quantities are measured in standard deviations of the draw, clamped to this, because outliers are no
+/// wishes.
 const MOST_DEVIATIONS: f64 = 3.0;
 
-/// What is liked: a normal distribution over the weights of a liking that is linear in the traits and their squares.
-/// It is the Laplace approximation of the Plackett-Luce posterior (Guiver and Snelson, ICML 2009, use the same
-/// likelihood): a kept card was taken from among the rejected ones and the draw's average, and the average was
-/// preferred to each rejected one.
+/// A preference: a normal distribution over the weights of a utility that is linear in the traits and their
+/// squares. It is the Laplace approximation of the Plackett-Luce posterior (Guiver and Snelson, ICML 2009,
+/// use the same likelihood). Each kept card was preferred to the rejected ones and to the draw's average, and
+/// the average to each rejected one.
 #[derive(Clone, Debug)]
 pub struct Taste {
     axes: Vec<Axis>,
     mean: DVector<f64>,
-    /// Lower triangular; times its transpose it is the covariance.
+    /// Lower triangular factor of the covariance.
     spread: DMatrix<f64>,
 }
 
-/// A trait with the draw's average and deviation of it.
+/// A trait with its mean and standard deviation in the draw.
 #[derive(Clone, Debug)]
 struct Axis {
     of: Trait,
-    /// Place of its first weight.
+    /// Index of its first weight.
     at: usize,
     average: f64,
     deviation: f64,
 }
 
-/// One was taken, others were left.
+/// One motion was taken, others were left.
 struct Comparison {
     taken: DVector<f64>,
     left: Vec<DVector<f64>>,
 }
 
 impl Taste {
-    /// From what was said, over a draw that says what is usual.
+    /// The posterior from feedback, over a draw that defines the usual range of each trait.
     pub fn learn(feedback: &Feedback, draw: &[&Features]) -> Self {
         let mut taste = Self::unknown(feedback, draw);
         let comparisons = taste.comparisons(feedback, draw);
@@ -64,7 +65,7 @@ impl Taste {
             }
             let Some(solved) = curvature.clone().cholesky() else { break };
             let mut step = solved.solve(&slope);
-            // Full steps may overshoot where the evidence is one-sided.
+            // Full steps may overshoot if the evidence is one-sided.
             let value = |at: &DVector<f64>| log_posterior(at, &center, &precision, &comparisons);
             let now = value(&at);
             while value(&(&at + &step)) < now && step.amax() > FOUND {
@@ -98,7 +99,7 @@ impl Taste {
         Self { axes, mean: DVector::zeros(size), spread: DMatrix::identity(size, size) }
     }
 
-    /// Where weights lie before anything was answered, and how surely.
+    /// Mean and precision of the weights before any answer.
     fn prior(&self, feedback: &Feedback) -> (DVector<f64>, DMatrix<f64>) {
         let mut center = DVector::zeros(self.mean.len());
         let mut sure = DVector::zeros(self.mean.len());
@@ -140,7 +141,7 @@ impl Taste {
         comparisons
     }
 
-    /// A card with a trait further the way that was wished, and as it was.
+    /// A card with a trait shifted in the wished direction, and the card itself.
     fn wished(&self, why: &Wish, features: &Features) -> Option<(DVector<f64>, DVector<f64>)> {
         let axis = self.axis(&why.of)?;
         let was = self.row(features);
@@ -153,7 +154,7 @@ impl Taste {
         self.axes.iter().find(|axis| axis.of == *of)
     }
 
-    /// A motion as numbers that the weights stand for.
+    /// A motion as a row of features, one per weight.
     fn row(&self, features: &Features) -> DVector<f64> {
         let mut row = DVector::zeros(self.mean.len());
         for axis in &self.axes {
@@ -162,23 +163,23 @@ impl Taste {
         row
     }
 
-    /// How much it is liked, as far as is known; 0 is the average before anything is known.
+    /// Posterior mean of the utility; 0 is the average before anything is known.
     pub fn liking(&self, features: &Features) -> f64 {
         self.mean.dot(&self.row(features))
     }
 
-    /// What may be liked: one draw of the posterior, as a liking of each.
+    /// One draw of the posterior, as a utility of each motion.
     pub(super) fn maybe(&self, stream: &mut Stream, all: &[&Features]) -> Vec<f64> {
         let noise = DVector::from_iterator(self.mean.len(), (0..self.mean.len()).map(|_| stream.normal()));
         let weights = &self.mean + &self.spread * noise;
         all.iter().map(|features| weights.dot(&self.row(features))).collect()
     }
 
-    /// How surely more of a trait is liked: 1 surely more, -1 surely less, 0 nothing known.
+    /// Certainty that more of a trait is liked: 1 certainly more, -1 certainly less, 0 unknown.
     pub(super) fn leaning(&self, of: &Trait) -> f64 {
         let Some(Axis { at, .. }) = self.axis(of) else { return 0.0 };
         let sure = self.mean[*at] / self.spread.row(*at).norm().max(1e-12);
-        // The normal distribution's share on this side, by the logistic function that is close to it.
+        // The normal distribution's probability on this side, approximated by a logistic function.
         (0.8 * sure).tanh()
     }
 }
@@ -190,13 +191,13 @@ impl Axis {
         let average = values.iter().sum::<f64>() / count;
         let deviation = (values.iter().map(|v| (v - average).powi(2)).sum::<f64>() / count).sqrt();
         if of.is_quantity() {
-            // A draw without any spread says nothing of what is much.
+            // A draw without any spread does not define a scale.
             return Self { of, at, average, deviation: deviation.max(0.1) };
         }
         Self { of, at, average: 0.0, deviation: 1.0 }
     }
 
-    /// A quantity has a bend too.
+    /// A quantity also has a curvature weight.
     fn size(&self) -> usize {
         if self.of.is_quantity() { 2 } else { 1 }
     }
@@ -215,7 +216,7 @@ impl Axis {
 }
 
 impl Comparison {
-    /// Shares of belief that each would be taken, the taken one first.
+    /// Probability of each to be taken, the taken one first.
     fn shares(&self, at: &DVector<f64>) -> Vec<f64> {
         let likings: Vec<f64> = [&self.taken].into_iter().chain(&self.left).map(|row| at.dot(row)).collect();
         let most = likings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -224,7 +225,7 @@ impl Comparison {
         parts.into_iter().map(|part| part / whole).collect()
     }
 
-    /// Adds the slope and the curvature of its log likelihood, the latter turned over.
+    /// Adds the gradient of its log likelihood and the negated Hessian.
     fn add(&self, at: &DVector<f64>, slope: &mut DVector<f64>, curvature: &mut DMatrix<f64>) {
         let shares = self.shares(at);
         let mut expected = DVector::zeros(at.len());

@@ -3,7 +3,7 @@ use crate::judge::{Manoeuvre, RelationKind};
 use crate::score::tests::straight;
 use crate::{AgentFutures, AgentType, Future, LaneMap, Sample, Scene, State};
 
-/// Futures of one road user straight ahead, one a speed, a lane's width apart for each of `aside`.
+/// Futures of one road user straight ahead, one per speed, a lane's width apart for each of `aside`.
 fn scene_with(speeds: &[f64]) -> (Scene, Vec<Sample>) {
     let scene = Scene::bare(
         "",
@@ -78,7 +78,7 @@ fn the_first_round_leads_with_the_first_guess_and_shows_what_there_is() {
     assert!(round.taken.contains(&0) && round.wishes.is_empty());
     assert!((round.shares.iter().sum::<f64>() - 1.0).abs() < 1e-9);
     assert!(round.cards.iter().all(|card| card.fulfils.is_none()));
-    // Half a metre a second is 4.5 m in the end: all differ, none comes twice.
+    // 0.5 m/s is 4.5 m in the end: all differ, and no motion occurs twice.
     let mut taken = round.taken.clone();
     taken.sort_unstable();
     taken.dedup();
@@ -118,7 +118,7 @@ fn a_wish_is_told_when_three_answers_agree_twice_over() {
         (WishDirection::More, false, Some((12.0, 14.0)), Some((2.0, 2.0)))
     );
     assert!(pace.strength > 0.2 && pace.strength <= 1.0 && pace.against.is_empty());
-    // One that pulls the other way is named; a second one takes the wish back.
+    // One contradicting answer is named; a second one withdraws the wish.
     feedback.answers.push(pool[1].judged(Verdict::Keep, None));
     assert_eq!(wishes(&feedback)[0].against, [3]);
     feedback.answers.push(pool[29].judged(Verdict::Reject, None));
@@ -145,7 +145,7 @@ fn what_is_said_counts_and_what_is_forgotten_does_not() {
     feedback.forgotten = vec![Trait::Pace];
     let forgotten = choose(&pool, &feedback, 6, 2);
     assert!(forgotten.wishes.iter().all(|learned| learned.wish.of != Trait::Pace));
-    // A word why is an answer too.
+    // A reason is an answer too.
     let mut why = judged(&pool[14..16], |_| Some(false));
     let draw: Vec<&Features> = pool.iter().map(|c| &c.features).collect();
     let leaning = |feedback: &Feedback| Taste::learn(feedback, &draw).leaning(&Trait::Pace);
@@ -166,7 +166,7 @@ fn nothing_that_was_judged_comes_again_and_no_rule_is_broken_where_others_keep_i
         "{:?}",
         round.taken
     );
-    // A draw that has been judged to its end gives no more cards.
+    // A fully judged draw gives no more cards.
     let all = judged(&pool, |_| Some(true));
     assert!(choose(&pool, &all, 6, 3).cards.is_empty());
     pool.iter_mut().step_by(2).for_each(|candidate| candidate.break_a_rule());

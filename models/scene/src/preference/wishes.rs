@@ -1,4 +1,4 @@
-//! Learned wishes, as statements that a person can check and take back.
+//! Learned wishes, as statements that a person can check and withdraw.
 
 use super::taste::Taste;
 use super::{Feedback, JudgedCard, Trait, Verdict, Wish, WishDirection};
@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// A wish is reported when so many answers agree with it...
+/// A wish is reported if this many answers agree with it...
 const LEAST_AGREED: usize = 3;
-/// ...and so many times as many as contradict it.
+/// ...and they are this many times those that contradict it.
 const AGREED_TIMES: usize = 2;
 
 /// A wish with what it rests on.
@@ -32,7 +32,7 @@ pub struct Learned {
     pub against: Vec<usize>,
 }
 
-/// The wishes that the answers agree upon, the surest first.
+/// The wishes on which the answers agree, the most certain first.
 pub(super) fn learned(taste: &Taste, feedback: &Feedback) -> Vec<Learned> {
     let judged = feedback.answers.iter().flat_map(|answer| answer.features.traits());
     let traits: BTreeSet<Trait> = judged.chain(feedback.wishes.iter().map(|wish| wish.of.clone())).collect();
@@ -46,7 +46,7 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
         return None;
     }
     let spoken = feedback.wishes.iter().rfind(|wish| wish.of == of);
-    // Correlated traits cannot be separated: the wish follows the answers, the strength the posterior.
+    // Correlated traits cannot be separated: the wish follows the answers, its strength the posterior.
     let shown = mean(feedback, Verdict::Keep, &of).zip(mean(feedback, Verdict::Reject, &of));
     let way = shown.map_or(WishDirection::More, |(kept, rejected)| {
         if kept < rejected { WishDirection::Less } else { WishDirection::More }
@@ -69,14 +69,14 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
     told.then_some(Learned { wish, strength, said, kept, rejected, against })
 }
 
-/// An answer speaks for a wish, or against it.
+/// Whether an answer agrees with a wish or contradicts it.
 fn agrees(answer: &JudgedCard, wish: &Wish, middle: f64) -> Option<bool> {
     let value = answer.features.value(&wish.of)?;
     let wished = is_wished(value, middle, wish.wants)?;
     Some(wished == (answer.verdict == Verdict::Keep))
 }
 
-/// A value lies on the wished side of the middle.
+/// Whether a value lies on the wished side of the middle.
 fn is_wished(value: f64, middle: f64, wants: WishDirection) -> Option<bool> {
     let beyond = wants.sign() * (value - middle);
     (beyond.abs() > 1e-9).then_some(beyond > 0.0)
@@ -104,7 +104,7 @@ fn mean(feedback: &Feedback, verdict: Verdict, of: &Trait) -> Option<f64> {
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// The share of the wishes that a motion fulfils; with none there is nothing to fulfil.
+/// The share of the wishes that a motion fulfils; `None` without wishes.
 pub(super) fn fulfilled(
     wishes: &[Learned],
     feedback: &Feedback,

@@ -1,7 +1,7 @@
-//! Goals that are said relative to another road user: "12 m ahead of 1, 4 m/s slower, one lane left".
+//! Goals that are fixed relative to another road user: "12 m ahead of 1, 4 m/s slower, one lane left".
 //!
-//! [`GoalRelation`] is what a user fixed, [`faults`] what is wrong with it in its scene, and [`place`] the goal that it
-//! comes to once the motion of the other road user is known.
+//! [`GoalRelation`] is what a user fixed. [`faults`] checks it in its scene. [`place`] resolves it to an
+//! ordinary goal once the motion of the other road user is known.
 
 mod place;
 #[cfg(test)]
@@ -14,48 +14,49 @@ use crate::{Agent, AgentId, sentences};
 use serde::Serialize;
 use std::collections::HashMap;
 
-/// Most goals in a row that are relative to each other.
+/// Longest chain of goals that are relative to each other.
 pub const MAX_RELATED_IN_A_ROW: usize = 4;
 /// Gap to the other road user, metres.
 pub const GAP_M: (f64, f64) = (0.0, 500.0);
 /// Time gap behind the other road user, seconds.
 pub const GAP_S: (f64, f64) = (0.0, 20.0);
-/// How long after the other road user a place is reached, seconds; negative is before it.
+/// Delay at a place against the other road user, seconds; negative is earlier.
 pub const AFTER_S: (f64, f64) = (-30.0, 30.0);
-/// How much slower than the other road user, m/s; negative is faster.
+/// Difference by which the speed is lower than the other's, m/s; negative is faster.
 pub const SLOWER_MPS: (f64, f64) = (-60.0, 60.0);
 /// Lanes to the left of the other road user's; negative is to the right.
 pub const LANES_LEFT: (f64, f64) = (-4.0, 4.0);
 
-/// A goal relative to another road user. The goal's own fields say the rest: its time, and its place for
+/// A goal relative to another road user. The goal's own fields hold the rest: its time, and its place for
 /// [`RelativePlace::After`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GoalRelation {
     /// The other road user.
     pub to: AgentId,
-    /// Where, or when.
+    /// The place, or the time.
     pub place: RelativePlace,
-    /// How much slower than the other one, m/s; the goal's own speed comes before it.
+    /// Difference by which the speed is lower than the other's, m/s; the goal's own speed takes precedence.
     pub slower_mps: f64,
-    /// Lanes to the left of the other one's lane; negative is to the right.
+    /// Lanes to the left of the other's lane; negative is to the right.
     pub lanes_left: i32,
 }
 
-/// Where or when a goal is, seen from the other road user. Gaps are between the two boxes, along the lanes.
+/// Place or time of a goal as seen from the other road user. Gaps are between the two boxes, along the lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum RelativePlace {
-    /// So many metres ahead of it at the goal's time.
+    /// Metres ahead of it at the goal's time.
     Ahead(f64),
-    /// So many metres behind it at the goal's time.
+    /// Metres behind it at the goal's time.
     Behind(f64),
-    /// So many seconds behind it at the goal's time, at the speed of the goal.
+    /// Seconds behind it at the goal's time, at the speed of the goal.
     BehindBy(f64),
-    /// At the goal's own place, so many seconds after the other one was nearest to it.
+    /// At the goal's own place, this many seconds after the other was nearest to it.
     After(f64),
 }
 
-/// What is wrong with the relations of these road users: index of the road user, and the sentence. A relation must name
-/// another road user of the scene, and relations form no ring and no row of more than [`MAX_RELATED_IN_A_ROW`].
+/// Invalid relations of these road users: index of the road user, and the sentence. A relation must name
+/// another road user of the scene, and relations form no cycle and no chain of more than
+/// [`MAX_RELATED_IN_A_ROW`].
 pub fn faults(agents: &[Agent]) -> Vec<(usize, Message)> {
     if agents.iter().all(|agent| agent.conditions.relation.is_none()) {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! From a relation and the motion of the other road user to an ordinary goal.
+//! Resolves a relation to an ordinary goal, given the motion of the other road user.
 
 use super::{GoalRelation, RelativePlace};
 use crate::geometry::direction;
@@ -8,28 +8,28 @@ use crate::routes::{LaneGraph, Pose};
 use crate::via::passings;
 use crate::{AgentType, Goal, STANDING_MPS, STEP_S, Size, State, Vec2, Via, sentences, wrap_angle};
 
-/// The other road user passes a place where it comes nearer than this, metres.
+/// The other road user passes a place if it comes nearer than this, metres.
 const PASSES_M: f64 = 5.0;
-/// The other road user drives along a lane that its motion keeps this near to, metres.
+/// The other road user drives along a lane if its motion stays this near to it, metres.
 const FOLLOWS_M: f64 = 2.0;
-/// Metres of distance that a radian between a road user and a lane is worth.
+/// Distance to which a heading difference of one radian is equivalent, metres.
 const METRES_PER_RAD: f64 = 3.0;
 /// Least time from the start to a goal, seconds.
 const SOONEST_S: f64 = 0.5;
-/// Most lanes that a gap reaches over.
+/// Most lanes in a gap.
 const MOST_LANES: usize = 64;
 
 /// The motion of the road user that a goal is relative to.
 pub struct OtherMotion<'a> {
-    /// Type as it is generated.
+    /// Type for which it is generated.
     pub agent_type: AgentType,
     /// Its box.
     pub size: Size,
-    /// State at a scene step; `None` where it is not there.
+    /// State at a scene step; `None` while it is absent.
     pub at: &'a dyn Fn(usize) -> Option<State>,
 }
 
-/// A goal that is to be worked out.
+/// A goal to be resolved.
 pub struct RelativeGoal<'a> {
     /// What was fixed.
     pub relation: &'a GoalRelation,
@@ -47,11 +47,11 @@ pub struct RelativeGoal<'a> {
     pub end_step: usize,
 }
 
-/// The ordinary goal that a relation comes to.
+/// The ordinary goal of a relation.
 ///
 /// # Errors
-/// Why there is none: the other road user is not there, stands, or does not pass the place; the lane is missing or
-/// ends; the time lies outside of the call.
+/// Why there is none: the other road user is absent, stands, or does not pass the place; the lane is missing
+/// or ends; the time lies outside the call.
 pub fn place(graph: &LaneGraph, asked: &RelativeGoal<'_>, other: &OtherMotion<'_>) -> Result<Goal, Message> {
     match asked.relation.place {
         RelativePlace::After(after_s) => after(asked, other, after_s),
@@ -61,7 +61,7 @@ pub fn place(graph: &LaneGraph, asked: &RelativeGoal<'_>, other: &OtherMotion<'_
     }
 }
 
-/// The goal's own place, at the time at which the other one passes it and so many seconds.
+/// The goal's own place, `after_s` seconds after the other passes it.
 fn after(asked: &RelativeGoal<'_>, other: &OtherMotion<'_>, after_s: f64) -> Result<Goal, Message> {
     let to = &asked.relation.to;
     let position = asked.goal.position.unwrap_or_default();
@@ -82,14 +82,14 @@ fn after(asked: &RelativeGoal<'_>, other: &OtherMotion<'_>, after_s: f64) -> Res
     Ok(Goal { position: Some(position), time_s: Some(time_s), ..asked.goal })
 }
 
-/// A place ahead of the other one, or behind it, in a lane that is counted from its own.
+/// A place ahead of or behind the other, in a lane counted from its own.
 fn beside(graph: &LaneGraph, asked: &RelativeGoal<'_>, other: &OtherMotion<'_>) -> Result<Goal, Message> {
     let relation = asked.relation;
     let due_s = asked.due_step as f64 * STEP_S;
     let state = (other.at)(asked.due_step).ok_or_else(|| sentences::relation_gone(&relation.to, due_s))?;
     let other_mps = state.speed_mps();
     let speed_mps = asked.goal.speed_mps.unwrap_or(other_mps - relation.slower_mps);
-    // A recorded road user that stands has some noise for a speed.
+    // The recorded speed of a standing road user is noise.
     if speed_mps < -STANDING_MPS {
         return Err(sentences::relation_too_slow(&relation.to, other_mps, due_s, relation.slower_mps));
     }
@@ -139,7 +139,7 @@ fn lane_of(graph: &LaneGraph, state: &State, agent_type: AgentType) -> Option<La
     Some((best.lane, best.s_m))
 }
 
-/// The place so many metres along the lanes from the other one's, after so many lanes to the side.
+/// The place this many metres along the lanes from the other's place, after a number of lane changes.
 fn along_lanes(
     graph: &LaneGraph,
     asked: &RelativeGoal<'_>,
@@ -181,7 +181,7 @@ fn along_lanes(
     Err(sentences::relation_lane_ends(to, left_m, due_s))
 }
 
-/// The lane after this one, or before it: the one that the other road user drives along, else the straightest.
+/// The next lane forwards or backwards: the one that the other road user drives along, else the straightest.
 fn next_lane(
     graph: &LaneGraph,
     lane: usize,
@@ -193,7 +193,7 @@ fn next_lane(
     let usable = links.iter().copied().filter(|next| lanes[*next].carries(agent_type) && *next != lane);
     let driven = |next: usize| {
         let path = &lanes[next].path;
-        // The places near both ends are on all of the links.
+        // All links share the places near both ends.
         let inner = (0.3 * path.length_m(), 0.7 * path.length_m());
         let on = |place: &&Vec2| {
             let foot = path.project(**place);

@@ -107,7 +107,7 @@ fn what_cannot_be_had_has_a_reason() {
     let off = |_: usize| Some(State { x_m: 40.0, y_m: 30.0, vx_mps: 5.0, ..State::default() });
     let left = GoalRelation { lanes_left: 1, ..relation(RelativePlace::Ahead(1.0)) };
     assert_eq!(code(&left, &off), "relation-off-lanes");
-    // Beside no lane a gap is along the other one's heading.
+    // Away from lanes, a gap is along the other's heading.
     let goal = placed(&relation(RelativePlace::Ahead(1.0)), Goal::default(), &off).unwrap();
     assert_eq!(goal.position, Some(Vec2::new(45.5, 30.0)));
 }
@@ -132,6 +132,6 @@ fn relations_name_others_and_form_no_ring() {
     assert_eq!(codes(&[("1", "2"), ("2", "1")]), [(0, "relation-ring"), (1, "relation-ring")]);
     let row = [("1", ""), ("2", "1"), ("3", "2"), ("4", "3"), ("5", "4"), ("6", "5")];
     assert_eq!(codes(&row), [(5, "relation-row")]);
-    // A ring is found wherever a row leads into it.
+    // A cycle is found from every chain that leads into it.
     assert_eq!(codes(&[("1", "2"), ("2", "3"), ("3", "2")]).len(), 3);
 }

@@ -6,11 +6,11 @@ use super::{LaneGraph, Pose, Route, search};
 use crate::{AgentType, Vec2, wrap_angle};
 use std::collections::VecDeque;
 
-/// Most routes that are kept.
+/// Most routes returned.
 pub const MAX_ROUTES: usize = 6;
-/// Two routes with a smaller mean distance count as one, metres.
+/// Two routes with a smaller mean distance are the same, metres.
 pub(super) const DISTINCT_M: f64 = 2.0;
-/// Distance between the places at which routes are compared, metres.
+/// Distance between the points at which routes are compared, metres.
 pub(super) const TRACE_STEP_M: f64 = 4.0;
 /// Most lanes in one chain.
 const MAX_HOPS: usize = 64;
@@ -19,7 +19,7 @@ const MAX_CHAINS: usize = 16;
 /// Most lanes visited from one start lane.
 const MAX_VISITS: usize = 512;
 
-/// How far to look: 9 s at 1.15 of the speed (at least 4 m/s) and 15 m, metres.
+/// Length to look ahead, metres: 9 s at 1.15 times the speed (at least 4 m/s) plus 15 m.
 pub fn route_length_m(speed_mps: f64) -> f64 {
     9.0 * 1.15 * speed_mps.max(4.0) + 15.0
 }
@@ -29,7 +29,7 @@ struct Chain {
     hops: Vec<Hop>,
     length_m: f64,
     terminal: bool,
-    /// Rank among all: start score, missing length in metres, turning.
+    /// Rank: sum of start score, missing length in metres, and turning.
     rank: f64,
     trace: Vec<Vec2>,
 }
@@ -43,7 +43,7 @@ pub fn routes_ahead(graph: &LaneGraph, pose: Pose, agent_type: AgentType, length
     each_route_ahead(graph, pose, agent_type, length_m).collect()
 }
 
-/// The first of [`routes_ahead`]; the others are not worked out.
+/// The first of [`routes_ahead`], without computing the others.
 pub fn best_route_ahead(
     graph: &LaneGraph,
     pose: Pose,
@@ -63,7 +63,7 @@ fn each_route_ahead(
     let mut chains: Vec<Chain> = Vec::new();
     for start in &starts {
         let new = chains_from(graph, start, agent_type, length_m);
-        // A chain that enters an earlier one from its middle adds nothing.
+        // A chain that joins an earlier one in its middle adds nothing.
         let known = |hops: &[Hop]| chains.iter().any(|c| ends_with(&c.hops, hops));
         let new: Vec<Chain> = new.into_iter().filter(|c| !known(&c.hops)).collect();
         chains.extend(new);
@@ -78,8 +78,8 @@ fn ends_with(longer: &[Hop], hops: &[Hop]) -> bool {
     longer[skip..].iter().zip(hops).all(|(a, b)| a.lane == b.lane)
 }
 
-/// All chains from one start, breadth first and bounded. A lane comes twice only where there is no other
-/// way on. A lane that ends is left before its end for a lane beside that goes on.
+/// All chains from one start, breadth first and bounded. A lane occurs twice only if there is no other
+/// continuation. A lane that ends is left before its end for a neighbouring lane that continues.
 fn chains_from(graph: &LaneGraph, start: &StartLane, agent_type: AgentType, length_m: f64) -> Vec<Chain> {
     let lanes = graph.lanes();
     let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
@@ -137,7 +137,7 @@ fn chain(graph: &LaneGraph, start: &StartLane, mut hops: Vec<Hop>, length: f64, 
     }
     let turning: f64 = hops.iter().map(|hop| turning_rad(graph, hop)).sum();
     let trace = assemble::trace(graph, &hops, TRACE_STEP_M);
-    // The score of the start counts most, then the missing length, then straightness.
+    // The start's score has the largest weight, then missing length, then straightness.
     let short = (-over).max(0.0) / asked.max(1.0);
     let rank = 1e3 * start.score.min(1e3) + 100.0 * short + turning;
     Chain { hops, length_m: length.min(asked), terminal: over < 0.0, rank, trace }
@@ -148,8 +148,8 @@ fn turning_rad(graph: &LaneGraph, hop: &Hop) -> f64 {
     wrap_angle(path.heading_at(hop.to_m) - path.heading_at(hop.from_m)).abs()
 }
 
-/// Indices of the first chain and then, again and again, of the one farthest from all before it, as long
-/// as it is distinct.
+/// Indices of the first chain and then, repeatedly, of the chain farthest from all selected ones, as long as
+/// it is distinct.
 fn farthest_first(chains: &[Chain]) -> Vec<usize> {
     let Some(first) = chains.iter().position(|c| c.length_m > 0.5) else { return Vec::new() };
     let mut kept = vec![first];
@@ -157,7 +157,7 @@ fn farthest_first(chains: &[Chain]) -> Vec<usize> {
     let mut nearest: Vec<f64> = (0..chains.len()).map(|i| to(i, first)).collect();
     while kept.len() < MAX_ROUTES {
         let usable = (0..chains.len()).filter(|i| chains[*i].length_m > 0.5 && nearest[*i] >= DISTINCT_M);
-        // Of equally far chains the better ranked wins.
+        // Among equally far chains, the better ranked wins.
         let Some(next) = usable.reduce(|a, b| if nearest[b] > nearest[a] + 1e-9 { b } else { a }) else {
             break;
         };

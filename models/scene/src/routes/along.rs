@@ -1,4 +1,4 @@
-//! Places further along the lane that a road user is on.
+//! Places farther along the lane of a road user.
 
 use super::start::lane_under;
 use super::{LaneGraph, Pose};
@@ -6,13 +6,13 @@ use crate::geometry::direction;
 use crate::{AgentType, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
 
-/// Most lanes that a move leads over.
+/// Most lanes in a move.
 const MOST_LANES: usize = 32;
 
 impl LaneGraph {
-    /// A pose so many metres further along the lane under it, or back where `ahead_m` is negative: as far from the
-    /// lane's middle and at the same angle to it. Beyond the lane, the first lane that follows counts; where no lane is
-    /// under the pose, or none follows, the way goes straight on.
+    /// The pose `ahead_m` farther along the lane under it, backwards if negative: at the same offset from the
+    /// lane's middle and the same angle to it. Beyond the lane it follows the first successor. If no lane is
+    /// under the pose, or none follows, it continues straight on.
     pub fn moved_along(&self, pose: Pose, agent_type: AgentType, ahead_m: f64) -> Pose {
         let Some(hit) = lane_under(self, pose, agent_type) else {
             return Pose::new(pose.position + ahead_m * pose.direction(), pose.heading_rad);
@@ -56,10 +56,10 @@ mod tests {
     #[test]
     fn a_move_follows_the_lane_and_those_after_it() {
         let graph = LaneGraph::new(&crossing());
-        // From the western arm straight on, 0.3 m left of the middle and turned a little.
+        // Straight on from the western arm, 0.3 m left of the middle and slightly turned.
         let pose = Pose::xyh(-20.0, -1.45, 0.1);
         near(graph.moved_along(pose, Vehicle, 5.0), -15.0, -1.45, 0.1);
-        // The first way through the crossing leads to the right, on a quarter of a circle of 10.25 m.
+        // The first path through the crossing turns right, on a quarter circle of 10.25 m radius.
         let through = graph.moved_along(pose, Vehicle, 8.0 + FRAC_PI_2 * 10.25 + 4.0);
         near(through, -1.45, -16.0, 0.1 - FRAC_PI_2);
         let back = graph.moved_along(through, Vehicle, -(8.0 + FRAC_PI_2 * 10.25 + 4.0));
@@ -71,7 +71,7 @@ mod tests {
         let graph = LaneGraph::new(&two_lanes());
         near(graph.moved_along(Pose::xyh(0.0, 30.0, FRAC_PI_2), Vehicle, -4.0), 0.0, 26.0, FRAC_PI_2);
         near(graph.moved_along(Pose::xyh(0.0, 0.0, FRAC_PI_2), Pedestrian, 2.0), 0.0, 2.0, FRAC_PI_2);
-        // A lane that ends is gone on from straight.
+        // Beyond a lane that ends, it continues straight on.
         near(graph.moved_along(Pose::xyh(199.0, 0.0, 0.0), Vehicle, 6.0), 205.0, 0.0, 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! From a chain of lanes to a path.
+//! Builds a path from a chain of lanes.
 
 use super::start::errors_at;
 use super::{LaneGraph, Leg, Polyline, Pose, Route};
@@ -6,7 +6,7 @@ use crate::Vec2;
 
 /// Distance between the points of a route's path, metres.
 const STEP_M: f64 = 1.0;
-/// Half window of the mean that rounds off the kinks where lanes meet, metres.
+/// Half window of the moving average that rounds off the kinks between lanes, metres.
 const SMOOTH_HALF_M: f64 = 2.0;
 
 /// A stretch of a lane in a chain.
@@ -15,23 +15,24 @@ pub(super) struct Hop {
     pub lane: usize,
     pub from_m: f64,
     pub to_m: f64,
-    /// Length from `from_m` over which the path still moves here from a lane beside, metres: longer than the hop
-    /// where that goes on in the next one, zero where the lane before simply ends here.
+    /// Length from `from_m` over which the path still moves here from a neighbouring lane, metres. It may
+    /// exceed the hop if the move continues in the next one, and is zero if the previous lane simply ends
+    /// here.
     pub change_m: f64,
-    /// The lane before ends here; otherwise it lies beside.
+    /// The previous lane ends here; otherwise it is a neighbour.
     pub follows: bool,
 }
 
-/// A move from a lane to the one beside that takes more than one hop: its offset is kept across the new lanes.
+/// A move to a neighbouring lane that takes more than one hop: its offset carries over to the new lanes.
 struct Moving {
-    /// Of the lane that is left, positive left, metres.
+    /// Offset of the previous lane, positive left, metres.
     offset_m: f64,
     total_m: f64,
     gone_m: f64,
 }
 
 impl Moving {
-    /// The place on a move that is at `pose` of the new lane `further_m` on.
+    /// The point of a move at `pose` of the new lane, `further_m` on.
     fn at(&self, pose: Pose, further_m: f64) -> Vec2 {
         let heading = pose.direction();
         let left = self.offset_m * (1.0 - smooth((self.gone_m + further_m) / self.total_m));
@@ -86,7 +87,7 @@ fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
             }
             moving.gone_m += change_m;
         }
-        // The middle of the lane is reached.
+        // The move has reached the middle of the lane.
         if hop.change_m <= hop.length_m() {
             path.slice(hop.from_m + change_m, hop.to_m).points().iter().copied().for_each(&mut add);
         }
@@ -94,13 +95,13 @@ fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
     (points, starts)
 }
 
-/// Rises from 0 to 1 with no slope and no curvature at either end.
+/// Rises from 0 to 1 with zero slope and curvature at either end.
 pub(super) fn smooth(share: f64) -> f64 {
     let t = share.clamp(0.0, 1.0);
     t * t * t * (10.0 + t * (6.0 * t - 15.0))
 }
 
-/// Route along a chain of lanes for a road user at `pose`; `None` when the chain has no length.
+/// Route along a chain of lanes for a road user at `pose`; `None` if the chain has no length.
 pub(super) fn route(graph: &LaneGraph, hops: &[Hop], pose: Pose, terminal: bool) -> Option<Route> {
     let (points, starts) = chain(graph, hops);
     let raw = Polyline::new(points);
@@ -130,7 +131,7 @@ pub(super) fn limits(graph: &LaneGraph, legs: &[Leg], path: &Polyline) -> Vec<f6
     path.arc_m().iter().map(limit).collect()
 }
 
-/// Points every `step_m` along a chain, for comparing chains without building their paths.
+/// Points every `step_m` along a chain, to compare chains without building their paths.
 pub(super) fn trace(graph: &LaneGraph, hops: &[Hop], step_m: f64) -> Vec<Vec2> {
     let (mut points, mut next, mut length) = (Vec::new(), 0.0, 0.0);
     for hop in hops {

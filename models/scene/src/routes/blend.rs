@@ -1,4 +1,4 @@
-//! Paths that start and end exactly where a road user does.
+//! Paths that start and end exactly at a road user's start and goal.
 
 use super::assemble::smooth;
 use super::cubic::{self, CURVATURE_WINDOW_M};
@@ -7,40 +7,40 @@ use super::{Polyline, Pose};
 use crate::geometry::cross;
 use crate::{AgentType, Vec2, wrap_angle};
 
-/// Greatest distance between the points of a base path: of motor vehicles, and of others, which turn more
-/// sharply, metres.
+/// Greatest distance between the points of a base path, metres: for motor vehicles, and for others, which
+/// turn more sharply.
 const STEP_M: f64 = 1.0;
 const FINE_STEP_M: f64 = 0.4;
-/// Travel over which an offset is blended away: this time at the present speed, seconds.
+/// Duration of travel over which an offset is blended out, at the present speed, seconds.
 const BLEND_S: f64 = 3.0;
-/// Longest blend of an offset that is not felt, metres.
+/// Longest blend of a small offset, metres.
 const MAX_BLEND_M: f64 = 40.0;
-/// Sideways acceleration of a larger one, such as a lane change: what drivers mostly keep to, m/s2. The quintic of
-/// an offset `d` that fades in a time `T` peaks at 5.77 `d` / `T`².
+/// Lateral acceleration of a larger offset, such as a lane change: what drivers mostly keep to, m/s2. The
+/// quintic of an offset `d` that fades in a time `T` peaks at 5.77 `d` / `T`².
 const SIDEWAYS_MPS2: f64 = 1.5;
 const QUINTIC_PEAK: f64 = 5.77;
-/// Greatest heading difference that a blend across the path can take.
+/// Greatest heading difference for a blend across the path.
 const BLEND_TURN_RAD: f64 = 0.7;
 /// Share of the comfortable curvature that a blend may add before a cubic is tried instead.
 const BLEND_CURVATURE: f64 = 0.7;
-/// The road user's foot is looked for on this much of the path's beginning, metres.
+/// Length at the path's beginning in which the road user's foot is searched, metres.
 const START_SEARCH_M: f64 = 15.0;
 
-/// Shift towards the inside of a bend: metres for a curvature of 1/m, and at most. Fitted to recorded turns,
-/// whose mean distance from the path it lowers by a fifth.
+/// Shift towards the inside of a bend: metres per curvature of 1/m, and its maximum. Fitted to recorded
+/// turns, whose mean distance from the path it reduces by a fifth.
 const INSIDE_M2: f64 = 10.0;
 const MAX_INSIDE_M: f64 = 1.5;
-/// Half of the way over which a bend's curvature is felt, metres: cutting begins before the bend.
+/// Half of the length over which a bend's curvature is averaged, metres: cutting begins before the bend.
 const FELT_M: f64 = 5.0;
 
-/// Where a path should end.
+/// End of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndPose {
     /// Metres.
     pub position: Vec2,
-    /// Radians; along the path when free.
+    /// Radians; free means along the path.
     pub heading_rad: Option<f64>,
-    /// Speed on the last part of the way, m/s: an offset there fades in over as long a way as that asks for.
+    /// Speed on the last part of the path, m/s: it determines the length over which an offset fades in there.
     pub speed_mps: f64,
 }
 
@@ -53,24 +53,24 @@ struct Fade {
 }
 
 impl Fade {
-    /// Offset at `s_m` from where it is `offset_m`.
+    /// Offset at `s_m` after the place where it is `offset_m`.
     fn at(&self, s_m: f64) -> f64 {
         if s_m >= self.length_m {
             return 0.0;
         }
         let t = (s_m / self.length_m).max(0.0);
-        // Quintic that begins with slope one and no curvature and ends with none of all.
+        // Quintic that begins with slope one and no curvature, and ends with zero value, slope and curvature.
         let ramp = t - t * t * t * (6.0 - t * (8.0 - 3.0 * t));
         self.offset_m * (1.0 - smooth(t)) + self.slope * self.length_m * ramp
     }
 }
 
-/// How fast and how tightly a road user joins a path.
+/// Speed and curvature with which a road user joins a path.
 #[derive(Clone, Copy, Debug)]
 struct BlendLimits {
-    /// Speed with which it comes, m/s.
+    /// Speed at the joint, m/s.
     speed_mps: f64,
-    /// Length of a fade of a small offset where there is room, metres.
+    /// Length of a fade of a small offset if there is room, metres.
     blend_m: f64,
     /// Shortest fade, metres.
     min_blend_m: f64,
@@ -90,7 +90,7 @@ impl BlendLimits {
         Self { speed_mps, blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type), step_m }
     }
 
-    /// Length over which so large an offset fades where there is room, metres.
+    /// Length over which an offset of this size fades if there is room, metres.
     fn fade_m(&self, offset_m: f64) -> f64 {
         self.blend_m.max(self.speed_mps * (QUINTIC_PEAK * offset_m.abs() / SIDEWAYS_MPS2).sqrt())
     }
@@ -99,11 +99,12 @@ impl BlendLimits {
 /// `path` (a route's, or any lane centre) bent so that it begins exactly at `start` and, with a goal, ends
 /// exactly there. Vehicles keep to the inside of bends.
 ///
-/// The road user's offset and heading fade onto the path over about 3 s of travel, a lane's width over as much as its
-/// speed asks for, and the goal's fade in over the last part, both as quintics across the path, so that curvature stays continuous. Where an
-/// offset is too large for that (a heading far off the path's, a tight bend on the inner side), a cubic
-/// leads onto the path or off it. A goal beyond the path's end extends it straight on; a goal that is
-/// behind is met by one cubic. Points are at most 1 m apart.
+/// The road user's offset and heading fade onto the path over about 3 s of travel; an offset of a lane's
+/// width takes as long as its speed requires. The goal's offset and heading fade in over the last part. Both
+/// are quintics across the path, so that curvature stays continuous. If an offset is too large for that (a
+/// heading far off the path's, a tight bend on the inner side), a cubic leads onto the path or off it. A goal
+/// beyond the path's end extends it straight on. A goal behind is met by one cubic. Points are at most 1 m
+/// apart.
 pub fn base_path(
     path: &Polyline,
     start: Pose,
@@ -124,7 +125,7 @@ pub fn base_path(
         return direct(start, goal, manner);
     }
     let between = extended.slice(foot.s_m, goal_s);
-    // Both fades share the way where it is short.
+    // Both fades share a short path.
     let half = 0.5 * between.length_m();
     let entered = onto(&between, start, manner, half.max(manner.min_blend_m));
     let room = (entered.length_m() - manner.min_blend_m.min(half)).max(half);
@@ -133,7 +134,7 @@ pub fn base_path(
     if met { bent.resample(manner.step_m) } else { direct(start, goal, manner) }
 }
 
-/// `path` as drivers take it: towards the inside of its bends.
+/// `path` as drivers take it: shifted towards the inside of its bends.
 fn inside(path: &Polyline, step_m: f64) -> Polyline {
     let even = path.resample(step_m);
     let curvature = even.curvatures(FELT_M);
@@ -162,7 +163,7 @@ pub(super) fn ending_at(path: &Polyline, goal: EndPose, agent_type: AgentType) -
     ended(path, goal, manner, path.length_m()).resample(manner.step_m)
 }
 
-/// The path, extended straight on where the goal lies beyond its end, and the goal's arc length on it.
+/// The path, extended straight on if the goal lies beyond its end, and the goal's arc length on it.
 fn reach(path: &Polyline, from_m: f64, goal: Vec2) -> (Polyline, f64) {
     let end = path.last();
     let beyond = (goal - end.position).dot(&end.direction());
@@ -176,7 +177,7 @@ fn reach(path: &Polyline, from_m: f64, goal: Vec2) -> (Polyline, f64) {
     (path.clone(), foot.s_m)
 }
 
-/// One cubic from start to goal; with a free heading it ends as a circle through both would.
+/// One cubic from start to goal; with a free heading it ends like a circle through both.
 fn direct(start: Pose, goal: EndPose, manner: BlendLimits) -> Polyline {
     let chord = goal.position - start.position;
     if chord.norm() < 0.05 {
@@ -211,7 +212,7 @@ fn onto(path: &Polyline, start: Pose, manner: BlendLimits, room_m: f64) -> Polyl
     faded.unwrap_or_else(straight)
 }
 
-/// `path` with the start's place and slope fading out over `length_m`; `None` where it stands too far off
+/// `path` with the start's offset and slope fading out over `length_m`; `None` if the start is too far off
 /// for that.
 fn faded(path: &Polyline, start: Pose, length_m: f64, step_m: f64) -> Option<Polyline> {
     let begin = path.first();
@@ -221,7 +222,7 @@ fn faded(path: &Polyline, start: Pose, length_m: f64, step_m: f64) -> Option<Pol
     if turn.abs() > BLEND_TURN_RAD || along.abs() > 0.25 * length_m {
         return None;
     }
-    // Moving along an offset line covers less (more) of the path on the inner (outer) side of a bend.
+    // A parallel line covers less of the path on the inner side of a bend, and more on the outer side.
     let squeeze = 1.0 - across * path.curvature_at(0.0, 2.0 * CURVATURE_WINDOW_M);
     let sideways = Fade { offset_m: across, slope: squeeze.max(0.2) * turn.tan(), length_m };
     let lengthways = Fade { offset_m: along, slope: 0.0, length_m };
@@ -235,7 +236,7 @@ fn faded(path: &Polyline, start: Pose, length_m: f64, step_m: f64) -> Option<Pol
     Some(Polyline::new([start.position].into_iter().chain(points)))
 }
 
-/// `path` entered by the cheapest of a few cubics.
+/// `path` joined by the cheapest of a few cubics.
 fn joined(path: &Polyline, start: Pose, manner: BlendLimits, room_m: f64) -> Option<Polyline> {
     let mut best: Option<(f64, Polyline)> = None;
     let mut s = 4.0_f64.min(room_m);

@@ -8,7 +8,7 @@ pub(super) const CURVATURE_WINDOW_M: f64 = 2.0;
 /// Points on a join.
 const POINTS: usize = 41;
 
-/// Curvature that a comfortable join keeps, 1/m: a car's.
+/// Curvature of a comfortable join, 1/m: a car's.
 pub(super) fn comfortable_curvature(agent_type: AgentType) -> f64 {
     match agent_type {
         AgentType::Vehicle | AgentType::Other => 0.17,
@@ -45,13 +45,13 @@ pub(super) fn cubic(from: Pose, to: Pose, strength: f64) -> Cubic {
     Cubic { path: Polyline::new(points), max_curvature }
 }
 
-/// What a join costs beside others: 1.6 for each metre of the cubic and 150 for each 1/m of curvature over `limit`.
+/// Cost of a join: 1.6 for each metre of the cubic and 150 for each 1/m of curvature over `limit`.
 pub(super) fn cost(join: &Cubic, limit: f64) -> f64 {
     1.6 * join.path.length_m() + 150.0 * (join.max_curvature - limit).max(0.0)
 }
 
-/// Cheapest cubic between two poses: a turn of more than about 100 degrees needs room, so there several
-/// strengths are tried.
+/// Cheapest cubic between two poses. A turn of more than about 100 degrees needs room, so several strengths
+/// are tried for it.
 pub(super) fn best(from: Pose, to: Pose, limit: f64) -> Cubic {
     if wrap_angle(to.heading_rad - from.heading_rad).abs() < 1.8 {
         return cubic(from, to, 1.0);

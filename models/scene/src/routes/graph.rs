@@ -10,27 +10,27 @@ use crate::{AgentType, LaneMap, Vec2};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What a lane of the graph was made from.
+/// Source of a lane of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LaneSource {
-    /// This lane of the map, in its direction.
+    /// A lane of the map, in its direction.
     Lane(usize),
-    /// This sidewalk of the map, against its direction.
+    /// A sidewalk of the map, against its direction.
     Reversed(usize),
-    /// This crosswalk, along its longer axis, one way or the other.
+    /// A crosswalk, along its longer axis, in one of the two directions.
     Crosswalk(usize),
 }
 
-/// A lane beside another.
+/// A neighbouring lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdjacentLane {
     /// The other lane.
     pub lane: usize,
     /// Arc lengths on the own lane between which the two lie side by side, metres.
     pub own_m: (f64, f64),
-    /// The same on the other lane, metres; falling when it runs the other way.
+    /// The same on the other lane, metres; falling if it runs in the opposite direction.
     pub other_m: (f64, f64),
-    /// Both run the same way.
+    /// Whether both run in the same direction.
     pub same_direction: bool,
 }
 
@@ -49,17 +49,17 @@ impl AdjacentLane {
 /// One lane of the graph.
 #[derive(Clone, Debug)]
 pub struct GraphLane {
-    /// Where it comes from.
+    /// Its source.
     pub source: LaneSource,
     /// Lane type; sidewalk for crosswalks.
     pub lane_type: LaneType,
     /// Leads through a junction between two lanes.
     pub interpolating: bool,
-    /// Centre line; of zero length where the map's lane is.
+    /// Centre line; of zero length if the map's lane has none.
     pub path: Polyline,
-    /// Width, assumed from the type where the map gives none, metres.
+    /// Width, assumed from the type if the map gives none, metres.
     pub width_m: f64,
-    /// Speed limit, assumed from the type where the map gives none, m/s.
+    /// Speed limit, assumed from the type if the map gives none, m/s.
     pub speed_limit_mps: f64,
     /// Lanes that follow.
     pub successors: Vec<usize>,
@@ -74,8 +74,8 @@ pub struct GraphLane {
 }
 
 impl GraphLane {
-    /// Road users of this type use the lane: motor vehicles what carries vehicles, cyclists bike lanes and
-    /// streets, people on foot sidewalks and crosswalks, others nothing.
+    /// Whether road users of this type use the lane: motor vehicles use lanes that carry vehicles, cyclists
+    /// bike lanes and streets, pedestrians sidewalks and crosswalks, others none.
     pub fn carries(&self, agent_type: AgentType) -> bool {
         match agent_type {
             AgentType::Vehicle => self.lane_type.carries_vehicles(),
@@ -85,7 +85,7 @@ impl GraphLane {
         }
     }
 
-    /// Lanes on both sides.
+    /// Neighbouring lanes on both sides.
     pub fn beside(&self) -> impl Iterator<Item = &AdjacentLane> {
         self.left.iter().chain(&self.right)
     }
@@ -118,7 +118,7 @@ impl GraphLane {
     }
 }
 
-/// Speed limit where the map gives none: 30 mph in streets, 65 mph on freeways (WOMD's most frequent).
+/// Speed limit if the map gives none: 30 mph in streets, 65 mph on freeways (the most frequent in WOMD).
 pub fn assumed_speed_limit_mps(lane_type: LaneType) -> f64 {
     match lane_type {
         LaneType::Freeway => 29.0,
@@ -129,7 +129,7 @@ pub fn assumed_speed_limit_mps(lane_type: LaneType) -> f64 {
     }
 }
 
-/// Lanes, links and spatial index of one map. Immutable; build it once a map and share it.
+/// Lanes, links and spatial index of one map. Immutable; build it once per map and share it.
 #[derive(Clone, Debug, Default)]
 pub struct LaneGraph {
     lanes: Vec<GraphLane>,
@@ -145,7 +145,8 @@ pub struct LaneHit {
     pub lane: usize,
     /// Arc length of the foot, metres.
     pub s_m: f64,
-    /// Signed offset of the point, positive left, metres; beyond the lane's ends from its continuation.
+    /// Signed offset of the point, positive left, metres; beyond the lane's ends it is measured from the
+    /// straight continuation.
     pub lateral_m: f64,
     /// Distance to the foot, metres.
     pub distance_m: f64,
@@ -154,9 +155,9 @@ pub struct LaneHit {
 }
 
 impl LaneGraph {
-    /// Graph of a map: recorded links resolved and made mutual, missing ones rebuilt where a lane ends
-    /// within 0.6 m and 30 degrees of another's start, sides as recorded or, where the map has none at
-    /// all, from the geometry.
+    /// Graph of a map. Recorded links are resolved and made mutual. Missing links are rebuilt where a lane
+    /// ends within 0.6 m and 30 degrees of another's start. Neighbours are as recorded or, if the map has
+    /// none at all, from the geometry.
     pub fn new(map: &LaneMap) -> Self {
         Self::unless(map, &|| false).unwrap_or_default()
     }
@@ -184,18 +185,18 @@ impl LaneGraph {
         (!is_cancelled()).then_some(graph)
     }
 
-    /// Links that the map lacks and the graph rebuilds from the geometry: positions in [`LaneMap::lanes`] of the lane
-    /// before and the lane after.
+    /// Links that the map lacks and the graph rebuilds from the geometry, as indices into [`LaneMap::lanes`]
+    /// of the previous and the next lane.
     pub fn rebuilt_links(map: &LaneMap) -> Vec<(usize, usize)> {
         let (_, mut lanes) = Self::recorded(map);
         let recorded: Vec<usize> = lanes.iter().map(|lane| lane.successors.len()).collect();
         links::rebuild(&mut lanes);
-        // A rebuilt link stands behind the recorded ones.
+        // Rebuilt links follow the recorded ones.
         let rebuilt = lanes.iter().zip(recorded).enumerate();
         rebuilt.flat_map(|(i, (lane, from))| lane.successors[from..].iter().map(move |to| (i, *to))).collect()
     }
 
-    /// The lanes of a map with their recorded links, and their positions by id.
+    /// The lanes of a map with their recorded links, and their indices by id.
     fn recorded(map: &LaneMap) -> (HashMap<&str, usize>, Vec<GraphLane>) {
         let by_id: HashMap<&str, usize> =
             map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
@@ -204,7 +205,7 @@ impl LaneGraph {
         (by_id, lanes)
     }
 
-    /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.
+    /// All lanes: first [`LaneMap::lanes`] in order, then paths for pedestrians.
     pub fn lanes(&self) -> &[GraphLane] {
         &self.lanes
     }
@@ -218,7 +219,7 @@ impl LaneGraph {
         &mut self.lanes
     }
 
-    /// Position in [`LaneGraph::lanes`] of the map's lane with this id.
+    /// Index in [`LaneGraph::lanes`] of the map's lane with this id.
     pub fn lane_index(&self, id: &str) -> Option<usize> {
         self.by_id.get(id).copied()
     }
@@ -233,7 +234,7 @@ impl LaneGraph {
         self.nearest_counted(point, radius_m, keep).0
     }
 
-    /// As [`Self::nearest_lanes`], with the number of pieces of lanes that were looked at.
+    /// As [`Self::nearest_lanes`], with the number of pieces that were examined.
     pub(super) fn nearest_counted(
         &self,
         point: Vec2,
@@ -275,7 +276,7 @@ impl LaneGraph {
         (hits, looked)
     }
 
-    /// A lane that `agent_type` may use is within `radius_m` of `point`.
+    /// Whether a lane that `agent_type` may use is within `radius_m` of `point`.
     pub fn has_lane_for(&self, point: Vec2, radius_m: f64, agent_type: AgentType) -> bool {
         self.index.near(point, radius_m).any(|segment| {
             let lane = &self.lanes[segment.owner as usize];

@@ -1,4 +1,4 @@
-//! Ways that no lane gives: onto the lanes that lead to a goal, and off them.
+//! Paths that no lane gives: onto the lanes that lead to a goal, and off them.
 
 use super::cubic::{self, Cubic, comfortable_curvature};
 use super::start::errors_at;
@@ -6,30 +6,30 @@ use super::to_goal::{GoalQuery, GoalRoute, RouteKind};
 use super::{EndPose, LaneGraph, LaneHit, Leg, Polyline, Pose, Route, assemble, blend};
 use crate::wrap_angle;
 
-/// A join may be longer than least effort by this factor.
+/// Greatest length of a join, relative to the motion of least effort.
 const LONGEST_JOIN: f64 = 1.25;
 /// Nearest and farthest point of the lane path that is joined, metres.
 const JOIN_M: (f64, f64) = (3.0, 45.0);
-/// Distance between the points that are tried, metres.
+/// Distance between the candidate points, metres.
 const JOIN_STEP_M: f64 = 2.0;
-/// Most paths that are walked back, and most lanes on each.
+/// Most paths traced backwards, and most lanes in each.
 const MAX_PATHS: usize = 8;
 const MAX_LANES: usize = 9;
-/// Goal lanes from which paths are walked back.
+/// Most goal lanes from which paths are traced backwards.
 const MAX_GOAL_LANES: usize = 4;
-/// Sharpest curvature of a join, in comfortable ones: tight U-turns still say where to turn, and knots and
-/// projection widen them.
+/// Sharpest curvature of a join, relative to a comfortable one. Tight U-turns still show where to turn; knots
+/// and projection widen them.
 const SHARPEST_JOIN: f64 = 6.0;
-/// Sharpest curvature with which a goal off the lanes is met, in comfortable ones.
+/// Sharpest curvature to a goal off the lanes, relative to a comfortable one.
 const SHARPEST_LEAVING: f64 = 2.0;
 
-/// A path that ends at the goal: lanes in driving order with where each begins on it.
+/// A path that ends at the goal: lanes in driving order with the arc length at which each begins.
 struct LeadIn {
     legs: Vec<Leg>,
     path: Polyline,
 }
 
-/// The cheapest way by one cubic from the road user onto a path along lanes that leads to the goal.
+/// The cheapest path by one cubic from the road user onto lanes that lead to the goal.
 pub(super) fn joined(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit]) -> Option<GoalRoute> {
     let limit = comfortable_curvature(query.agent_type);
     let far = 1.3 * query.distance_m() + 30.0;
@@ -69,7 +69,7 @@ fn cut_legs(legs: &[Leg], s_m: f64, joined_m: f64) -> Vec<Leg> {
     moved.collect()
 }
 
-/// Paths walked back from the goal lanes along predecessors until they are `far_m` long.
+/// Paths traced backwards from the goal lanes along predecessors until they are `far_m` long.
 fn lead_ins(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit], far_m: f64) -> Vec<LeadIn> {
     let lanes = graph.lanes();
     let mut found = Vec::new();
@@ -108,7 +108,7 @@ fn lead_in(graph: &LaneGraph, query: &GoalQuery, backwards: &[(usize, f64)]) -> 
         length += to_m;
     }
     let centre = Polyline::new(points).resample(1.0).smoothed(2.0);
-    // Leads in at walking pace: the shortest bend that is comfortable leaves most room for the join.
+    // Leads in at walking pace: the shortest comfortable bend leaves most room for the join.
     let goal = EndPose { position: query.goal, heading_rad: query.goal_heading_rad, speed_mps: 0.0 };
     LeadIn { legs, path: blend::ending_at(&centre, goal, query.agent_type) }
 }
@@ -125,7 +125,7 @@ fn cheapest_join(path: &Polyline, from: Pose, limit: f64) -> Option<(f64, f64, C
             continue;
         }
         let rest = path.length_m() - s;
-        // The straight line is a lower bound: no need to try what cannot win.
+        // The straight line is a lower bound, so candidates that cannot win are skipped.
         if best.as_ref().is_some_and(|(least, ..)| 1.6 * distance + rest >= *least) {
             continue;
         }
@@ -138,7 +138,7 @@ fn cheapest_join(path: &Polyline, from: Pose, limit: f64) -> Option<(f64, f64, C
     best
 }
 
-/// The route bent off its lane to a goal beside it; `None` where that takes too sharp a turn.
+/// The route bent off its lane to a goal beside it; `None` if that needs too sharp a turn.
 pub(super) fn leaving(to_lane: GoalRoute, query: &GoalQuery) -> Option<GoalRoute> {
     let limit = comfortable_curvature(query.agent_type);
     let GoalRoute { mut route, cost: to_lane_cost, .. } = to_lane;
@@ -148,7 +148,7 @@ pub(super) fn leaving(to_lane: GoalRoute, query: &GoalQuery) -> Option<GoalRoute
     while lead <= farthest.min(length) {
         let from = route.path.sample(length - lead);
         let chord = query.goal - from.position;
-        // With a free heading the path ends as a circle through both would.
+        // With a free heading the path ends like a circle through both.
         let bend = wrap_angle(chord.y.atan2(chord.x) - from.heading_rad);
         let heading = query.goal_heading_rad.unwrap_or(from.heading_rad + 2.0 * bend);
         if chord.norm() > 1.0 && bend.abs() < std::f64::consts::FRAC_PI_2 {

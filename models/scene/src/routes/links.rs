@@ -1,4 +1,4 @@
-//! Links and sides of lanes: as recorded, and rebuilt from the geometry where the record is silent.
+//! Links and neighbours of lanes: as recorded, or rebuilt from the geometry if the record has none.
 
 use super::graph::{AdjacentLane, GraphLane, LaneGraph};
 use crate::map::{Lane, LaneType, Neighbor};
@@ -13,14 +13,14 @@ const MOST_TOGETHER: usize = 64;
 const LINK_TURN_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 /// Greatest difference of heading between lanes side by side.
 const SIDE_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// Distance between the places at which sides are searched, metres.
+/// Distance between the places at which neighbours are searched, metres.
 const SIDE_STEP_M: f64 = 10.0;
-/// Most lanes found there, in all: for each of the places, where streets have 2 to 6, beyond what a small map may
-/// have in its junctions, and in any case.
+/// Limits of lanes found in these searches: per place (streets have 2 to 6), extra for the junctions of a
+/// small map, and in total.
 const FOUND_A_PLACE: usize = 16;
 const FOUND_ANYWAY: usize = 200_000;
 const MOST_FOUND: usize = 800_000;
-/// Most pieces of lanes that are looked at there, in all: ten times what a large town needs.
+/// Limit of lane pieces examined in these searches: ten times what a large town needs.
 const MOST_LOOKED: usize = 40_000_000;
 
 /// Adds the link from lane `from` to lane `to` once.
@@ -33,7 +33,7 @@ pub(super) fn connect(lanes: &mut [GraphLane], from: usize, to: usize) {
     }
 }
 
-/// Links of the map; what one of two lanes says holds for both, unknown ids are ignored.
+/// Links of the map. A link recorded by one of two lanes holds for both; unknown ids are ignored.
 pub(super) fn record(map: &LaneMap, by_id: &HashMap<&str, usize>, lanes: &mut [GraphLane]) {
     for (i, lane) in map.lanes.iter().enumerate() {
         for next in lane.successors.iter().filter_map(|id| by_id.get(id.as_str())) {
@@ -73,16 +73,16 @@ fn connect_if_smooth(lanes: &mut [GraphLane], from: usize, to: usize) {
     }
 }
 
-/// Some type of road user may use both.
+/// Whether some type of road user may use both.
 fn same_users(a: &GraphLane, b: &GraphLane) -> bool {
     let vehicles = a.lane_type.carries_vehicles() && b.lane_type.carries_vehicles();
     let cyclists = a.lane_type.carries_cyclists() && b.lane_type.carries_cyclists();
     vehicles || cyclists || a.lane_type == b.lane_type
 }
 
-/// Points in squares, to find those near a place.
+/// Points by square, for searches near a place.
 pub(super) struct NearPoints {
-    /// By square: places with their numbers.
+    /// Places with their indices, by square.
     squares: HashMap<(i64, i64), Vec<(Vec2, usize)>>,
     /// Radius of every search, and side of the squares, metres.
     radius_m: f64,
@@ -101,7 +101,8 @@ impl NearPoints {
         ((point.x / self.radius_m).floor() as i64, (point.y / self.radius_m).floor() as i64)
     }
 
-    /// Those within the radius of `point`, by rising x; none where they are so many that they say nothing.
+    /// Indices of the points within the radius of `point`, by rising x; empty if they are too many to be
+    /// meaningful.
     pub(super) fn near(&self, point: Vec2) -> Vec<usize> {
         let (column, row) = self.square(point);
         let beside = |at: i64| at.saturating_sub(1)..=at.saturating_add(1);
@@ -117,8 +118,8 @@ impl NearPoints {
     }
 }
 
-/// Fills in left and right of all lanes: as recorded, or from the geometry where the map records none. Ends where it
-/// is cancelled.
+/// Sets left and right neighbours of all lanes: as recorded, or from the geometry if the map records none.
+/// Stops once it is cancelled.
 pub(super) fn sides(map: &LaneMap, graph: &mut LaneGraph, is_cancelled: &dyn Fn() -> bool) {
     if map.lanes.iter().all(|l| l.left_neighbors.is_empty() && l.right_neighbors.is_empty()) {
         rebuild_sides(graph, is_cancelled);
@@ -165,8 +166,8 @@ fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbo
     Some(AdjacentLane { lane: other, own_m, other_m, same_direction })
 }
 
-/// Lanes a lane's width apart with the same heading lie side by side. Where lanes lie over each other too often for
-/// that to mean anything, none has sides.
+/// Lanes a lane's width apart with the same heading are neighbours. If too many lanes overlap for that to be
+/// meaningful, none has neighbours.
 fn rebuild_sides(graph: &mut LaneGraph, is_cancelled: &dyn Fn() -> bool) {
     let own = |(i, lane): (usize, &GraphLane)| (lane.lane_type != LaneType::Sidewalk).then_some(i);
     let own: Vec<usize> = graph.lanes().iter().enumerate().filter_map(own).collect();
@@ -181,18 +182,18 @@ fn rebuild_sides(graph: &mut LaneGraph, is_cancelled: &dyn Fn() -> bool) {
     }
 }
 
-/// Lanes that may still be found beside others, and pieces of lanes that may still be looked at.
+/// Remaining lanes that may be found, and lane pieces that may be examined.
 struct SearchBudget {
     found: usize,
     looked: usize,
 }
 
-/// Stretches between the places at which a lane's sides are searched.
+/// Number of intervals between the places at which a lane's neighbours are searched.
 fn side_pieces(lane: &GraphLane) -> usize {
     (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize
 }
 
-/// What lies left and right; nothing once the budget is used up.
+/// Neighbours on the left and right; empty once the budget is used up.
 fn sides_of(
     graph: &LaneGraph,
     own: usize,
@@ -216,7 +217,7 @@ fn sides_of(
             if !(0.6..=1.4).contains(&apart) || turn > SIDE_TURN_RAD || !abreast {
                 continue;
             }
-            // The point lies right of a lane that is on our left.
+            // The point lies to the right of the other lane, so that lane is on our left.
             let side = if hit.lateral_m < 0.0 { &mut left } else { &mut right };
             match side.iter_mut().find(|b| b.lane == hit.lane) {
                 Some(b) => (b.own_m.1, b.other_m.1) = (s, hit.s_m.max(b.other_m.1)),

@@ -1,8 +1,8 @@
 //! Routes along the lane graph: where a road user may go, and the paths that lead to a goal.
 //!
-//! [`LaneGraph`] is built once a map and shared. [`routes_ahead`] and [`routes_to_goal`] list paths,
-//! [`base_path`] bends one so that it starts (and ends) exactly where the road user does, and
-//! [`speed`] says how fast it can be driven and what stands in the way.
+//! [`LaneGraph`] is built once per map and shared. [`routes_ahead`] and [`routes_to_goal`] list paths.
+//! [`base_path`] bends a path so that it starts (and ends) exactly at the road user's start (and goal).
+//! [`speed`] computes how fast it can be driven and which obstacles are on it.
 
 pub mod ahead;
 mod along;
@@ -38,14 +38,14 @@ pub struct Leg {
     pub path_from_m: f64,
 }
 
-/// A path along lanes, from where the road user stands.
+/// A path along lanes, from the road user's place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
     /// Lanes in driving order.
     pub legs: Vec<Leg>,
     /// Lane centres, points about 1 m apart; begins at the road user's foot on the first lane.
     pub path: Polyline,
-    /// Speed limit at every point of `path`, m/s; assumed by lane type where the map gives none.
+    /// Speed limit at every point of `path`, m/s; assumed by lane type if the map gives none.
     pub limits_mps: Vec<f64>,
     /// The road user's offset from the path, positive to the left, metres.
     pub lateral_m: f64,

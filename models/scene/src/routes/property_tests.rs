@@ -1,4 +1,4 @@
-//! Properties over random maps, most of them broken.
+//! Property tests over random maps, most of them broken.
 
 use super::sample_maps::{crossing, lane, ring, two_lanes};
 use super::*;
@@ -44,7 +44,7 @@ fn any_pose(reach: f64) -> impl Strategy<Value = Pose> {
     (-reach..reach, -reach..reach, -4.0..4.0_f64).prop_map(|(x, y, h)| Pose::xyh(x, y, h))
 }
 
-/// A pose near some lane of the graph, or the pose itself where there is none.
+/// A pose near some lane of the graph, or the pose itself if there is none.
 fn near_lane(graph: &LaneGraph, pick: usize, share: f64, off: Pose) -> Pose {
     let drivable: Vec<_> = graph.lanes().iter().filter(|l| l.carries(AgentType::Vehicle)).collect();
     let Some(lane) = drivable.get(pick % drivable.len().max(1)) else { return off };
@@ -142,7 +142,7 @@ proptest! {
         let way = &ahead[which % ahead.len()];
         prop_assume!(way.path.length_m() > 25.0);
         let aim = way.path.sample(along * way.path.length_m());
-        // Where the way goes round, the straight distance says little about the length.
+        // On a detour, the straight distance is no measure of the length.
         prop_assume!((aim.position - pose.position).norm() * 1.4 + 20.0 > along * way.path.length_m());
         let query = GoalQuery {
             pose,

@@ -32,8 +32,8 @@ pub(crate) fn two_lanes() -> LaneMap {
     map(vec![lane("right", at(0.0)), lane("left", at(3.5))])
 }
 
-/// Four arms of one lane each way, 100 m long, with straight, left and right ways through. Links from
-/// `w_in` (westward arm, eastbound) to `w_in>e` to `e_out`, and so on. Drives on the right.
+/// Four arms of one lane each way, 100 m long, with straight, left and right paths through. Links lead from
+/// `w_in` (western arm, eastbound) to `w_in>e` to `e_out`, and so on. Right-hand traffic.
 pub(crate) fn crossing() -> LaneMap {
     use std::f64::consts::FRAC_PI_2;
     let (near, far, side) = (12.0, 112.0, 1.75);
@@ -84,7 +84,7 @@ pub(crate) fn ring() -> LaneMap {
     map(lanes)
 }
 
-/// One crosswalk from (0, 0) to (12, 0), 4 m wide, and a sidewalk that leads on from its end.
+/// One crosswalk from (0, 0) to (12, 0), 4 m wide, and a sidewalk that continues from its end.
 pub(crate) fn crosswalk() -> LaneMap {
     let corner = |x: f64, y: f64| Vec2::new(x, y);
     let ring = vec![corner(0.0, -2.0), corner(12.0, -2.0), corner(12.0, 2.0), corner(0.0, 2.0)];

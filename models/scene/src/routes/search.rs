@@ -8,27 +8,28 @@ use crate::AgentType;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Cost of a lane change beyond its length, metres.
+/// Penalty of a lane change in addition to its length, metres.
 const CHANGE_COST_M: f64 = 8.0;
-/// Shortest lane change, metres, and the time one takes, seconds: sideways drivers mostly stay within 1.6 m/s2.
+/// Shortest lane change, metres, and its duration, seconds: the lateral acceleration of drivers mostly stays
+/// within 1.6 m/s2.
 const CHANGE_M: f64 = 10.0;
 const CHANGE_S: f64 = 3.5;
-/// Lanes that lie side by side for less than this share of it are not changed between.
+/// Lanes that run side by side for less than this share of a change are not changed between.
 const LEAST_CHANGE: f64 = 0.4;
 /// Most lanes settled in one search.
 const MAX_SETTLED: usize = 4_096;
 
-/// One lane as it is entered: at its beginning, or somewhere on it (by a start or a change).
+/// A lane with the place at which it is entered: its beginning, or a place on it (by a start or a change).
 #[derive(Clone, Copy, Debug)]
 struct Entered {
     hop: Hop,
-    /// Length so far and penalties up to `hop.from_m`, metres.
+    /// Length and penalties up to `hop.from_m`, metres.
     cost: f64,
-    /// Index of the state before among the settled ones, and where its lane is left.
+    /// Index of the previous state among the settled ones, and where its lane is left.
     before: Option<(usize, f64)>,
 }
 
-/// Heap entry: cheapest first, then lowest lane, so that equal costs are settled in one order.
+/// Heap entry: cheapest first, then lowest lane index, so that equal costs are settled in a fixed order.
 #[derive(Clone, Copy, Debug)]
 struct Open(Entered);
 
@@ -79,8 +80,8 @@ pub(super) fn shortest(
     let lanes = graph.lanes();
     let change_m = (CHANGE_S * speed_mps).max(CHANGE_M);
     let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
-    // A start beside the lane first changes onto it. A change away from the own lane at once is left to the
-    // start beside it.
+    // A start beside the lane first changes onto it. An immediate change away from the own lane is covered by
+    // the start beside it.
     let on_lane_m = start.s_m + if start.beside { change_m } else { 0.0 };
     let leaves_at_once = |left_m: f64| !start.beside && left_m < start.s_m + 1.0;
     let mut heap = BinaryHeap::from([Open(Entered { hop: first, cost: 0.0, before: None })]);
@@ -130,22 +131,22 @@ pub(super) fn shortest(
     found.collect()
 }
 
-/// Change from a lane to the one beside as soon as the two lie side by side beyond `from_m`: where the lane is left,
-/// and the hop that follows.
+/// Change to a neighbouring lane as soon as the two run side by side beyond `from_m`: where the lane is left,
+/// and the next hop.
 fn change(graph: &LaneGraph, from_m: f64, beside: &AdjacentLane, change_m: f64) -> Option<(f64, Hop)> {
     let left_m = from_m.max(beside.own_m.0);
     let from_m = beside.across(left_m)?;
     let lane = &graph.lanes()[beside.lane];
     let to_m = lane.path.length_m();
     let room = (beside.own_m.1 - left_m).min(to_m - from_m);
-    // Lanes are recorded in short pieces: a change goes on in the next one.
+    // Lanes are recorded in short pieces, so a change may continue in the next one.
     let most_m = if lane.successors.is_empty() { room } else { f64::INFINITY };
     let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(most_m), follows: false };
     (room >= LEAST_CHANGE * change_m).then_some((left_m, hop))
 }
 
-/// Change from the last lane of a chain, which ends, to the one beside that goes on beyond it: where the lane is left,
-/// and the hop that follows. It is complete half its length before the end where there is room.
+/// Change from the last lane of a chain, which ends, to a neighbouring lane that continues: where the lane is
+/// left, and the next hop. If there is room, it is complete half its length before the end.
 pub(super) fn change_before_end(graph: &LaneGraph, last: &Hop, beside: &AdjacentLane) -> Option<(f64, Hop)> {
     let lanes = graph.lanes();
     if !goes_on(graph, beside) {
@@ -161,7 +162,7 @@ pub(super) fn change_before_end(graph: &LaneGraph, last: &Hop, beside: &Adjacent
     (room_m >= CHANGE_M).then_some((left_m, hop))
 }
 
-/// The lane beside leads on from where the own one ends.
+/// Whether the neighbouring lane continues where the own lane ends.
 fn goes_on(graph: &LaneGraph, beside: &AdjacentLane) -> bool {
     let lane = &graph.lanes()[beside.lane];
     !lane.successors.is_empty() || lane.path.length_m() > beside.other_m.1 + CHANGE_M
@@ -173,8 +174,8 @@ fn unhurried_change_m(lane: &GraphLane) -> f64 {
 }
 
 impl LaneGraph {
-    /// Arc length up to which drivers on a lane that ends have begun to change to a lane beside that goes on, metres;
-    /// `None` where the lane goes on, or none beside it does.
+    /// Arc length up to which drivers on a lane that ends have begun to change to a neighbouring lane that
+    /// continues, metres. `None` if the lane continues, or no neighbour does.
     pub fn leaves_before_m(&self, lane: usize, agent_type: AgentType) -> Option<f64> {
         let own = self.lanes().get(lane).filter(|own| own.successors.is_empty())?;
         let leads_on = |b: &&AdjacentLane| {

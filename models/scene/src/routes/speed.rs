@@ -7,18 +7,18 @@ use crate::{SignalState, Vec2};
 
 /// Window over which the curvature of a path is measured, metres.
 const CURVATURE_WINDOW_M: f64 = 3.0;
-/// No bend asks for a cap above this, m/s.
+/// Highest speed cap of a bend, m/s.
 const TOP_SPEED_MPS: f64 = 35.0;
-/// A road user whose centre is farther from the path is no obstacle, metres.
+/// A road user whose centre is farther than this from the path is no obstacle, metres.
 pub const IN_THE_WAY_M: f64 = 1.6;
-/// Nearer centres are beside or behind us, metres.
+/// Centres less far ahead than this are beside or behind the own box, metres.
 const AHEAD_M: f64 = 2.0;
-/// Cosine below which another's direction counts as across or against ours.
+/// Cosine below which another's direction counts as crossing or opposing.
 const SAME_WAY: f64 = 0.3;
-/// A stop line this little behind still counts as here, metres.
+/// A stop line this little behind still counts, metres.
 const PASSED_M: f64 = 1.0;
 
-/// Comfort that limits speed in bends.
+/// Comfort limits that cap the speed in bends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedRules {
     /// Sideways acceleration v^2 k, m/s2.
@@ -49,7 +49,7 @@ pub struct Leader {
     pub index: usize,
     /// Free distance between the boxes along the path, metres; negative when they overlap.
     pub gap_m: f64,
-    /// Its speed along the path, m/s; zero when it crosses or comes towards us.
+    /// Its speed along the path, m/s; zero if it crosses or approaches.
     pub speed_mps: f64,
 }
 
@@ -64,32 +64,32 @@ pub struct SignalAhead {
     pub distance_m: f64,
 }
 
-/// A signal as routes need it.
+/// A signal as routes use it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSignal {
     /// Lane that obeys it, index into [`LaneGraph::lanes`].
     pub lane: usize,
     /// State now.
     pub state: SignalState,
-    /// Where to stop; the lane's beginning when unknown.
+    /// Stop point; `None` means the lane's beginning.
     pub stop: Option<Vec2>,
 }
 
-/// Curvature at every point of `path`, 1/m, without its sign.
+/// Absolute curvature at every point of `path`, 1/m.
 pub fn curvatures_per_m(path: &Polyline) -> Vec<f64> {
     path.arc_m().iter().map(|s| path.curvature_at(*s, CURVATURE_WINDOW_M).abs()).collect()
 }
 
-/// Speed cap at every point of `path`, m/s: the limit there, sqrt(lateral / curvature) in bends, and
-/// braking looked back from everything slower ahead. Points beyond the end of `limits_mps` have its last
-/// value, without any they have no limit.
+/// Speed cap at every point of `path`, m/s: the limit there, sqrt(lateral / curvature) in bends, and braking
+/// in time for all slower places ahead. Points beyond the end of `limits_mps` have its last value; if it is
+/// empty they have no limit.
 ///
-/// Look-back holds for the limits too: a cap can be met from the cap before it by braking comfortably.
+/// Braking in time applies to limits too: each cap can be met from the previous one by comfortable braking.
 pub fn speed_caps(path: &Polyline, limits_mps: &[f64], rules: SpeedRules) -> Vec<f64> {
     caps_of_bends(path.arc_m(), &curvatures_per_m(path), limits_mps, rules)
 }
 
-/// [`speed_caps`] where the curvature at each arc length is known.
+/// [`speed_caps`] for known curvatures at each arc length.
 pub fn caps_of_bends(
     arc_m: &[f64],
     curvatures_per_m: &[f64],
@@ -108,7 +108,7 @@ pub fn caps_of_bends(
 }
 
 /// Nearest obstacle ahead with its centre within 1.6 m of the path. The path begins at the centre of the own
-/// box, which is `own_length_m` long and not among `others`.
+/// box, which is `own_length_m` long and is not in `others`.
 pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option<Leader> {
     leaders(path, own_length_m, others).into_iter().next()
 }
@@ -128,18 +128,18 @@ pub fn leaders(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Vec<L
         let speed_mps = if along > SAME_WAY { other.speed_mps } else { 0.0 };
         found.push((foot.s_m, Leader { index, gap_m, speed_mps }));
     }
-    // Stable: of two at the same place the first given comes first.
+    // A stable sort: among obstacles at the same place, the first given comes first.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, leader)| leader).collect()
 }
 
-/// Path arc length of the place at `s_m` of the leg's lane; `None` when the leg does not pass it.
+/// Arc length on the path of the place at `s_m` of the leg's lane; `None` if the leg does not pass it.
 fn on_path(leg: &Leg, s_m: f64) -> Option<f64> {
     let passes = s_m >= leg.from_m - PASSED_M && s_m <= leg.to_m + 1e-6;
     passes.then(|| leg.path_from_m + (s_m - leg.from_m).max(0.0))
 }
 
-/// First signal that the route meets. A lane that the route is already on beyond its stop line is passed.
+/// First signal on the route. A signal whose stop line the route has already passed does not count.
 pub fn first_signal(route: &Route, graph: &LaneGraph, signals: &[LaneSignal]) -> Option<SignalAhead> {
     for leg in &route.legs {
         let here = signals.iter().enumerate().filter(|(_, signal)| signal.lane == leg.lane);

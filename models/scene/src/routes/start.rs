@@ -4,29 +4,29 @@ use super::{LaneGraph, LaneHit, Pose};
 use crate::geometry::cross;
 use crate::{AgentType, wrap_angle};
 
-/// Farthest from a lane's centre that still counts as on it, if half its width is less, metres.
+/// Distance from a lane's centre that counts as on it, if half its width is less, metres.
 const ON_LANE_M: f64 = 2.0;
-/// Greatest difference of heading on a lane.
+/// Greatest heading difference to a lane that a road user is on.
 pub const ON_LANE_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
-/// Farthest from a lane when none is under the road user, metres.
+/// Greatest distance from a lane if none is under the road user, metres.
 pub const RELAXED_M: f64 = 6.0;
-/// Greatest difference of heading then.
+/// Greatest heading difference in that case.
 const RELAXED_TURN_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
-/// Metres of distance that a radian of heading difference is worth.
+/// Distance to which a heading difference of one radian is equivalent, metres.
 pub(super) const METRES_PER_RAD: f64 = 3.0;
-/// Most start lanes, without those beside them.
+/// Most start lanes, without their neighbours.
 pub const MAX_STARTS: usize = 4;
-/// Added to the score of a lane beside, metres.
+/// Addition to the score of a neighbouring lane, metres.
 const CHANGE_SCORE: f64 = 4.0;
 
-/// A place on a lane from which a route may begin.
+/// A place on a lane from which a route can begin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StartLane {
     pub lane: usize,
     pub s_m: f64,
     /// Smaller is better: distance and heading difference, metres.
     pub score: f64,
-    /// Not under the road user but beside a lane that is.
+    /// Not under the road user, but a neighbour of a lane that is.
     pub beside: bool,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn start_lanes(graph: &LaneGraph, pose: Pose, agent_type: AgentType) 
     if strict.is_empty() { pick(&|h| turn(h) <= RELAXED_TURN_RAD) } else { strict }
 }
 
-/// Is a pose on a lane near it, and along it?
+/// Whether a pose is on a lane: near it and along it.
 fn is_on(graph: &LaneGraph, hit: &LaneHit, pose: Pose) -> bool {
     let half_width_m = ON_LANE_M.max(0.5 * graph.lanes()[hit.lane].width_m);
     hit.distance_m <= half_width_m && turn_rad(hit, pose) <= ON_LANE_TURN_RAD
@@ -66,13 +66,13 @@ pub(super) fn lane_under(graph: &LaneGraph, pose: Pose, agent_type: AgentType) -
     near.into_iter().find(|hit| is_on(graph, hit, pose))
 }
 
-/// Something lies ahead of the start.
+/// Whether the lane continues ahead of the start.
 fn leads_on(graph: &LaneGraph, start: &StartLane) -> bool {
     let lane = &graph.lanes()[start.lane];
     lane.path.length_m() - start.s_m > 0.5 || !lane.successors.is_empty()
 }
 
-/// Adds the lanes directly beside the start lanes that run the same way.
+/// Adds the direct neighbours of the start lanes that run in the same direction.
 pub(super) fn with_lanes_beside(
     graph: &LaneGraph,
     mut starts: Vec<StartLane>,

@@ -48,7 +48,7 @@ fn sides_come_from_the_geometry_when_none_are_recorded() {
     assert_eq!(graph.lanes()[1].right[0].lane, 0);
 }
 
-/// Hundreds of long lanes in one place are no streets; a search for neighbours would take minutes.
+/// Hundreds of overlapping lanes are not streets; a search for neighbours would take minutes.
 #[test]
 fn lanes_that_lie_over_each_other_have_no_sides_and_no_links() {
     let heap =
@@ -100,7 +100,7 @@ fn a_lane_beside_is_a_route_and_the_end_is_known() {
     assert!(routes.iter().all(|r| r.terminal && (r.path.length_m() - 50.0).abs() < 1.0));
 }
 
-/// A motorway entry: its lane ends beside one that goes on.
+/// A motorway entry: its lane ends beside one that continues.
 #[test]
 fn a_lane_that_ends_is_left_before_its_end() {
     let entry = lane("entry", line(v(-200.0, 0.0), v(0.0, 0.0)));
@@ -261,7 +261,7 @@ fn lane_changes_lead_to_the_lane_beside() {
 
 #[test]
 fn lane_changes_are_as_long_as_the_speed_asks() {
-    // In pieces that are shorter than a change at speed, as recorded lanes are.
+    // In pieces shorter than a change at speed, as in recordings.
     let pieces = |name: &str, y: f64| {
         let piece = |i: usize| {
             let x = -200.0 + 40.0 * i as f64;
@@ -281,7 +281,7 @@ fn lane_changes_are_as_long_as_the_speed_asks() {
         let sharpest = path.curvatures(2.0).into_iter().map(f64::abs).fold(0.0, f64::max);
         let sideways_mps2 = sharpest * speed_mps * speed_mps;
         assert!(sideways_mps2 < 2.0, "{sideways_mps2} at {speed_mps}");
-        // To stay in one's lane is no change.
+        // Staying in the lane is not a change.
         let asked = GoalQuery { goal: v(goal.x, 0.0), ..asked };
         let route = &routes_to_goal(&graph, &asked)[0].route;
         assert!(route.path.points().iter().all(|p| p.y.abs() < 1e-6), "{speed_mps}");

@@ -1,4 +1,5 @@
-//! Routes to a goal: forward along lanes, else joined from behind the goal, else off the lanes at the end.
+//! Routes to a goal: forward along lanes, else joined from behind the goal, else leaving the lanes at the
+//! end.
 
 use super::ahead::{DISTINCT_M, TRACE_STEP_M};
 use super::assemble::{self, Hop};
@@ -6,38 +7,38 @@ use super::start::{METRES_PER_RAD, StartLane, errors_at, start_lanes, with_lanes
 use super::{LaneGraph, LaneHit, Pose, Route, join, search};
 use crate::{AgentType, Vec2, wrap_angle};
 
-/// Most routes that are given.
+/// Most routes returned.
 pub const MAX_GOAL_ROUTES: usize = 3;
-/// Farthest of a goal from a lane that it lies on, metres.
+/// Greatest distance of a goal from a lane that it lies on, metres.
 pub const ON_LANE_M: f64 = 3.0;
-/// Farthest of a goal from the lane that it is reached from, metres.
+/// Greatest distance of a goal from the lane that it is reached from, metres.
 const OFF_LANE_M: f64 = 25.0;
 /// Greatest difference between a lane's heading and the goal's.
 pub(super) const GOAL_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
-/// A forward route that ends within this of the goal needs no join beside it, metres.
+/// A forward route that ends this near to the goal needs no join beside it, metres.
 const CLOSE_M: f64 = 1.5;
-/// Nearer goals are not worth a join, metres.
+/// Goals nearer than this are not worth a join, metres.
 const NO_JOIN_M: f64 = 5.0;
 /// Most goal lanes.
 pub const MAX_GOAL_LANES: usize = 6;
-/// Most goal lanes where lanes on both sides of the goal count.
+/// Most goal lanes if lanes on both sides of the goal count.
 const MAX_NEAR_LANES: usize = 24;
-/// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
+/// Metres of path to which a metre of offset between lane and goal is equivalent (`lanes.py`: 1 to 0.05).
 const COST_PER_OFFSET: f64 = 20.0;
 
-/// Longest route worth finding: so many times the straight way, and so many metres more.
+/// Longest route to search for: factor of the straight distance, and metres in addition.
 pub const LONGEST_ROUTE: (f64, f64) = (1.5, 30.0);
 
 /// Query of a search for routes to a goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GoalQuery {
-    /// Where the road user stands.
+    /// Pose of the road user.
     pub pose: Pose,
     /// Its speed, m/s.
     pub speed_mps: f64,
-    /// Which lanes it may use.
+    /// Type, which determines the lanes it may use.
     pub agent_type: AgentType,
-    /// Where it should go.
+    /// Position of the goal.
     pub goal: Vec2,
     /// Fixed heading at the goal, radians.
     pub goal_heading_rad: Option<f64>,
@@ -56,14 +57,14 @@ impl GoalQuery {
         self.goal_heading_rad.map_or(0.0, |asked| wrap_angle(heading_rad - asked).abs())
     }
 
-    /// Longest route worth finding, metres.
+    /// Longest route to search for, metres.
     fn longest_m(&self) -> f64 {
         let (times, more_m) = LONGEST_ROUTE;
         times * self.distance_m() + more_m
     }
 }
 
-/// Way in which a route reaches the goal.
+/// How a route reaches the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RouteKind {
     /// Along lanes all the way.
@@ -74,12 +75,12 @@ pub enum RouteKind {
     OffLane,
 }
 
-/// A route and how it meets the goal.
+/// A route, and how it reaches the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GoalRoute {
-    /// The route; a forward one's path ends beside the goal, the others' at it.
+    /// The route. The path of a forward route ends beside the goal, that of the others at it.
     pub route: Route,
-    /// How it gets there.
+    /// How it reaches the goal.
     pub kind: RouteKind,
     /// Offset of the goal from the end of the path, positive left, metres.
     pub goal_lateral_m: f64,
@@ -87,11 +88,11 @@ pub struct GoalRoute {
     pub cost: f64,
 }
 
-/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first; empty where no sensible way is known
-/// and least effort has to do.
+/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first. Empty if no sensible route is known, so
+/// that the motion of least effort has to do.
 ///
-/// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join does
-/// better. Goals more than 3 m off every lane are reached from the nearest lane.
+/// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join is better.
+/// Goals more than 3 m off every lane are reached from the nearest lane.
 pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);
@@ -111,8 +112,8 @@ pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     routes
 }
 
-/// Further routes, for a goal to which none of [`routes_to_goal`] will do: long ways round along lanes of up to
-/// `longest_m`, and ways along lanes that the road user can drive to near the goal, left for it at the end.
+/// More routes, for a goal to which none of [`routes_to_goal`] is suitable. They are long detours along lanes
+/// of up to `longest_m`, and routes along lanes near the goal that are left for it at the end.
 pub fn further_routes_to_goal(graph: &LaneGraph, query: &GoalQuery, longest_m: f64) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);
@@ -126,8 +127,8 @@ pub fn further_routes_to_goal(graph: &LaneGraph, query: &GoalQuery, longest_m: f
     routes
 }
 
-/// Lanes beside the goal, best first. A lane that only comes near with its end is passed over when the
-/// goal lies well beyond that end.
+/// Lanes beside the goal, best first. A lane whose end only comes near the goal is skipped if the goal lies
+/// well beyond that end.
 fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64, most: usize) -> Vec<LaneHit> {
     let mut hits = graph.nearest_for(query.goal, radius_m, query.agent_type);
     hits.retain(|hit| query.goal_turn_rad(hit.heading_rad) <= GOAL_TURN_RAD);

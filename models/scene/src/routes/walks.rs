@@ -1,4 +1,4 @@
-//! Paths for people on foot: sidewalks both ways, and crosswalks along their longer axis.
+//! Paths for pedestrians: sidewalks both ways, and crosswalks along their longer axis.
 
 use super::graph::{GraphLane, LaneSource};
 use super::links::{NearPoints, connect};
@@ -11,7 +11,7 @@ const WALK_GAP_M: f64 = 2.5;
 /// Greatest turn between walking paths that are joined.
 const WALK_TURN_RAD: f64 = 120.0 * std::f64::consts::PI / 180.0;
 
-/// Appends the reverse of every sidewalk and both ways over every crosswalk, and joins what meets.
+/// Appends the reverse of every sidewalk and both directions of every crosswalk, and joins ends that meet.
 pub(super) fn append(map: &LaneMap, lanes: &mut Vec<GraphLane>) {
     let recorded = lanes.len();
     for i in 0..recorded {
@@ -50,8 +50,8 @@ fn join(lanes: &mut [GraphLane]) {
     }
 }
 
-/// Ends of a ring's longer principal axis and its width across, from the moments of its edges; `None`
-/// for a ring without extent.
+/// Ends of a ring's longer principal axis and its width across, from the moments of its edges; `None` for a
+/// ring without extent.
 fn long_axis(ring: &[Vec2]) -> Option<(Vec2, Vec2, f64)> {
     let edges = || ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| (0.5 * (a + b), (b - a).norm()));
     let total: f64 = edges().map(|e| e.1).sum();
@@ -64,7 +64,7 @@ fn long_axis(ring: &[Vec2]) -> Option<(Vec2, Vec2, f64)> {
         let d = middle - centre;
         (xx, xy, yy) = (xx + length * d.x * d.x, xy + length * d.x * d.y, yy + length * d.y * d.y);
     }
-    // Corners carry the shape that edge middles of a narrow ring lose.
+    // Corners contribute the shape that edge midpoints of a narrow ring lose.
     for p in ring {
         let (d, w) = (p - centre, total / ring.len() as f64);
         (xx, xy, yy) = (xx + w * d.x * d.x, xy + w * d.x * d.y, yy + w * d.y * d.y);

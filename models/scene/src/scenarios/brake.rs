@@ -4,21 +4,21 @@ use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};
 
-/// Both drive at least so fast, m/s.
+/// Lowest speed of both, m/s.
 const LEAST_SPEED_MPS: f64 = 4.0;
-/// Farthest follower, metres.
+/// Greatest distance of the follower, metres.
 const FARTHEST_M: f64 = 50.0;
-/// Farthest follower, seconds of its own driving.
+/// Greatest time headway of the follower, seconds.
 const FARTHEST_S: f64 = 4.0;
-/// Braking that is drawn, m/s2: from firm to what a car can do on a dry road.
+/// Range of the drawn braking, m/s2: from firm to what a car can do on a dry road.
 const BRAKING_MPS2: TemplateFigure =
     TemplateFigure { name: "braking_mps2", drawn: (3.5, 7.5), allowed: (0.5, 9.0) };
 /// Time until the braking begins, seconds.
 const BEGINS_S: TemplateFigure = TemplateFigure { name: "begins_s", drawn: (0.2, 1.5), allowed: (0.0, 8.0) };
-/// What is drawn.
+/// Drawn figures.
 pub(super) const FIGURES: [TemplateFigure; 2] = [BRAKING_MPS2, BEGINS_S];
 
-/// Each leader with its follower, if the gap in seconds is small enough.
+/// Each leader with its follower, if the time gap is small enough.
 pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let drivers = &stage.drivers;
     let role = |follower: usize| {
@@ -38,7 +38,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     (0..drivers.len()).filter_map(role).collect()
 }
 
-/// Where it stands after braking evenly.
+/// The place where it stands after constant braking.
 pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let follower = &stage.drivers[role.other?];
@@ -46,7 +46,7 @@ pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>)
     let begins_s = draw.value(&BEGINS_S);
     let speed = driver.speed_mps();
     let after_s = on_step(begins_s + speed / braking);
-    // The time is that of a step, so the distance is what belongs to it.
+    // The time is rounded to a step, so the distance is computed from the rounded time.
     let distance_m = speed * begins_s + 0.5 * speed * (after_s - begins_s);
     let words = format!(
         "{} drives at {speed:.1} m/s and brakes at {braking:.1} m/s2 to a stand after {after_s:.1} s and \

@@ -4,24 +4,24 @@ use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::Stage;
 use super::{Pairing, Plan, on_step};
 
-/// Both drive at least so fast, m/s.
+/// Lowest speed of both, m/s.
 const LEAST_SPEED_MPS: f64 = 3.0;
-/// Distance across between neighbouring lanes, metres.
+/// Lateral distance between neighbouring lanes, metres.
 const ACROSS_M: (f64, f64) = (2.2, 5.5);
-/// Directions of the two differ by less, radians.
+/// Greatest difference of their headings, radians.
 const ALIKE_RAD: f64 = 0.35;
-/// How far behind or ahead of the other it may begin, metres.
+/// Range of its initial position relative to the other, metres ahead.
 const ALONG_M: (f64, f64) = (-15.0, 35.0);
 /// Gap behind it at the end, metres.
 const GAP_M: TemplateFigure = TemplateFigure { name: "gap_m", drawn: (1.5, 6.0), allowed: (0.1, 50.0) };
-/// Time that it takes, seconds.
+/// Duration of the manoeuvre, seconds.
 const TAKES_S: TemplateFigure = TemplateFigure { name: "takes_s", drawn: (2.0, 4.5), allowed: (0.5, 9.0) };
-/// Its speed at the end, as a share of the other's.
+/// Its final speed as a share of the other's.
 const SPEED_SHARE: TemplateFigure =
     TemplateFigure { name: "speed_share", drawn: (0.7, 1.0), allowed: (0.0, 1.5) };
-/// What is drawn.
+/// Drawn figures.
 pub(super) const FIGURES: [TemplateFigure; 3] = [TAKES_S, GAP_M, SPEED_SHARE];
-/// Its mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
+/// Its mean speed on the way: factors of its present speed, and an addition, m/s.
 const PACE: (f64, f64) = (0.5, 1.4);
 const PACE_MORE_MPS: f64 = 2.0;
 
@@ -43,7 +43,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
                 && room_m > driver.length_m() + 2.0 * GAP_M.drawn.1;
             let Some(beside) = before.pose_ahead(place.ahead_m).filter(|_| fits) else { continue };
             if !stage.graph.ground().crosses_an_edge(driver.state.position(), beside.position) {
-                // Best is one that has nothing to make up or to wait for.
+                // The best pair needs neither catching up nor waiting.
                 let ideal_m = before.length_m() + 4.0 + 3.0 * (before.speed_mps() - driver.speed_mps());
                 let misfit = (place.ahead_m - ideal_m).abs();
                 roles.push(Pairing { actor, other: Some(other), misfit, at_m: place.ahead_m, at_s: 0.0 });
@@ -53,7 +53,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     roles
 }
 
-/// The place in the other's lane, as far ahead of where that one is by then as the gap says.
+/// The place in the other's lane, ahead of the other's position at that time by the gap.
 pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let (driver, before) = (&stage.drivers[role.actor], &stage.drivers[role.other?]);
     let after_s = on_step(draw.value(&TAKES_S));

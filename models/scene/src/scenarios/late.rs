@@ -1,5 +1,5 @@
 //! Failure to yield: a vehicle that would have to wait at a junction passes without stopping. It passes a red
-//! light, a stop sign, or crosses shortly before or after a vehicle with priority.
+//! light or a stop sign, or crosses shortly before or after a vehicle with priority.
 
 use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::{BEHIND_M, Driver, Stage};
@@ -8,30 +8,30 @@ use crate::{STEP_S, SignalState, Vec2};
 
 /// Nearest stop line, metres from the road user's centre.
 const NEAREST_M: f64 = 4.0;
-/// Farthest stop line or crossing: seconds at the present speed, and metres on top.
+/// Greatest distance of a stop line or crossing: seconds at the present speed, and metres in addition.
 const FARTHEST_S: f64 = 5.0;
 const FARTHEST_MORE_M: f64 = 12.0;
-/// A line this far beside the way belongs to it, metres.
+/// Greatest lateral distance of a line that belongs to the path, metres.
 const BESIDE_M: f64 = 1.5;
-/// Ways cross where they differ by at least so much, radians.
+/// Paths cross if they differ by at least this, radians.
 const CROSSING_RAD: f64 = 0.5;
-/// Another is on the way where its centre is nearer than this, metres.
+/// Another vehicle is on the path if its centre is nearer than this, metres.
 const ON_THE_WAY_M: f64 = 1.0;
-/// How far past the place the goal lies, metres.
+/// Distance of the goal beyond the place, metres.
 const PAST_M: f64 = 8.0;
-/// How long before or after the other it is at the crossing, seconds.
+/// Time between the two at the crossing, seconds.
 const APART_S: TemplateFigure = TemplateFigure { name: "apart_s", drawn: (0.5, 1.8), allowed: (0.0, 9.0) };
-/// What is drawn.
+/// Drawn figures.
 pub(super) const FIGURES: [TemplateFigure; 1] = [APART_S];
-/// Slowest and fastest that it goes there, m/s.
+/// Lowest and highest speed at the place, m/s.
 const SPEED_MPS: (f64, f64) = (5.0, 20.0);
-/// Mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
+/// Mean speed on the way: factors of its present speed, and an addition, m/s.
 const PACE: (f64, f64) = (0.6, 1.5);
 const PACE_MORE_MPS: f64 = 4.0;
 /// Steps of the other motions that are searched for a crossing.
 const LOOK_STEPS: usize = 80;
 
-/// Vehicles that would have to wait: at a line, or for another vehicle.
+/// Vehicles that would have to wait at a line or for another vehicle.
 pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     let mut roles = Vec::new();
     for (actor, driver) in stage.drivers.iter().enumerate() {
@@ -55,7 +55,7 @@ pub(super) fn roles(stage: &Stage<'_>) -> Vec<Pairing> {
     roles
 }
 
-/// A goal past the place, to be reached about when the other one is there.
+/// A goal beyond the place, reached about when the other vehicle is there.
 pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>) -> Option<Plan> {
     let driver = &stage.drivers[role.actor];
     let speed = driver.speed_mps();
@@ -89,7 +89,7 @@ pub(super) fn plan(stage: &Stage<'_>, role: &Pairing, draw: &mut FigureDraw<'_>)
     Some(Plan { pose, speed_mps, after_s, words })
 }
 
-/// Metres to the first line on its way at which it would have to stop.
+/// Metres to the first line on its path at which it would have to stop.
 fn must_stop_m(stage: &Stage<'_>, driver: &Driver<'_>) -> Option<f64> {
     let signals = stage.scene.signals.iter().filter_map(|signal| {
         let lane = stage.graph.lane_index(&signal.lane)?;
@@ -107,10 +107,10 @@ fn must_stop_m(stage: &Stage<'_>, driver: &Driver<'_>) -> Option<f64> {
     signals.chain(signs).min_by(f64::total_cmp)
 }
 
-/// Metres to a line of a lane, where the lane is on the driver's way.
+/// Metres to a line of a lane, if the lane is on the driver's path.
 fn line_ahead_m(stage: &Stage<'_>, driver: &Driver<'_>, lane: usize, line: Vec2) -> Option<f64> {
     let path = &stage.graph.lanes()[lane].path;
-    // Lanes fork at their beginnings: farther on it shows which one is taken.
+    // Lanes overlap where they fork; a point farther on shows which one is taken.
     let inside = path.sample((path.project(line).s_m + 0.5 * path.length_m()).min(path.length_m()));
     let taken = driver.place_of(inside.position, inside.heading_rad);
     let place = driver.place_of(line, inside.heading_rad);
@@ -119,7 +119,7 @@ fn line_ahead_m(stage: &Stage<'_>, driver: &Driver<'_>, lane: usize, line: Vec2)
         .then_some(place.ahead_m)
 }
 
-/// Where and when another one's motion first crosses the driver's way.
+/// Place and time at which another motion first crosses the driver's path.
 fn crossing(stage: &Stage<'_>, driver: &Driver<'_>, crosser: &Driver<'_>) -> Option<(f64, f64)> {
     let steps = stage.start_step + 1..stage.start_step + LOOK_STEPS;
     steps.filter_map(|step| Some((step, crosser.shown.track.at(step)?))).find_map(|(step, state)| {

@@ -1,5 +1,5 @@
-//! Test situations: the road user of a scene that can play one, and its goal. The same scene and seed give
-//! the same choice; another seed takes another road user, or other figures.
+//! Test situations: casts a road user of a scene, and sets its goal. Equal scenes and seeds give equal
+//! choices; another seed casts another road user, or draws other figures.
 
 mod brake;
 mod cut_in;
@@ -36,9 +36,9 @@ pub struct Casting {
     pub actor: AgentId,
     /// The road user it affects, if any.
     pub other: Option<AgentId>,
-    /// The goal for the actor, beside what the scene has fixed about it.
+    /// The goal of the actor, in addition to its conditions in the scene.
     pub conditions: Conditions,
-    /// One sentence.
+    /// A one-sentence description.
     pub words: String,
 }
 
@@ -46,35 +46,35 @@ pub struct Casting {
 struct Plan {
     pose: Pose,
     speed_mps: f64,
-    /// After the start, seconds.
+    /// Time after the start, seconds.
     after_s: f64,
     words: String,
 }
 
 /// Draws of figures for one road user before the next one is tried.
 const DRAWS: usize = 6;
-/// Most pairs among which seeds choose, the most fitting first.
+/// Number of best-fitting pairs among which seeds choose.
 const MOST_ROLES: usize = 8;
-/// Least time of a goal after the start, seconds.
+/// Shortest time from the start to a goal, seconds.
 const SOONEST_S: f64 = 0.5;
 
-/// An actor, the agent that it concerns, and how badly the two fit (less is better).
+/// An actor, the other road user, and how badly the two fit (less is better).
 #[derive(Clone, Copy, Debug)]
 struct Pairing {
     actor: usize,
     other: Option<usize>,
     misfit: f64,
-    /// Metres along the actor's way to where it happens; what that is, the template knows.
+    /// Metres along the actor's path to the place of the event, which depends on the template.
     at_m: f64,
-    /// Seconds until the other one is there.
+    /// Seconds until the other is there.
     at_s: f64,
 }
 
 impl Template {
-    /// All of them.
+    /// All templates.
     pub const ALL: [Self; 3] = [Self::Brake, Self::CutIn, Self::Late];
 
-    /// The figures that it draws, and that a caller may fix.
+    /// The figures that it draws and that a caller may fix.
     pub fn figures(self) -> &'static [TemplateFigure] {
         match self {
             Self::Brake => &brake::FIGURES,
@@ -83,7 +83,7 @@ impl Template {
         }
     }
 
-    /// Its word.
+    /// Name of the template.
     pub fn name(self) -> &'static str {
         match self {
             Self::Brake => "brake",
@@ -92,9 +92,8 @@ impl Template {
         }
     }
 
-    /// Casts the situation from a step of a scene on; `None` where no road user fits. `graph` is that of the
-    /// scene's map. `fixed` has the figures that are not drawn, by name; the others are the same numbers with and
-    /// without them.
+    /// Casts the situation from a step of a scene on; `None` if no road user fits. `graph` belongs to the
+    /// scene's map. `fixed` holds fixed figures by name; they do not change the draws of the others.
     pub fn cast(
         self,
         scene: &Scene,
@@ -145,7 +144,7 @@ impl Plan {
     }
 }
 
-/// The most fitting pairs, one for each actor.
+/// The best-fitting pair of each actor.
 fn fitting(mut roles: Vec<Pairing>) -> Vec<Pairing> {
     roles.sort_by(|a, b| a.misfit.total_cmp(&b.misfit).then(a.actor.cmp(&b.actor)));
     let mut kept: Vec<Pairing> = Vec::new();
@@ -157,7 +156,7 @@ fn fitting(mut roles: Vec<Pairing>) -> Vec<Pairing> {
     kept
 }
 
-/// A time on a step, seconds.
+/// A time rounded to a step, seconds.
 fn on_step(time_s: f64) -> f64 {
     (time_s / STEP_S).round() / (1.0 / STEP_S).round()
 }

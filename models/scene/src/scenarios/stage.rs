@@ -3,34 +3,34 @@
 use crate::routes::{LaneGraph, Polyline, Pose, best_route_ahead};
 use crate::{Agent, AgentType, Scene, Shown, State, Vec2, wrap_angle};
 
-/// Length of a path behind its road user, metres, so that agents beside and behind have a place on it.
+/// Length of a path behind its road user, metres, so that agents beside and behind project onto it.
 pub(super) const BEHIND_M: f64 = 40.0;
-/// How far lanes are followed past the end of a motion that is known, metres.
+/// Length of the lanes that extend a known motion, metres.
 const BEYOND_M: f64 = 120.0;
-/// A motion of less defines no path; the lanes ahead do, metres.
+/// A motion shorter than this defines no path; the lanes ahead do, metres.
 const LEAST_MOTION_M: f64 = 2.0;
-/// Places of a way are at least this far apart, metres.
+/// Smallest distance between points of a path, metres.
 const APART_M: f64 = 0.5;
-/// Directions nearer than this are the same, radians.
+/// Headings that differ by less are the same, radians.
 const SAME_WAY_RAD: f64 = 0.5;
 
-/// A vehicle that is there at the start.
+/// A vehicle that is present at the start.
 pub(super) struct Driver<'a> {
     pub(super) agent: &'a Agent,
     pub(super) shown: Shown<'a>,
     pub(super) state: State,
-    /// Where it goes, as known and then along lanes. It begins [`BEHIND_M`] behind the road user.
+    /// Its path: its known motion, then lanes. It begins [`BEHIND_M`] behind the road user.
     pub(super) way: Polyline,
 }
 
-/// Place of another agent, relative to a driver.
+/// Place of another agent relative to a driver's path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaceAhead {
-    /// Ahead of the way's owner, metres; negative behind it.
+    /// Metres ahead of the path's owner; negative behind it.
     pub(super) ahead_m: f64,
-    /// To the left of the way, metres.
+    /// Metres to the left of the path.
     pub(super) left_m: f64,
-    /// Its direction less the way's, wrapped, radians.
+    /// Heading relative to the path, wrapped, radians.
     pub(super) turn_rad: f64,
 }
 
@@ -49,7 +49,7 @@ impl Driver<'_> {
         self.shown.size.length_m
     }
 
-    /// The pose so many metres on; `None` past the end of what is known.
+    /// The pose this many metres ahead; `None` beyond the end of what is known.
     pub(super) fn pose_ahead(&self, metres: f64) -> Option<Pose> {
         let s = BEHIND_M + metres;
         (s >= 0.0 && s <= self.way.length_m()).then(|| self.way.sample(s))
@@ -65,7 +65,7 @@ impl Driver<'_> {
         }
     }
 
-    /// Metres that it comes in some seconds: as its motion is known, else at the pace it has.
+    /// Distance covered in some seconds, metres: by its known motion, else at its present speed.
     pub(super) fn advance_m(&self, start_step: usize, after_s: f64) -> f64 {
         let step = start_step + (after_s / crate::STEP_S).round() as usize;
         match self.shown.track.at(step) {
@@ -107,7 +107,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The motion that is known, then the straightest way along the lanes.
+/// The known motion, then the straightest continuation along the lanes.
 fn way(shown: &Shown<'_>, state: &State, graph: &LaneGraph, start_step: usize) -> Polyline {
     let forward = crate::geometry::direction(state.heading_rad);
     let mut points = vec![state.position() - forward * BEHIND_M, state.position()];
@@ -127,7 +127,7 @@ fn way(shown: &Shown<'_>, state: &State, graph: &LaneGraph, start_step: usize) -
     }
     let route = best_route_ahead(graph, end, AgentType::Vehicle, BEYOND_M);
     if let Some(route) = route {
-        // The lane's middle may be beside where it is: the offset is given up over the first metres.
+        // The lane's middle may be beside the end of the motion: the offset fades out over the first metres.
         points.extend(route.path.points().iter().copied().filter(|p| (p - end.position).norm() > 6.0));
     }
     Polyline::new(points)

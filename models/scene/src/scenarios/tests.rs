@@ -4,7 +4,7 @@ use crate::routes::LaneGraph;
 use crate::{Agent, AgentType, LaneMap, Scene, Signal, SignalState, State, Subtype, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A driver along x (or y) for the length of a window.
+/// A driver along x (or y) for a whole window.
 fn driver(id: &str, at: (f64, f64), velocity: (f64, f64)) -> Agent {
     let state = |i: usize| State {
         x_m: at.0 + velocity.0 * 0.1 * i as f64,
@@ -36,7 +36,7 @@ fn scene(agents: Vec<Agent>) -> (Scene, LaneGraph) {
     (Scene::bare("test", map, agents), graph)
 }
 
-/// With all figures drawn, from the start on.
+/// Casts with all figures drawn, from the first step on.
 fn casting(template: Template, scene: &Scene, graph: &LaneGraph, seed: u64) -> Option<Casting> {
     template.cast(scene, graph, 0, 9.0, seed, &BTreeMap::new())
 }
@@ -115,7 +115,7 @@ fn the_one_at_red_goes_through() {
         assert_eq!((cast.actor.as_str(), cast.other.as_deref()), ("waits", Some("crosses")));
         let goal = cast.conditions.goal;
         let place = goal.position.unwrap();
-        // 8 m past the crossing at x = 40, to within the metre at which the other is on the way.
+        // 8 m beyond the crossing at x = 40, within the metre in which the other counts as on the path.
         assert!(place.y.abs() < 0.01 && (place.x - 48.0).abs() < 1.1, "{place}");
         assert!(goal.speed_mps.unwrap() >= 5.0);
     }

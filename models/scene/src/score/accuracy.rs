@@ -38,7 +38,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Mean over road users (the greatest of the greatest distances); `None` without any.
+    /// Mean over road users (for the greatest distance, the maximum); `None` without any.
     pub fn mean<'a>(all: impl Iterator<Item = &'a Self> + Clone) -> Option<Self> {
         let first = all.clone().next()?;
         let over = |field: fn(&Self) -> Option<f64>| mean(all.clone().map(field));
@@ -54,7 +54,7 @@ impl Accuracy {
     }
 }
 
-/// Errors of one motion.
+/// Errors of one motion against the reference.
 struct Errors {
     ade_m: f64,
     end_m: f64,
@@ -63,8 +63,8 @@ struct Errors {
     speed_mps: f64,
 }
 
-/// Errors of a generated motion and its alternatives within `steps`; `None` for recorded motion,
-/// without a reference, or when the two are never known at once.
+/// Errors of a generated motion and its alternatives within `steps`. `None` for recorded motion, without a
+/// reference, or if the two share no step.
 pub fn accuracy(actor: &Actor<'_>, steps: Range<usize>) -> Option<Accuracy> {
     let reference = actor.reference.filter(|_| actor.generated)?;
     let endpoint = if actor.goal.position.is_some() { Endpoint::BeforeLast } else { Endpoint::Last };
@@ -123,7 +123,7 @@ mod tests {
         let mut actor = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 9.0);
         assert_eq!(accuracy(&actor, 0..91), None);
         actor.reference = Some(&log);
-        // One metre more each second: mean over steps 1 to 90 is 4.55 m, the end 9 m.
+        // One more metre each second: the mean over steps 1 to 90 is 4.55 m, the end 9 m.
         let found = accuracy(&actor, 0..91).unwrap();
         assert!((found.min_ade_m.unwrap() - 4.55).abs() < 1e-9);
         assert!((found.min_fde_m.unwrap() - 9.0).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! A scene's score while a few of its road users change: the part of the others is computed once.
+//! Incremental score of a scene of which a few road users change: the part of the others is computed once.
 
 use super::input::{Actor, ScoreInput, Thresholds};
 use super::pairs::{Mover, PairTally};
@@ -8,8 +8,8 @@ use crate::{Scene, Track};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Score of an unchanged scene over some of its steps, by road user and pair. The score of the same scene with
-/// other motion of a few needs only these few and their pairs.
+/// Score of an unchanged scene over some of its steps, by road user and pair. If only a few motions change,
+/// the new score needs only these road users and their pairs.
 #[derive(Debug)]
 pub struct BaselineScore {
     scene: Arc<Scene>,
@@ -20,7 +20,7 @@ pub struct BaselineScore {
 }
 
 impl BaselineScore {
-    /// Of a scene as it is shown. Costs as much as its score.
+    /// Scores a scene with its shown motions. Costs as much as its score.
     pub fn new(scene: Arc<Scene>, drivable: &Drivable, steps: Range<usize>) -> Self {
         let (singles, movers, tally) = {
             let input = Self::input(&scene, drivable, &steps);
@@ -37,13 +37,13 @@ impl BaselineScore {
         ScoreInput { steps: steps.clone(), ..ScoreInput::of_scene(scene, drivable) }
     }
 
-    /// The steps that it is about.
+    /// The scored steps.
     pub fn steps(&self) -> Range<usize> {
         self.steps.clone()
     }
 
-    /// The score of an input, equal to [`score`]'s member for member, whatever the input is about. It is quicker
-    /// the more of the road users are those of the scene.
+    /// The score of an input, equal to [`score`]'s member for member for any input. It is faster the more
+    /// road users are unchanged.
     pub fn score(&self, input: &ScoreInput<'_>) -> Score {
         let before = Self::input(&self.scene, input.drivable, &self.steps);
         match unchanged(&before, input) {
@@ -74,8 +74,8 @@ impl BaselineScore {
     }
 }
 
-/// For each road user of the input which one of the other input it is, where nothing about it has changed; `None`
-/// where more has changed than some road users.
+/// For each road user of the input, the index of the unchanged one in the other input. `None` if more than
+/// road users has changed.
 fn unchanged(before: &ScoreInput<'_>, input: &ScoreInput<'_>) -> Option<Vec<Option<usize>>> {
     let same_ground = std::ptr::eq(before.map, input.map) || before.map == input.map;
     let rules = |i: &ScoreInput<'_>| -> (Range<usize>, _, _, Thresholds) {
@@ -84,7 +84,7 @@ fn unchanged(before: &ScoreInput<'_>, input: &ScoreInput<'_>) -> Option<Vec<Opti
     if !same_ground || before.signals != input.signals || rules(before) != rules(input) {
         return None;
     }
-    // Changes leave the order of the others as it is: each is looked for behind the last one found.
+    // Changes keep the order of the others, so each is searched after the previous match.
     let mut from = 0;
     let mut find = |actor: &Actor<'_>| {
         let found = from + before.actors.get(from..)?.iter().position(|a| a.id == actor.id)?;
@@ -94,7 +94,7 @@ fn unchanged(before: &ScoreInput<'_>, input: &ScoreInput<'_>) -> Option<Vec<Opti
     Some(input.actors.iter().map(&mut find).collect())
 }
 
-/// The same road user with the same motion, and the same to hold against it.
+/// Whether two are the same road user with the same motion and the same reference data.
 fn is_same(a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let about = |x: &Actor<'_>| (x.agent_type, x.subtype, x.size, x.generated, x.goal);
     let tracks = |x: Option<&Track>, y: Option<&Track>| match (x, y) {
@@ -202,7 +202,7 @@ mod tests {
             let input = ScoreInput::of_sample(&after, Some(&sample), &drivable);
             let baseline = BaselineScore::new(before.clone(), &drivable, input.steps.clone());
             prop_assert_eq!(baseline.score(&input), score(&input));
-            // Other rules than those it was made for.
+            // Other rules than those of the baseline.
             let other = ScoreInput {
                 pairs: if drivable_first { PairChoice::Regenerated } else { PairChoice::All },
                 steps: 3..STEPS,

@@ -10,52 +10,53 @@ use std::sync::Arc;
 
 /// Cap on distances off the road, metres.
 pub const FAR_M: f64 = 50.0;
-/// The road at a lane's end is looked at so far before it, metres.
+/// Distance before a lane's end at which the road is examined, metres.
 const BEFORE_END_M: f64 = 0.05;
 /// Length beyond a lane's end at the map's edge over which the ground is unknown, metres: a minute at urban
 /// speed.
 const BEYOND_MAP_M: f64 = 1000.0;
-/// A lane that ends there would go on straight so far where another one is nearer, metres: nine seconds at 80 km/h.
+/// Length of the straight continuation of such a lane if another lane is nearer, metres: nine seconds at 80
+/// km/h.
 const WAY_OUT_M: f64 = 200.0;
-/// In pieces of this length, metres, so that the index holds them in small boxes.
+/// Length of the pieces of such a continuation, metres, so that the index holds them in small boxes.
 const WAY_OUT_PIECE_M: f64 = 50.0;
-/// Points of a line nearer together than this have no direction, metres.
+/// Points of a line nearer than this to each other define no direction, metres.
 const LEAST_PIECE_M: f64 = 0.01;
-/// Most ends of lanes for which it is looked at: time and memory of a map stay in proportion to its points.
+/// Most lane ends with a continuation, so that time and memory of a map stay in proportion to its points.
 const MOST_WAYS_OUT: usize = 1024;
-/// Lanes are looked for within this, metres: no lane is more than twice as wide.
+/// Radius of the search for lanes, metres: no lane is more than twice as wide.
 const LANE_NEAR_M: f64 = 4.0;
-/// A lane farther away than this says nothing about a place, metres.
+/// Radius beyond which a lane does not describe the ground, metres.
 const LANE_REACH_M: f64 = 30.0;
-/// Ground this near to an edge that may be driven over counts as road, metres, and this near where nothing but such
-/// edges lies between it and a lane: the middle of a wide median.
+/// Ground this near to an edge that may be crossed counts as road, metres. The same distance applies where
+/// only such edges lie between it and a lane: the middle of a wide median.
 const AT_EDGE_M: f64 = 3.0;
 const BETWEEN_EDGES_M: f64 = 6.0;
-/// An edge farther from a box's centre is not the one that it is driven over, metres.
+/// An edge farther from a box's centre cannot be the one that it crosses, metres.
 const UNDER_M: f64 = 12.0;
-/// Height of the rows that polygon sides are sorted into, metres.
+/// Height of the rows into which polygon sides are sorted, metres.
 const ROW_M: f64 = 4.0;
 
-/// What a lane contributes.
+/// Properties of a lane's ground.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Band {
     half_width_m: f64,
     carries_vehicles: bool,
-    /// Leads through a junction, or where lanes part or join.
+    /// Leads through a junction, a fork or a merge.
     pub(crate) in_junction: bool,
-    /// Where the map gives one, m/s.
+    /// Speed limit if the map gives one, m/s.
     pub(super) speed_limit_mps: Option<f64>,
-    /// Where it begins and ends, if nothing leads to it or follows it: the road may go on beyond the map.
+    /// Its start and end, if no lane leads there or follows: the road may continue beyond the map.
     open: [Option<Vec2>; 2],
 }
 
-/// Index of the ground that vehicles may use. Immutable, so any number of threads may read one, and a
-/// cache may keep it by the map's hash.
+/// Index of the ground that vehicles may use. Immutable, so any number of threads may read it, and a cache
+/// may keep it by the map's hash.
 ///
-/// Which rule holds depends on what the map has:
+/// The rule depends on what the map has:
 /// - drivable areas: the ground inside any of them;
 /// - else road edges: ground from which a straight line to the nearest lane centre crosses no edge;
-/// - else the lanes' own widths, assumed by type where the source gives none;
+/// - else the lanes' own widths, assumed by type if the source gives none;
 /// - driveways count as drivable under the last two. Sidewalk lanes never do.
 #[derive(Clone, Debug, Default)]
 pub struct Drivable {
@@ -67,15 +68,15 @@ pub struct Drivable {
     bands: Arc<[Band]>,
     widest_half_m: f64,
     ways_out: Arc<WaysOut>,
-    /// By road edge: its id, and whether it bounds a median.
+    /// Id of each road edge, and whether it bounds a median.
     edge_names: Arc<[(String, bool)]>,
     assumed_width: bool,
-    /// Road edges that may be driven over, by index.
+    /// Indices of the road edges that may be crossed.
     allowed: Vec<u32>,
 }
 
 impl Drivable {
-    /// Index of a map. Some milliseconds for a map of ten thousand points.
+    /// Builds the index of a map. Takes some milliseconds for ten thousand points.
     pub fn new(map: &LaneMap) -> Self {
         let lanes = || map.lanes.iter().enumerate().filter(|(_, l)| l.lane_type != LaneType::Sidewalk);
         let centers = lanes().flat_map(|(i, l)| thinned_pieces(&l.points.xy, false, i as u32)).collect();
@@ -115,7 +116,7 @@ impl Drivable {
         }
     }
 
-    /// The same ground for an agent that may drive over these road edges, by id. They bound nothing, and
+    /// The same ground for an agent that may cross these road edges, given by id. They bound nothing, and
     /// ground next to them counts as road.
     pub fn allowing(&self, edges: &[String]) -> Cow<'_, Self> {
         if edges.is_empty() {
@@ -129,55 +130,56 @@ impl Drivable {
         self.allowed.is_empty() || !self.allowed.contains(&edge.owner)
     }
 
-    /// The ground between edges that may be driven over, or right at one.
+    /// Whether a point lies between edges that may be crossed, or right at one.
     pub fn is_beside_allowed(&self, point: Vec2) -> bool {
         self.is_at_allowed(point, BETWEEN_EDGES_M)
     }
 
-    /// An edge that may be driven over is this near.
+    /// Whether an edge that may be crossed is this near.
     fn is_at_allowed(&self, point: Vec2, reach_m: f64) -> bool {
         let allowed = |edge: &&Segment| self.allowed.contains(&edge.owner);
         let within = |edge: &Segment| (edge.foot(point) - point).norm() <= reach_m;
         !self.allowed.is_empty() && self.edges.near(point, reach_m).filter(allowed).any(within)
     }
 
-    /// About how many bytes of memory the questions so far have added, for quicker answers.
+    /// Approximate bytes of memory that queries have added as caches.
     pub fn kept_bytes(&self) -> usize {
         [&self.area_sides, &self.edges, &self.centers].iter().map(|index| index.listed_bytes()).sum()
     }
 
-    /// Off-road figures rest on lane widths that were assumed by type.
+    /// Whether off-road figures depend on lane widths that were assumed by type.
     pub fn assumed_width(&self) -> bool {
         self.assumed_width
     }
 
-    /// The map says nothing about where to drive.
+    /// Whether the map does not define where to drive.
     pub fn is_unknown(&self) -> bool {
         self.area_sides.is_empty() && self.centers.is_empty()
     }
 
-    /// The map has areas or road edges: more than the widths of its lanes.
+    /// Whether the map has areas or road edges, not only lane widths.
     pub fn is_bounded(&self) -> bool {
         !self.area_sides.is_empty() || !self.edges.is_empty()
     }
 
-    /// How far a point lies off the road, metres: zero on it, at most [`FAR_M`]; `None` when the map
-    /// does not say, as it does not ahead of where a lane leaves it.
+    /// Distance of a point off the road, metres: zero on it, at most [`FAR_M`]. `None` if the map does not
+    /// define it, as beyond a place where a lane leaves the map.
     pub fn outside_m(&self, point: Vec2) -> Option<f64> {
         let outside_m = self.outside_known_m(point).filter(|m| *m == 0.0 || !self.is_beyond_map(point))?;
         Some(if outside_m > 0.0 && self.is_at_allowed(point, AT_EDGE_M) { 0.0 } else { outside_m })
     }
 
-    /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
-    /// the lane, ahead of its end rather than beside it, or where it would be on the road if that went on. Or it lies in
-    /// the width of any lane that ends so, if that went on straight and no road edge closes it.
+    /// Whether a point lies beyond the end of a lane that nothing follows or precedes. One case is the
+    /// nearest lane: the point is within its width, ahead of its end rather than beside it, or on its road if
+    /// that continued. The other is any such lane: the point is within its width if it continued straight and
+    /// no road edge closes it.
     pub fn is_beyond_map(&self, point: Vec2) -> bool {
         self.beyond_end(point)
             .is_some_and(|b| b.ahead_m > 0.5 * b.away_m || self.is_straight_on(point, &b, b.half_width_m))
             || self.ways_out.lead_over(point)
     }
 
-    /// Where a point lies that is ahead of the open end of its nearest lane.
+    /// The position of a point ahead of the open end of its nearest lane.
     fn beyond_end(&self, point: Vec2) -> Option<BeyondEnd> {
         let (piece, foot, away_m) = self.centers.nearest(point, BEYOND_MAP_M)?;
         let band = self.bands.get(piece.owner as usize)?;
@@ -190,7 +192,7 @@ impl Drivable {
         })
     }
 
-    /// At most so far beside the lane, or on the road, if these went on.
+    /// Whether the point is within this distance of the lane, or on the road, if these continued.
     fn is_straight_on(&self, point: Vec2, beyond: &BeyondEnd, beside_lane_m: f64) -> bool {
         let &BeyondEnd { out, ahead_m, away_m, .. } = beyond;
         let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
@@ -198,13 +200,13 @@ impl Drivable {
         beside_m <= beside_lane_m || on_road()
     }
 
-    /// How far a point is from the nearest lane's middle, metres; `None` where that is farther than `reach_m`.
+    /// Distance of a point from the nearest lane's middle, metres; `None` beyond `reach_m`.
     pub fn lane_away_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
         self.centers.nearest(point, reach_m).map(|found| found.2)
     }
 
-    /// How far a point is from the lanes, metres, where the roads of the map have ended: no lane, edge or area within
-    /// `reach_m`, nor would the nearest lane be if it went on straight. `None` elsewhere.
+    /// Distance of a point from the lanes, metres, beyond the end of the map's roads: no lane, edge or area
+    /// is within `reach_m`, nor would the nearest lane be if it continued straight. `None` elsewhere.
     pub fn off_map_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
         let is_near = [&self.centers, &self.edges, &self.area_sides]
             .into_iter()
@@ -231,12 +233,12 @@ impl Drivable {
         Some(if self.edges.is_empty() { self.beside_lanes_m(point) } else { self.beyond_edges_m(point) })
     }
 
-    /// How far the farthest corner of a box lies off the road, metres; `None` when the map does not say.
+    /// Largest distance of a box's corner off the road, metres; `None` if the map does not define it.
     pub fn box_outside_m(&self, outline: &OrientedBox) -> Option<f64> {
         let center = self.outside_m(outline.center())?;
         let (bounds, edges) = (&self.area_sides, self.area_sides.is_empty());
         let bounds = if edges { &self.edges } else { bounds };
-        // On the road with nothing that bounds it in the box: all of the box is.
+        // The centre is on the road and no boundary lies in the box, so the whole box is on the road.
         let bounded = !bounds.is_empty();
         let cut = |s: &Segment| (!edges || self.bounds(s)) && outline.meets_segment(s.from, s.to);
         if center == 0.0 && bounded && !bounds.near(outline.center(), outline.radius_m()).any(cut) {
@@ -246,14 +248,14 @@ impl Drivable {
         Some(corners.into_iter().fold(0.0, f64::max))
     }
 
-    /// The road edge nearest to a point, if one is within `reach_m`, bounds a median.
+    /// Whether the nearest road edge within `reach_m` of a point bounds a median.
     pub fn is_median(&self, point: Vec2, reach_m: f64) -> bool {
         let nearest = self.edges.nearest(point, reach_m);
         nearest.is_some_and(|(edge, ..)| self.edge_names.get(edge.owner as usize).is_some_and(|e| e.1))
     }
 
-    /// The id of the road edge that a box lies over, else of the nearest one to it; none farther than
-    /// [`UNDER_M`] from its centre, and none that may be driven over.
+    /// The id of the road edge under a box, else of the nearest one. Edges farther than [`UNDER_M`] from its
+    /// centre and those that may be crossed do not count.
     pub fn edge_under(&self, outline: &OrientedBox) -> Option<&str> {
         let center = outline.center();
         let away = |s: &Segment| {
@@ -265,8 +267,8 @@ impl Drivable {
         self.edge_names.get(edge as usize).map(|e| e.0.as_str())
     }
 
-    /// How far a point lies off the road, metres, and the way (a unit vector) in which that grows; `None`
-    /// on the road and where the map does not say.
+    /// Distance of a point off the road, metres, and its gradient (a unit vector); `None` on the road and if
+    /// the map does not define it.
     pub fn beyond(&self, point: Vec2) -> Option<(f64, Vec2)> {
         let outside_m = self.outside_m(point).filter(|m| *m > 0.0)?;
         let foot = if !self.area_sides.is_empty() {
@@ -285,14 +287,14 @@ impl Drivable {
         (away.norm() > 1e-9).then(|| (outside_m, away / away.norm()))
     }
 
-    /// Distance beyond the nearest lane's own side.
+    /// Distance beyond the side of the nearest lane.
     fn beside_lanes_m(&self, point: Vec2) -> f64 {
         let mut least = FAR_M;
         for radius in [4.0, FAR_M] {
             self.centers.outwards(point, radius, |_, lane| {
                 let half = self.bands.get(lane.owner as usize).map_or(0.0, |b| b.half_width_m);
                 least = least.min((lane.foot(point) - point).norm() - half);
-                // Within a lane the distance is zero, however far within.
+                // Within a lane the distance is zero, however far from its side.
                 if least <= 0.0 { f64::NEG_INFINITY } else { least + self.widest_half_m }
             });
             if least <= 0.0 {
@@ -313,15 +315,15 @@ impl Drivable {
         if crossed.peek().is_none() {
             return 0.0;
         }
-        // Between edges that may be driven over lies what may be, too, but not all the land behind one.
+        // Ground between edges that may be crossed may be driven on too, but not all the land behind one.
         if crossed.all(|edge| !self.bounds(edge)) && self.is_beside_allowed(point) {
             return 0.0;
         }
         distance(&self.edges, point)
     }
 
-    /// The straight line between two points leaves the road over an edge of it, be the ground behind a
-    /// median of no width. Edges across the mouth of a driveway do not count.
+    /// Whether the straight line between two points leaves the road over an edge, even if the ground beyond
+    /// is the other side of a median without width. Edges across the mouth of a driveway do not count.
     pub fn crosses_an_edge(&self, from: Vec2, to: Vec2) -> bool {
         let middle = 0.5 * (from + to);
         let radius_m = 0.5 * (to - from).norm();
@@ -331,8 +333,8 @@ impl Drivable {
             && !self.is_at_allowed(middle, AT_EDGE_M)
     }
 
-    /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
-    /// than 120 degrees off the direction of every one of them. `None` off the lanes.
+    /// Whether driving in direction `forward` (a unit vector) is against the traffic: vehicle lanes are at
+    /// `point`, and it is more than 120 degrees off the direction of all of them. `None` off the lanes.
     pub fn is_wrong_way(&self, point: Vec2, forward: Vec2) -> Option<bool> {
         let mut lanes = self.vehicle_lanes(point).peekable();
         lanes.peek()?;
@@ -342,7 +344,7 @@ impl Drivable {
         }))
     }
 
-    /// Pieces of the vehicle lanes in whose width a point lies.
+    /// Pieces of the vehicle lanes whose width contains a point.
     pub(crate) fn vehicle_lanes(&self, point: Vec2) -> impl Iterator<Item = (&Segment, &Band)> {
         let lanes = self.centers.near(point, LANE_NEAR_M);
         lanes.filter_map(move |lane| {
@@ -351,7 +353,7 @@ impl Drivable {
         })
     }
 
-    /// A driveway leads over this point.
+    /// Whether a driveway covers this point.
     pub(super) fn is_driveway(&self, point: Vec2) -> bool {
         self.driveways.contain(point)
     }
@@ -359,27 +361,26 @@ impl Drivable {
 
 /// A point ahead of the open end of its nearest lane.
 struct BeyondEnd {
-    /// Direction in which the lane would go on, a unit vector.
+    /// Direction of the lane's continuation, a unit vector.
     out: Vec2,
-    /// Along it, metres.
+    /// Metres along it.
     ahead_m: f64,
-    /// From the lane's end, metres.
+    /// Metres from the lane's end.
     away_m: f64,
     half_width_m: f64,
 }
 
-/// Straight on from the ends of lanes to which nothing leads and that nothing follows, as far as no road edge closes the
-/// way.
+/// Straight continuations of lane ends that no lane precedes or follows, up to the first road edge.
 #[derive(Clone, Debug, Default)]
 struct WaysOut {
     /// Half the width of each lane, metres.
     half_widths_m: Vec<f64>,
-    /// The ways, in pieces; the owner is the lane's place in the list.
+    /// The continuations in pieces; the owner is the lane's index in the list.
     pieces: SegmentIndex,
 }
 
 impl WaysOut {
-    /// The ways of the vehicles' lanes, [`MOST_WAYS_OUT`] at most.
+    /// The continuations of vehicle lanes, at most [`MOST_WAYS_OUT`].
     fn new<'a>(lanes: impl Iterator<Item = (&'a [Vec2], Band)>, edges: &SegmentIndex) -> Self {
         let (mut half_widths_m, mut pieces) = (Vec::new(), Vec::new());
         let open = lanes.filter(|(_, band)| band.carries_vehicles).flat_map(|(points, band)| {
@@ -398,7 +399,7 @@ impl WaysOut {
         Self { half_widths_m, pieces: SegmentIndex::new(pieces) }
     }
 
-    /// The point lies in the width of one of these lanes, if it went on.
+    /// Whether the point lies within the width of a continuation.
     fn lead_over(&self, point: Vec2) -> bool {
         self.pieces.near(point, LANE_NEAR_M).any(|piece| {
             let half_width_m = self.half_widths_m.get(piece.owner as usize);
@@ -407,13 +408,13 @@ impl WaysOut {
     }
 }
 
-/// The direction out of an end of a line, a unit vector; `points` begin there.
+/// The outward direction at an end of a line, a unit vector; `points` begin there.
 fn out_of<'a>(mut points: impl Iterator<Item = &'a Vec2>, end: Vec2) -> Option<Vec2> {
     points.find_map(|point| (end - point).try_normalize(LEAST_PIECE_M))
 }
 
-/// Another lane comes from where this one comes from, or leads to where it leads: few maps say which lanes lead through
-/// junctions.
+/// Whether another lane shares the predecessor or the successor of this one: few maps mark the lanes that
+/// lead through junctions.
 fn parts_or_joins(by_id: &HashMap<&str, &Lane>, lane: &Lane) -> bool {
     let lane_of = |id: &String| by_id.get(id.as_str());
     lane.predecessors.iter().filter_map(lane_of).any(|before| before.successors.len() > 1)
@@ -438,7 +439,7 @@ fn sides(areas: &[Area]) -> impl Iterator<Item = Segment> + '_ {
 #[derive(Clone, Debug, Default)]
 struct Polygons {
     low_y: f64,
-    /// By row: sides with the polygon they belong to, by polygon.
+    /// Sides with the index of their polygon, by row, then polygon.
     rows: Vec<Vec<Segment>>,
 }
 
@@ -460,7 +461,7 @@ impl Polygons {
         Self { low_y, rows }
     }
 
-    /// Any polygon holds the point: even-odd rule, so a hole is outside its polygon.
+    /// Whether any polygon contains the point: even-odd rule, so a hole is outside its polygon.
     fn contain(&self, p: Vec2) -> bool {
         let row = (p.y - self.low_y) / ROW_M;
         if row < 0.0 {
@@ -524,7 +525,7 @@ mod tests {
         );
         assert_eq!((outside_m(103.0, 0.7), outside_m(900.0, 0.7)), (None, None));
         assert!(outside_m(98.0, 2.0).unwrap() > 0.8, "over the kerb is over the kerb, at the end too");
-        // A wide road, at whose end a corner is far from the middle of the lane.
+        // A wide road with a corner at its end that is far from the middle of the lane.
         let wide = area(&[(0.0, -2.0), (100.0, -2.0), (100.0, 5.0), (0.0, 5.0)]);
         let east = lane("east", &[(0.0, 0.0), (100.0, 0.0)]);
         let index = Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![wide], ..LaneMap::default() });
@@ -535,7 +536,7 @@ mod tests {
 
     #[test]
     fn a_way_out_of_the_map_may_pass_near_another_road() {
-        // Where the first road would go on, the second one is nearer than its end.
+        // On the continuation of the first road, the second road is nearer than the first one's end.
         let lanes =
             || vec![lane("east", &[(0.0, 0.0), (100.0, 0.0)]), lane("other", &[(0.0, 30.0), (300.0, 30.0)])];
         let open = Drivable::new(&LaneMap { lanes: lanes(), ..LaneMap::default() });
@@ -557,7 +558,7 @@ mod tests {
         assert!((index.outside_m(at(50.0, -3.75)).unwrap() - 2.0).abs() < 1e-9);
         assert!((index.outside_m(at(50.0, 25.25)).unwrap() - 20.0).abs() < 1e-9);
         assert_eq!(index.outside_m(at(50.0, 500.0)), Some(FAR_M));
-        // Ahead of where a lane leaves the map the ground is unknown.
+        // Beyond the place where a lane leaves the map the ground is unknown.
         assert_eq!((index.outside_m(at(130.0, 3.0)), index.outside_m(at(190.0, 3.0))), (None, None));
         assert!((index.outside_m(at(100.5, 25.25)).unwrap() - 20.0).abs() < 0.1, "beside its end");
         assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(1.0, 0.0)), Some(false));
@@ -610,7 +611,7 @@ mod tests {
         assert_eq!(one.box_outside_m(&car), Some(0.0));
         assert!(all.crosses_an_edge(at(50.0, 1.0), at(50.0, 3.0)));
         assert!(!one.crosses_an_edge(at(50.0, 1.0), at(50.0, 3.0)));
-        // The other side of the median, and the kerb, are as they were.
+        // The other side of the median, and the kerb, are unchanged.
         assert!(
             one.outside_m(at(50.0, 9.0)).unwrap() > 2.0
                 && one.crosses_an_edge(at(50.0, 11.0), at(50.0, 13.0))

@@ -18,14 +18,14 @@ pub struct GoalError {
 }
 
 impl GoalError {
-    /// All fixed fields are met within the thresholds.
+    /// Whether all fixed fields are met within the thresholds.
     pub fn is_reached(&self, limits: &Thresholds) -> bool {
         self.position_m.is_none_or(|e| e <= limits.goal_position_m)
             && self.heading_rad.is_none_or(|e| e <= limits.goal_heading_rad)
             && self.speed_mps.is_none_or(|e| e <= limits.goal_speed_mps)
     }
 
-    /// Mean of each field where it is known; `None` of nothing.
+    /// Mean of each field over the errors that have it; `None` without errors.
     pub fn mean<'a>(errors: impl Iterator<Item = &'a Self> + Clone) -> Option<Self> {
         errors.clone().next()?;
         Some(Self {
@@ -36,8 +36,8 @@ impl GoalError {
     }
 }
 
-/// Error of a generated motion at its goal time (the end of the motion when the time is free or
-/// later); `None` for recorded motion and free goals.
+/// Error of a generated motion at its goal time (at the end of the motion if the time is free or later).
+/// `None` for recorded motion and free goals.
 pub fn goal_error(actor: &Actor<'_>) -> Option<GoalError> {
     let goal = &actor.goal;
     if !actor.generated || goal.is_free() {

@@ -102,13 +102,13 @@ impl Default for Thresholds {
 pub struct Threshold {
     /// Name of the field.
     pub name: &'static str,
-    /// Least and most, both allowed, in the unit of the field.
+    /// Lowest and highest allowed value, in the unit of the field.
     pub range: (f64, f64),
     of: fn(&Thresholds) -> f64,
 }
 
 impl Threshold {
-    /// The value unless another one is given.
+    /// The default value.
     pub fn usual(&self) -> f64 {
         (self.of)(&Thresholds::default())
     }
@@ -121,7 +121,7 @@ impl Thresholds {
     pub const TTC_S: Threshold = Threshold { name: "ttc_s", range: (0.0, LOOK_AHEAD_S), of: |t| t.ttc_s };
     /// [`Self::gap_m`].
     pub const GAP_M: Threshold = Threshold { name: "gap_m", range: (0.0, 60.0), of: |t| t.gap_m };
-    /// All of them. Beyond these ranges a number decides nothing any more.
+    /// All of them. Beyond these ranges a value has no effect.
     pub const ALL: [Threshold; 23] = [
         Self::IOU,
         Threshold { name: "covered_share", range: (0.0, 2.0), of: |t| t.covered_share },
@@ -148,7 +148,7 @@ impl Thresholds {
         Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },
     ];
 
-    /// No near miss by its gap has a larger one, metres.
+    /// Largest gap of a near miss by gap, metres.
     pub fn near_gap_m(&self) -> f64 {
         self.gap_m.max(self.pass_gap_m)
     }
@@ -182,8 +182,8 @@ pub enum PairChoice {
     Regenerated,
 }
 
-/// Which pairs are left out because the recording itself shows them overlapping (detector boxes of
-/// neighbours often touch).
+/// Pairs that are left out because the recording itself shows them overlapping (detector boxes of neighbours
+/// often touch).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Exclude {
@@ -209,24 +209,24 @@ pub struct Actor<'a> {
     pub size: Size,
     /// Motion by scene step: history from the log, then what is scored.
     pub track: Cow<'a, Track>,
-    /// Recorded motion, if any: for pairs to leave out.
+    /// Recorded motion, if any: it determines the pairs to leave out.
     pub log: Option<&'a Track>,
-    /// The motion was made, not recorded: kinematic limits apply.
+    /// Whether the motion was generated, not recorded: kinematic limits apply.
     pub generated: bool,
     /// Goal of a generated motion; free for recorded motion.
     pub goal: Goal,
-    /// Road edges that it may drive over.
+    /// Road edges that it may cross.
     pub may_cross: &'a [String],
     /// Via points of a generated motion; none for recorded motion.
     pub via: &'a [Via],
     /// Motion to compare with, if any.
     pub reference: Option<&'a Track>,
-    /// All futures, for the best of them against the reference; empty: only the track.
+    /// All futures, of which the best is compared with the reference; if empty, only the track.
     pub modes: &'a [Future],
 }
 
 impl<'a> Actor<'a> {
-    /// A road user as it was recorded.
+    /// A road user with its recorded motion.
     pub fn of_log(agent: &'a Agent) -> Self {
         Self {
             id: &agent.id,
@@ -244,9 +244,8 @@ impl<'a> Actor<'a> {
         }
     }
 
-    /// A road user that takes one of its futures after its history. The state before the future's
-    /// first step is the log's with the start fields of its conditions in place; the log is the
-    /// reference.
+    /// A road user with one of its futures after its history. The state before the future's first step is the
+    /// log's, with the start fields of its conditions; the log is the reference.
     pub fn of_future(agent: &'a Agent, chosen: &Future, modes: &'a [Future]) -> Self {
         let conditions = &agent.conditions;
         Self {
@@ -261,7 +260,7 @@ impl<'a> Actor<'a> {
         }
     }
 
-    /// A road user that keeps its log, as it is shown: with the type and size that it was given.
+    /// A road user that keeps its log, with the type and size that it was given.
     pub fn of_kept(agent: &'a Agent) -> Self {
         Self { size: agent.shown_size(), agent_type: agent.kind(), ..Self::of_log(agent) }
     }
@@ -293,7 +292,7 @@ pub struct ScoreInput<'a> {
     pub map: &'a LaneMap,
     /// Signals of the scene.
     pub signals: &'a [Signal],
-    /// Index of the map, built once a map.
+    /// Index of the map, built once per map.
     pub drivable: &'a Drivable,
     /// Scene steps that are scored.
     pub steps: Range<usize>,
@@ -306,9 +305,8 @@ pub struct ScoreInput<'a> {
 }
 
 impl<'a> ScoreInput<'a> {
-    /// The scene as it is shown: chosen futures, and for the rest the log. Scored from the step
-    /// before the first future (from the first step without futures) to the end of the longest
-    /// motion.
+    /// The scene with its shown motions: chosen futures, else logs. Scored from the step before the first
+    /// future (from the first step if there is none) to the end of the longest motion.
     pub fn of_scene(scene: &'a Scene, drivable: &'a Drivable) -> Self {
         let sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
         Self::of_sample(scene, sample, drivable)

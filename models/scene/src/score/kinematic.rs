@@ -9,19 +9,19 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
-/// Slower than this, curvature means nothing (yaw rate over speed), m/s.
+/// Speed below which curvature (yaw rate over speed) is undefined, m/s.
 const LEAST_CURVE_MPS: f64 = 1.0;
-/// Slower than this, a walker's direction means nothing, m/s.
+/// Speed below which a walker's direction is undefined, m/s.
 const LEAST_WALK_MPS: f64 = 0.3;
 
-/// Speeds and headings so many steps before and after a moment decide whether it is harsh.
+/// Number of steps before and after a moment over which harshness is measured.
 pub const HARSH_STEPS: usize = 2;
 
-/// What scoring still calls plausible: wider than [`Limits`], which generated motion keeps, because
-/// differences of rounded positions and foreign motion are noisier. `None`: not scored for this type.
+/// Limits of plausible motion in scores. They are wider than [`Limits`], which generated motion keeps,
+/// because differences of rounded positions and foreign motion are noisier. `None`: not scored for this type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct KinematicLimits {
-    /// Speeding up, m/s2.
+    /// Acceleration, m/s2.
     pub accel_mps2: f64,
     /// Braking, m/s2, positive.
     pub brake_mps2: f64,
@@ -29,9 +29,9 @@ pub struct KinematicLimits {
     pub lateral_mps2: f64,
     /// Turning, rad/s.
     pub yaw_rate_radps: Option<f64>,
-    /// Change of the acceleration along the way, m/s3.
+    /// Change of the longitudinal acceleration, m/s3.
     pub jerk_mps3: Option<f64>,
-    /// Bend of the path, 1/m.
+    /// Curvature of the path, 1/m.
     pub curvature_per_m: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ pub struct Kinematic {
 }
 
 impl Kinematic {
-    /// Greatest of each over all, violations together; `None` without any.
+    /// Greatest of each value over all, and the sum of violations; `None` without any.
     pub fn over_all<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
         let optional = |a: Option<f64>, b: Option<f64>| maximum([a, b].into_iter());
         all.copied().reduce(|a, b| Self {
@@ -107,7 +107,7 @@ impl Kinematic {
     }
 }
 
-/// Values at one step, all absolute but `along`.
+/// Values at one step, all absolute except `along`.
 #[derive(Clone, Copy, Debug, Default)]
 struct KinematicValues {
     along: f64,
@@ -116,7 +116,7 @@ struct KinematicValues {
     curvature: Option<f64>,
 }
 
-/// Greatest values over `steps` and the stretches of implausible turns (over a limit of lateral
+/// Greatest values over `steps`, and the stretches of implausible turns (over a limit of lateral
 /// acceleration, yaw rate or curvature; `worst` is the share of the limit).
 pub fn score_kinematic(actor: &Actor<'_>, steps: Range<usize>) -> (Kinematic, Vec<Stretch>) {
     let limits = KinematicLimits::of(actor.agent_type, actor.subtype, actor.size.length_m);
@@ -186,7 +186,7 @@ fn jerk(moments: &[Option<KinematicValues>], i: usize) -> Option<f64> {
     Some((after.along - before.along).abs() / (2.0 * STEP_S))
 }
 
-/// Stretches of braking above the threshold, recorded motion too: speeds 0.2 s before and after, so
+/// Stretches of braking above the threshold, for recorded motion too. Uses speeds 0.2 s before and after, so
 /// that one bad sample of a recording is no event. Not for walkers.
 pub fn harsh_braking(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     if actor.agent_type == AgentType::Pedestrian {
@@ -212,7 +212,7 @@ pub fn hardest_braking(actor: &Actor<'_>, steps: Range<usize>) -> Option<(usize,
     braking(actor, steps).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Stretches of turning above the threshold of sideways acceleration, as [`harsh_braking`].
+/// Stretches of turning above the threshold of lateral acceleration, as [`harsh_braking`].
 pub fn harsh_steering(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     if actor.agent_type == AgentType::Pedestrian {
         return Vec::new();
@@ -252,7 +252,7 @@ mod tests {
         assert!((found.brake_mps2 - 5.0).abs() < 1e-9 && found.accel_mps2 < 1e-9);
         assert!((found.jerk_mps3.unwrap() - 25.0).abs() < 1e-9);
         assert_eq!((found.lateral_mps2, found.yaw_rate_radps, found.speed_mps), (0.0, Some(0.0), 10.0));
-        // The jerk is over 15 for steps on both sides of either kink: 12.5 and 25 around the first.
+        // The jerk exceeds 15 for steps on both sides of either kink: 12.5 and 25 around the first.
         assert!(found.violations >= 2 && found.violations <= 6, "{}", found.violations);
         assert!(turns.is_empty());
         assert_eq!(score_kinematic(&braking(2.0), 0..91).0.violations, 0);
@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn walkers_have_no_heading_limits() {
         let mut actor = straight("a", AgentType::Pedestrian, (0.0, 0.0), 0.0, 1.4);
-        // The heading spins while the walk goes on straight.
+        // The heading spins while the walk goes straight on.
         let spin = |i: usize| State {
             x_m: 0.14 * i as f64,
             vx_mps: 1.4,

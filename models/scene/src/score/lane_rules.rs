@@ -1,4 +1,4 @@
-//! Rules of lanes for one vehicle: the speed limit, the heading at its end, and where the roads of the map end.
+//! Lane rules for one vehicle: the speed limit, the heading at its end, and the end of the map's roads.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{Stretch, stretches};
@@ -6,13 +6,14 @@ use super::road::{PARKED_M, drives};
 use crate::geometry::direction;
 use crate::{AgentType, STEP_S, State, Vec2};
 
-/// A shorter time above the limit is none, seconds.
+/// Shortest time above the limit that counts, seconds.
 pub(super) const SPEEDING_S: f64 = 1.0;
-/// A vehicle that has slowed down by this much since the start is not speeding, m/s2: it was too fast already.
+/// Mean deceleration since the start above which a vehicle is not speeding, m/s2: it was too fast already.
 const SLOWING_MPS2: f64 = 0.5;
-/// Cosine of the angle from which a lane leads elsewhere.
+/// Cosine of the heading difference beyond which a lane leads elsewhere.
 const ELSEWHERE: f64 = 0.5;
-/// A lane that turns by more within this before or after the place is a bend, metres: its direction there says little.
+/// A lane that turns more within this distance of the place is a bend, metres: its direction there is no
+/// measure.
 const BEND_M: f64 = 4.0;
 
 /// The step at which a motion ends: when its goal is due, else its last.
@@ -23,8 +24,8 @@ pub(crate) fn end_step(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Option<usiz
     Some(due.clamp(input.steps.start, last))
 }
 
-/// The end of a vehicle's motion, where its heading is off the direction of every lane at its place; `worst` in
-/// radians. Not where a lane bends or leads through a junction, in driveways, and where the user fixed the heading.
+/// The end of a vehicle's motion if its heading deviates from the direction of every lane there; `worst` in
+/// radians. Bends, junctions, driveways and headings fixed by the user are excluded.
 pub(crate) fn ends_askew(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     let asked = actor.generated && actor.goal.heading_rad.is_some();
     if !drives(actor) || asked || actor.travel_m(input.steps.clone()) < PARKED_M {
@@ -50,8 +51,8 @@ pub(crate) fn ends_askew(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stret
     askew.map(|rad| stretches(actor, &[(step, rad)])).unwrap_or_default()
 }
 
-/// Stretches of at least [`SPEEDING_S`] above the speed limit of every lane that leads the vehicle's way; `worst` in m/s
-/// above the limit.
+/// Stretches of at least [`SPEEDING_S`] above the speed limit of every lane in the vehicle's direction;
+/// `worst` in m/s above the limit.
 pub(crate) fn speeding(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     if !drives(actor) {
         return Vec::new();
@@ -64,7 +65,7 @@ pub(crate) fn speeding(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch
         let Some(state) = actor.state(step) else { continue };
         let speed = state.speed_mps();
         let &mut (first, first_mps) = start.get_or_insert((step, speed));
-        // Cheaper than the lanes, and no limit is lower.
+        // A cheap test before the lanes are searched: no limit is lower.
         if speed <= extra_mps {
             fast_since_start = false;
             continue;
@@ -87,7 +88,7 @@ pub(crate) fn speeding(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch
     lasting(stretches(actor, &flagged), SPEEDING_S)
 }
 
-/// Stretches on wheels where the roads of the map have ended; `worst` in metres from the lanes.
+/// Stretches of wheeled road users beyond the end of the map's roads; `worst` in metres from the lanes.
 pub(crate) fn off_map(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     let rides = actor.agent_type == AgentType::Cyclist || drives(actor);
     if !rides || input.drivable.is_unknown() {
@@ -95,7 +96,7 @@ pub(crate) fn off_map(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
     }
     let reach_m = input.thresholds.off_map_m;
     let mut flagged: Vec<(usize, f64)> = Vec::new();
-    // A place near a lane, and how far from it all places are near that lane too.
+    // A place near a lane, and the radius in which all places are near that lane too.
     let mut near: Option<(Vec2, f64)> = None;
     for step in input.steps.clone() {
         let Some(place) = actor.state(step).map(State::position) else { continue };
@@ -109,7 +110,7 @@ pub(crate) fn off_map(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
     stretches(actor, &flagged)
 }
 
-/// Those that last so long.
+/// Stretches that last at least this long.
 pub(super) fn lasting(mut stretches: Vec<Stretch>, seconds: f64) -> Vec<Stretch> {
     stretches.retain(|s| s.until_s - s.time_s >= seconds - 1e-6);
     stretches
@@ -152,7 +153,7 @@ mod tests {
             let input = input_of(vec![driven(speed)], &drivable);
             speeding(&input.actors[0], &input)
         };
-        // 10 m/s may be driven with 12.4.
+        // At a limit of 10 m/s, 12.4 m/s is allowed.
         let fast = found(Some(10.0), &|_| 13.0);
         assert_eq!((fast.len(), fast[0].time_s, fast[0].until_s), (1, 0.0, 9.0));
         assert!((fast[0].worst.unwrap() - 3.0).abs() < 1e-9);

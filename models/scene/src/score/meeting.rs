@@ -1,4 +1,5 @@
-//! Who comes nearest to a collision with a road user, and how the two stand to each other then.
+//! The road user that comes nearest to a collision with another, and how the two move relative to each other
+//! then.
 
 use super::input::ScoreInput;
 use super::pairs::{Measures, Mover, MoverState, PARKED_M, belong_together, is_excluded, least, ttc};
@@ -11,46 +12,46 @@ use crate::geometry::{Vec2, direction, wrap_angle};
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two that stay farther apart are not looked at, metres.
+/// Pairs that stay farther apart are skipped, metres.
 const FAR_M: f64 = 100.0;
-/// Two that stay farther apart meet only where they have a time, metres.
+/// Pairs that stay farther apart meet only if they have a time to collision, metres.
 const NEAR_M: f64 = 30.0;
-/// Headings that differ by more face each other, radians.
+/// Headings that differ by more are oncoming, radians.
 const ONCOMING_RAD: f64 = 3.0 * FRAC_PI_4;
 
-/// How the ways of two road users lie to each other.
+/// Geometric relation of the paths of two road users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PairRelation {
     /// Their paths cross.
     Crossing,
     /// One drives behind the other.
     Following,
-    /// They face each other.
+    /// They approach head-on.
     Oncoming,
     /// None of these, such as side by side.
     Beside,
 }
 
-/// How a road user meets another one.
+/// How a road user meets another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeetingPair {
-    /// The other one, by its place in the input.
+    /// The other, by its index in the input.
     pub other: usize,
     /// Scene step of the least gap.
     pub step: usize,
-    /// Where the paths cross, else the middle between the two at the step; metres.
+    /// Crossing of the paths, else the midpoint between the two at the step, metres.
     pub place: Vec2,
-    /// How they stand to each other.
+    /// Relation of their paths.
     pub relation: PairRelation,
-    /// Whether the other one has the place first: at the crossing, or ahead. `None` where neither has.
+    /// Whether the other has priority in order: first at the crossing, or ahead. `None` if neither does.
     pub other_first: Option<bool>,
-    /// Least time to collision at constant velocity, as the score of the scene has it, seconds.
+    /// Smallest time to collision at constant velocity, as in the scene's score, seconds.
     pub ttc_s: Option<f64>,
-    /// The worst values of the pair; its time to collision keeps the turn rates too.
+    /// The worst values of the pair; their time to collision also uses constant turn rates.
     pub measures: Measures,
 }
 
-/// Looks for the hardest pairs of a scene.
+/// Finds the hardest pairs of a scene.
 pub struct MeetingSearch<'a> {
     input: &'a ScoreInput<'a>,
     movers: Vec<Mover>,
@@ -58,14 +59,15 @@ pub struct MeetingSearch<'a> {
 }
 
 impl<'a> MeetingSearch<'a> {
-    /// In the motions that an input scores.
+    /// A search over the motions that an input scores.
     pub fn new(input: &'a ScoreInput<'a>) -> Self {
         let movers = input.actors.iter().map(|actor| Mover::new(actor, input.steps.clone())).collect();
         Self { input, movers, lines: stop_lines(input) }
     }
 
-    /// The pair of a road user with the least time to collision or post-encroachment time; where no pair has one, with
-    /// the least time gap, then with the least gap. `None` for one that has no such time and nobody within 30 m.
+    /// The pair of a road user with the smallest time to collision or post-encroachment time. If no pair has
+    /// one, the smallest time gap decides, then the smallest gap. `None` if there is no such time and nobody
+    /// is within 30 m.
     pub fn hardest(&self, of: usize) -> Option<MeetingPair> {
         let pairs = (0..self.movers.len()).filter(|other| *other != of);
         let pairs = pairs.filter_map(|other| self.between(of, other));
@@ -81,8 +83,8 @@ impl<'a> MeetingSearch<'a> {
         pairs.min_by(compared)
     }
 
-    /// How a road user meets the other one, by their ids, or without another one its hardest pair. `None` where one of
-    /// them is not in the input, too.
+    /// How a road user meets another, by their ids; without another, its hardest pair. `None` also if one of
+    /// them is not in the input.
     pub fn of(&self, id: &str, other: Option<&str>) -> Option<MeetingPair> {
         let place = |id: &str| self.input.actors.iter().position(|actor| actor.id == id);
         let of = place(id)?;
@@ -94,9 +96,9 @@ impl<'a> MeetingSearch<'a> {
         signal_passed(self.input, self.input.actors.get(of)?, &self.lines)
     }
 
-    /// What happens between two of them, by their places in the input. `None` where both stay, where they belong
-    /// together, are left out of the score or are never seen near each other, and for two that stay 30 m apart and have
-    /// no time to collision.
+    /// How two of them meet, by their indices in the input. `None` if both stay, belong together, are
+    /// excluded from the score or are never near each other. Also `None` for two that stay 30 m apart and
+    /// have no time to collision.
     pub fn between(&self, of: usize, other: usize) -> Option<MeetingPair> {
         let (a, b) = (self.movers.get(of)?, self.movers.get(other)?);
         let stays = |mover: &Mover| mover.travel_m < PARKED_M;
@@ -170,7 +172,7 @@ mod tests {
         assert_eq!(crossing.other_first, Some(false));
         assert!((crossing.place - Vec2::new(40.0, 0.0)).norm() < 1e-6, "{:?}", crossing.place);
         assert!((crossing.measures.pet_s.unwrap() - 1.5).abs() < 0.11, "{:?}", crossing.measures);
-        // Drives ahead, and is harder than the one that comes late.
+        // Drives ahead, and is harder than the late one.
         let leader = car("leader", 12.0, 0.0, 0.0, 8.0);
         let following = hardest(vec![car("late", 40.0, -61.0, FRAC_PI_2, 10.0), leader]).unwrap();
         assert_eq!((following.other, following.relation), (2, PairRelation::Following));

@@ -1,10 +1,9 @@
-//! Scores of whole scenes: collisions and near misses, distance and time to
-//! collision, post-encroachment time, off-road and wrong-way driving, red lights, kinematic limits,
-//! goals met, distance from the log.
+//! Scores of whole scenes: collisions and near misses, distance and time to collision, post-encroachment
+//! time, off-road and wrong-way driving, red lights, kinematic limits, goals met, distance from the log.
 //!
-//! [`score`] takes a [`ScoreInput`] and gives a [`Score`], which serialises to the answer of
-//! `POST /v1/score`. The same input gives the same score, member for member: agents are taken in the
-//! order given, pairs by (first, second), lists by time.
+//! [`score`] takes a [`ScoreInput`] and returns a [`Score`], which serialises to the reply of `POST
+//! /v1/score`. Equal inputs give equal scores, member for member: agents in the given order, pairs by (first,
+//! second), lists by time.
 
 pub mod accuracy;
 mod baseline_score;
@@ -40,7 +39,7 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
     put_together(input, singles, pairs::score_pairs(input))
 }
 
-/// The score of what single road users and pairs come to.
+/// Combines the scores of single road users and pairs.
 fn put_together(
     input: &ScoreInput<'_>,
     singles: impl IntoIterator<Item = Single>,

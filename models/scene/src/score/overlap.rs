@@ -1,4 +1,4 @@
-//! Do two motions overlap? The quick answer that the choice of futures asks for thousands of pairs.
+//! A fast overlap test of two motions, for the thousands of pairs in the choice of futures.
 
 use super::input::Thresholds;
 use super::pairs::{BRUSH_M, PARKED_M};
@@ -8,12 +8,12 @@ use crate::{Size, State};
 use std::f64::consts::FRAC_PI_6;
 use std::sync::OnceLock;
 
-/// "Close" boxes come nearer than this, metres.
+/// "Close" boxes are nearer than this, metres.
 pub const CLOSE_M: f64 = 0.5;
-/// Boxes between two bounding rectangles.
+/// Boxes per bounding rectangle.
 const CHUNK: usize = 8;
 
-/// About these boxes.
+/// Rectangle around these boxes.
 fn extent_of(boxes: &[Option<OrientedBox>]) -> Extent {
     boxes.iter().flatten().fold(Extent::NONE, |extent, b| {
         let half = b.upright_half_extents();
@@ -21,7 +21,7 @@ fn extent_of(boxes: &[Option<OrientedBox>]) -> Extent {
     })
 }
 
-/// Bounding rectangles of the boxes of one or several motions: of all moments, and of every eight.
+/// Bounding rectangles of the boxes of one or several motions: over all moments, and over every eight.
 #[derive(Clone, Debug)]
 pub struct SweptBounds {
     whole: Extent,
@@ -29,7 +29,7 @@ pub struct SweptBounds {
 }
 
 impl SweptBounds {
-    /// About all of these motions.
+    /// Bounds around all of these motions.
     pub fn about<'a>(motions: impl IntoIterator<Item = &'a SweptBoxes>) -> Self {
         let mut all = Self { whole: Extent::NONE, chunks: Vec::new() };
         for Self { whole, chunks } in motions.into_iter().map(|motion| &motion.bounds) {
@@ -40,12 +40,12 @@ impl SweptBounds {
         all
     }
 
-    /// False where no two of the motions come nearer than this, metres.
+    /// False if no two of the motions come nearer than this, metres.
     pub fn may_come_within(&self, other: &Self, margin_m: f64) -> bool {
         self.near_chunks(other, margin_m).next().is_some()
     }
 
-    /// The eights of moments in which the rectangles are nearer than this, metres.
+    /// The groups of eight moments whose rectangles are nearer than this, metres.
     fn near_chunks(&self, other: &Self, margin_m: f64) -> impl Iterator<Item = usize> {
         let possible = self.whole.is_near(&other.whole, margin_m);
         let chunks = self.chunks.iter().zip(&other.chunks).take_while(move |_| possible).enumerate();
@@ -58,7 +58,7 @@ impl SweptBounds {
 pub struct SweptBoxes {
     boxes: Vec<Option<OrientedBox>>,
     bounds: SweptBounds,
-    /// One a moment, computed for the first comparison that needs them.
+    /// One per moment, computed for the first comparison that needs them.
     motions: OnceLock<Box<[Option<BoxMotion>]>>,
     /// Diagonal of the first box's upright rectangle, metres.
     extent_m: f64,
@@ -67,7 +67,7 @@ pub struct SweptBoxes {
 }
 
 impl SweptBoxes {
-    /// From one box a moment; `None` where the road user is not there.
+    /// From one box per moment; `None` while the road user is absent.
     pub fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
         let whole = extent_of(&boxes);
         let bounds = SweptBounds { whole, chunks: boxes.chunks(CHUNK).map(extent_of).collect() };
@@ -90,12 +90,12 @@ impl SweptBoxes {
         self.boxes.get(moment)?.as_ref()
     }
 
-    /// Moments.
+    /// Number of moments.
     pub fn len(&self) -> usize {
         self.boxes.len()
     }
 
-    /// No moments at all.
+    /// Whether there are no moments.
     pub fn is_empty(&self) -> bool {
         self.boxes.is_empty()
     }
@@ -104,20 +104,20 @@ impl SweptBoxes {
 /// How two motions meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overlap {
-    /// The boxes share area at some moment.
+    /// Whether the boxes share area at some moment.
     pub overlaps: bool,
-    /// The boxes come nearer than [`CLOSE_M`] at some moment; true whenever `overlaps` is.
+    /// Whether the boxes come nearer than [`CLOSE_M`] at some moment; true whenever `overlaps` is.
     pub close: bool,
 }
 
 /// Seconds between two moments of the swept boxes.
 const MOMENT_S: f64 = 0.3;
-/// Half the length below which a box is a walker's: two of them never near-miss each other, metres.
+/// Half length below which a box is a walker's: two walkers have no near misses, metres.
 const WALKER_M: f64 = 0.6;
-/// Looks into the next moments, seconds.
+/// Times ahead at which courses are checked, seconds.
 const LOOKS_S: [f64; 5] = [0.3, 0.6, 0.9, 1.2, 1.5];
 
-/// How a box moves at a moment.
+/// Motion of a box at a moment.
 #[derive(Clone, Copy, Debug)]
 struct BoxMotion {
     /// Metres per second.
@@ -126,7 +126,7 @@ struct BoxMotion {
 }
 
 impl BoxMotion {
-    /// By moment, from the moment before; `None` where the road user is absent at one of the two.
+    /// By moment, from the previous one; `None` if the road user is absent at one of the two.
     fn each(boxes: &[Option<OrientedBox>]) -> Box<[Option<Self>]> {
         let between = |w: &[Option<OrientedBox>]| {
             let (before, now) = w[0].as_ref().zip(w[1].as_ref())?;
@@ -138,7 +138,7 @@ impl BoxMotion {
     }
 }
 
-/// A box that moves on as it does.
+/// A box that continues at constant velocity.
 struct Going<'a> {
     outline: &'a OrientedBox,
     velocity: Vec2,
@@ -159,15 +159,15 @@ impl<'a> Going<'a> {
         OrientedBox::new(center, self.outline.half_length_m(), self.outline.half_width_m(), heading)
     }
 
-    /// They pass each other at speed within the gap at which a parked one is brushed.
+    /// Whether they pass each other at speed within the gap for parked vehicles.
     fn brushes(&self, other: &Self, limits: &Thresholds) -> bool {
         let is_fast = (self.velocity - other.velocity).norm() > limits.pass_mps;
         let brush_m = BRUSH_M.min(limits.pass_gap_m);
         is_fast && gap_and_direction(self.outline, other.outline).0 < brush_m
     }
 
-    /// They pass or cross within the gap of a near miss, or touch soon if both go on as they do and no easy braking of a
-    /// follower prevents it.
+    /// Whether they pass or cross within the gap of a near miss, or would soon touch if both continued and no
+    /// easy braking of a follower prevents it.
     fn threatens(&self, other: &Self, limits: &Thresholds) -> bool {
         let relative = self.velocity - other.velocity;
         let speed = relative.norm();
@@ -179,7 +179,7 @@ impl<'a> Going<'a> {
         let closing = relative.dot(&towards);
         let turn = wrap_angle(self.outline.heading_rad() - other.outline.heading_rad()).abs();
         let follows = turn < FRAC_PI_6 && towards.dot(&self.outline.forward()).abs() > 0.7;
-        // Scores look three times as often: those that pass or cross may be nearer between two moments.
+        // Scores check three times as often: a passing or crossing pair may be nearer between two moments.
         let least_m = if follows { gap_m } else { gap_m - 0.5 * MOMENT_S * closing.abs() };
         if least_m < limits.pass_gap_m && speed > limits.pass_mps {
             return true;
@@ -199,8 +199,8 @@ impl<'a> Going<'a> {
     }
 }
 
-/// Moments at which two motions pass or cross too near, or would soon touch if both went on as they do then: what scores
-/// call a near miss, at the boxes of the choice.
+/// Moments at which two motions pass or cross too near, or would soon touch at their velocities then: a near
+/// miss in scores, tested on the boxes of the choice.
 pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);
@@ -215,14 +215,14 @@ pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Itera
     })
 }
 
-/// The moments of those eights in which two motions may be nearer than this, metres.
+/// The moments of the groups in which two motions may be nearer than this, metres.
 fn near_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes, margin_m: f64) -> impl Iterator<Item = usize> + 'a {
     let end = a.len().min(b.len());
     let chunks = a.bounds.near_chunks(&b.bounds, margin_m);
     chunks.flat_map(move |chunk| chunk * CHUNK..((chunk + 1) * CHUNK).min(end))
 }
 
-/// Two motions come nearer than this at some moment, metres.
+/// Whether two motions come nearer than this at some moment, metres.
 pub fn comes_within(a: &SweptBoxes, b: &SweptBoxes, margin_m: f64) -> bool {
     let near = |i: usize| a.at(i).zip(b.at(i)).is_some_and(|(p, q)| overlaps(p, q, margin_m));
     near_moments(a, b, margin_m).any(near)
@@ -283,7 +283,7 @@ mod tests {
         assert!(dangers(&east, &beside(2.3, 5.0)) > 0, "0.3 m beside it, 5 m/s slower");
         assert_eq!(dangers(&east, &beside(2.3, 9.0)), 0, "0.3 m beside it, 1 m/s slower");
         assert_eq!(dangers(&east, &beside(2.6, 5.0)), 0, "0.6 m beside it");
-        // A parked car is brushed only.
+        // A parked car is only brushed.
         assert!(dangers(&east, &straight((20.0, 2.1), 0.0, 0.0)) > 0);
         assert_eq!(dangers(&east, &straight((20.0, 2.3), 0.0, 0.0)), 0);
     }

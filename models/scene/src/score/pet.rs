@@ -1,42 +1,42 @@
-//! Post-encroachment time: how closely two road users follow each other over the same ground where
-//! their paths cross (Allen, Shin and Cooper 1978).
+//! Post-encroachment time: the time between two road users on the same ground where their paths cross (Allen,
+//! Shin and Cooper 1978).
 
 use super::pairs::{Mover, MoverState};
 use crate::geometry::obb::overlaps;
 use crate::geometry::{Extent, Vec2, cross};
 use crate::{AgentType, STEP_S};
 
-/// Paths that meet at less than this angle merge or follow; they do not cross. 20 degrees.
+/// Paths that meet at less than this angle merge or follow, and do not cross: 20 degrees.
 pub const LEAST_ANGLE_RAD: f64 = 0.349;
-/// A road user that travels less shares no ground that another could come to after it, metres.
+/// A road user that travels less has no post-encroachment time, metres.
 pub const LEAST_TRAVEL_M: f64 = 2.0;
 /// Steps between the points of the coarse paths.
 const COARSE: usize = 3;
-/// Pieces of a coarse path between two bounds.
+/// Pieces of a coarse path per bound.
 const PIECES: usize = 8;
 
-/// How two paths cross, at the crossing with the least time between the two.
+/// The crossing of two paths with the smallest time between the two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Encroachment {
     /// Post-encroachment time, seconds.
     pub pet_s: f64,
-    /// Where the paths of the centres cross.
+    /// Crossing of the paths of the centres.
     pub point: Vec2,
-    /// The second one is there first; `None` where both come at once.
+    /// Whether the second one is first; `None` if both arrive at once.
     pub b_first: Option<bool>,
 }
 
-/// Seconds between the one leaving a piece of ground and the other arriving there, where the paths of
-/// their centres cross; the least over all crossings, zero when both are there at once, to one step;
-/// `None` when the paths do not cross, for two walkers, and for road users that stay within 2 m.
+/// Seconds between one road user leaving a piece of ground and the other arriving there, where the paths of
+/// their centres cross. It is the minimum over all crossings, zero if both are there at once, to one step.
+/// `None` if the paths do not cross, for two walkers, and for road users that stay within 2 m.
 ///
-/// It is the least time shift that makes the boxes overlap near the crossing. For crossings at right
+/// It is the smallest time shift that makes the boxes overlap near the crossing. For crossings at right
 /// angles this equals the classic "second enters the shared area after the first has left it".
 pub(super) fn post_encroachment_s(a: &Mover, b: &Mover) -> Option<f64> {
     encroachment(a, b).map(|crossing| crossing.pet_s)
 }
 
-/// As [`post_encroachment_s`], with where it is and who is there first.
+/// As [`post_encroachment_s`], with the place and who is there first.
 pub(super) fn encroachment(a: &Mover, b: &Mover) -> Option<Encroachment> {
     let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
     if walkers || a.travel_m < LEAST_TRAVEL_M || b.travel_m < LEAST_TRAVEL_M || !places_meet(a, b) {
@@ -101,7 +101,7 @@ fn crossings(a: &[(usize, Vec2)], b: &[(usize, Vec2)]) -> Vec<PathCrossing> {
     found
 }
 
-/// Points of the pieces of one group: the groups share their end points.
+/// Points of one group of pieces: groups share their end points.
 fn piece_ends(path: &[(usize, Vec2)], group: usize) -> &[(usize, Vec2)] {
     let from = group * PIECES;
     &path[from.min(path.len())..(from + PIECES + 1).min(path.len())]
@@ -125,14 +125,14 @@ fn cross_pieces(p: &[(usize, Vec2)], q: &[(usize, Vec2)]) -> Option<PathCrossing
     inside.then(|| PathCrossing { point: p0 + along_p * s, step_a: *step_a, step_b: *step_b })
 }
 
-/// Least difference of steps at which the boxes overlap near a crossing, if below `bound`.
+/// Smallest difference of steps at which the boxes overlap near a crossing, if below `bound`.
 fn least_shift(a: &Mover, b: &Mover, crossing: &PathCrossing, bound: usize) -> Option<usize> {
     let reach = 2.0 * (radius(a, crossing.step_a) + radius(b, crossing.step_b));
     let near_a = near(a, crossing.step_a, crossing.point, reach);
     let near_b = near(b, crossing.step_b, crossing.point, reach);
     let (first_a, last_a) = (near_a.first()?.0, near_a.last()?.0);
     let (first_b, last_b) = (near_b.first()?.0, near_b.last()?.0);
-    // Differences of steps that any two of these moments have.
+    // Range of the differences of steps between these moments.
     let shortest = first_b.saturating_sub(last_a).max(first_a.saturating_sub(last_b));
     let longest = last_b.saturating_sub(first_a).max(last_a.saturating_sub(first_b));
     let hit = |p: &MoverState, step_b: Option<usize>| {
@@ -149,8 +149,7 @@ fn radius(mover: &Mover, step: usize) -> f64 {
     mover.moments.get(step).and_then(Option::as_ref).map_or(0.0, |m| m.outline.radius_m())
 }
 
-/// Consecutive moments within `reach` of `point`, about the one of the piece from `step` on that is
-/// nearest to it.
+/// Consecutive moments within `reach` of `point`, around the nearest one of the piece from `step` on.
 fn near(mover: &Mover, step: usize, point: Vec2, reach: f64) -> Vec<(usize, &MoverState)> {
     let distance = |i: usize| {
         let moment = mover.moments.get(i)?.as_ref()?;

@@ -1,5 +1,5 @@
-//! Marks what a single road user does already in the log: off the road, against the traffic, braking
-//! hard, through red.
+//! Marks events of a single road user that the log contains already: off the road, against the traffic, harsh
+//! braking, red lights.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, Stretch};
@@ -7,15 +7,15 @@ use super::{kinematic, lane_rules, road, signals, walking};
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
-/// An event this much before or after that of the log is the same one, seconds.
+/// Greatest time difference to the log's event for the same event, seconds.
 const SAME_S: f64 = 1.0;
-/// A stretch that much worse than the log's is another one: metres off the road.
+/// Greatest excess over the log's stretch for the same event: metres off the road.
 const SAME_OFF_ROAD_M: f64 = 0.3;
-/// ... m/s2 of braking or sideways ...
+/// ... m/s2 of braking or lateral acceleration ...
 const SAME_HARSH_MPS2: f64 = 1.0;
 /// ... metres driven against the traffic.
 const SAME_WRONG_WAY_M: f64 = 5.0;
-/// ... metres from the lanes where the roads of the map have ended ...
+/// ... metres from the lanes beyond the end of the map's roads ...
 const SAME_OFF_MAP_M: f64 = 5.0;
 /// ... metres walked on the carriageway ...
 const SAME_ON_CARRIAGEWAY_M: f64 = 3.0;
@@ -24,13 +24,13 @@ const SAME_SPEED_MPS: f64 = 1.0;
 /// ... radians askew.
 const SAME_ASKEW_RAD: f64 = 0.1;
 
-/// The road user as it was recorded, if it was.
+/// The road user as it was recorded, if there is a recording.
 fn as_recorded<'a>(actor: &Actor<'a>) -> Option<Actor<'a>> {
     let log = actor.log.filter(|log| log.states.iter().any(Option::is_some))?;
     Some(Actor { track: Cow::Borrowed(log), generated: false, ..actor.clone() })
 }
 
-/// Marks stretches of `actor` that its recording has too; `log` finds those of the recording.
+/// Marks stretches of `actor` that its recording has too; `log` finds the stretches of the recording.
 fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, log: impl FnOnce(&Actor<'_>) -> Vec<Stretch>) {
     if found.is_empty() {
         return;
@@ -56,7 +56,7 @@ pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut r
     mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| of(a).wrong_way.clone());
 }
 
-/// A rule that one road user keeps or breaks whatever the others do, with a list of its own in the score.
+/// A rule that one road user keeps or breaks independently of the others, with its own list in the score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MotionRule {
     Braking,
@@ -79,7 +79,7 @@ impl MotionRule {
         Self::Askew,
     ];
 
-    /// Stretches in which a motion breaks it, those of its recording marked.
+    /// Stretches in which a motion breaks the rule, with those of its recording marked.
     pub(crate) fn breaches(self, input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Stretch> {
         let mut found = self.look(input, actor);
         mark(actor, &mut found, self.same(), |a| self.look(input, a));
@@ -98,7 +98,7 @@ impl MotionRule {
         }
     }
 
-    /// A stretch that much worse than the log's is another one, in its unit.
+    /// Greatest excess over the log's stretch for the same event, in its unit.
     fn same(self) -> f64 {
         match self {
             Self::Braking | Self::Steering => SAME_HARSH_MPS2,
@@ -110,7 +110,7 @@ impl MotionRule {
     }
 }
 
-/// Marks red lights that one road user runs in the log too.
+/// Marks red lights that the road user runs in the log too.
 pub(super) fn mark_red_lights(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -131,7 +131,7 @@ fn is_same(logged: &RedLight, red: &RedLight) -> bool {
     logged.agent == red.agent && logged.lane == red.lane && (logged.time_s - red.time_s).abs() <= SAME_S
 }
 
-/// Leaves out the red lights that one road user runs in the log too.
+/// Removes red lights that the road user runs in the log too.
 pub(crate) fn beyond_log(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -178,10 +178,10 @@ mod tests {
             car.log = Some(log);
             score(&input_of(vec![car], &drivable)).scene.off_road[0].in_log
         };
-        // The recording leaves the road as well, nearly as far; or stays on it.
+        // The recording leaves the road too, almost as far; or stays on it.
         assert!(off_road(&at_speed(9.98)));
         assert!(!off_road(&at_speed(4.0)));
-        // It goes a metre off, the made motion 47 m.
+        // It goes off by one metre, the generated motion by 47 m.
         assert!(!off_road(&at_speed(4.9)));
     }
 }

@@ -274,7 +274,7 @@ fn nullable<S: Serializer>(accuracy: &Option<Accuracy>, serializer: S) -> Result
 }
 
 impl SceneScore {
-    /// Fills in what follows from the pairs and the single road users.
+    /// Completes the score from the pairs and the single road users.
     pub(super) fn finish(&mut self, input: &ScoreInput<'_>, pairs: PairScores, agents: &[AgentScore]) {
         self.min_ttc_s = minimum(agents.iter().map(|a| a.min_ttc_s));
         let soonest =
@@ -327,7 +327,7 @@ impl SceneScore {
     }
 }
 
-/// Least of the known values.
+/// Smallest of the known values.
 pub(super) fn minimum(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     values.flatten().reduce(f64::min)
 }
@@ -343,7 +343,7 @@ pub(super) fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     (count > 0).then(|| sum / count as f64)
 }
 
-/// `part` of `whole`, none of nothing.
+/// `part` of `whole`; `None` if `whole` is zero.
 pub(super) fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }
@@ -353,7 +353,7 @@ pub(super) fn time_of(step: f64) -> f64 {
     (step * crate::STEP_S * 1000.0).round() / 1000.0
 }
 
-/// Cuts flagged steps (rising) into stretches; each has its greatest value and the place of that.
+/// Groups flagged steps (rising) into stretches; each has its greatest value and its place.
 pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stretch> {
     /// First and last step, the worst step and its value.
     type Found = (usize, usize, (usize, f64));

@@ -1,4 +1,4 @@
-//! Off the road and against the traffic, vehicles only.
+//! Off-road and wrong-way driving, for vehicles only.
 
 use super::drivable::Drivable;
 use super::input::{Actor, ScoreInput};
@@ -8,7 +8,7 @@ use crate::geometry::direction;
 use crate::geometry::obb::OrientedBox;
 use crate::{AgentType, STEP_S, Subtype, Vec2};
 
-/// A vehicle that stays within this of its first place is parked, metres.
+/// A vehicle that stays within this distance of its first place is parked, metres.
 pub(super) const PARKED_M: f64 = 1.0;
 
 /// Road score of a vehicle's motion.
@@ -16,11 +16,11 @@ pub(super) const PARKED_M: f64 = 1.0;
 pub struct RoadScore {
     /// Share of its steps with a corner off the road.
     pub offroad_share: Option<f64>,
-    /// Farthest a corner goes off the road, metres.
+    /// Greatest distance of a corner off the road, metres.
     pub offroad_max_m: Option<f64>,
     /// Share of its moving steps against the traffic.
     pub wrong_way_share: Option<f64>,
-    /// Stretches off the road but for those over a median; `worst` in metres.
+    /// Stretches off the road except those over a median; `worst` in metres.
     pub off_road: Vec<Stretch>,
     /// Stretches over a median; `worst` in metres.
     pub over_median: Vec<Stretch>,
@@ -32,9 +32,8 @@ pub struct RoadScore {
     pub(super) moving_steps: usize,
 }
 
-/// Looks at a vehicle's steps; nothing for other types, on maps that do not say where to drive, and
-/// for vehicles that stay parked where the log has them (they often stand across the kerb), whether they were
-/// generated or not.
+/// Scores a vehicle's steps. Nothing for other types, on maps that do not define where to drive, and for
+/// vehicles parked at their recorded place (they often stand across the kerb), whether generated or not.
 pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let parked = actor.travel_m(input.steps.clone()) < PARKED_M && stands_where_logged(input, actor);
     if !drives(actor) || parked || input.drivable.is_unknown() {
@@ -45,13 +44,13 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let (mut off, mut wrong) = (Vec::new(), Vec::new());
     let mut score = RoadScore::default();
     let mut farthest: Option<f64> = None;
-    // One that comes to rest against the traffic ends against it.
+    // A vehicle that stops against the traffic ends against it.
     let end = end_step(input, actor);
     let mut travelled_m = 0.0;
     let mut before: Option<(OrientedBox, Option<f64>)> = None;
     for step in input.steps.clone() {
         let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
-        // Most that stand do so for many steps.
+        // Standing vehicles mostly stand for many steps.
         let outside_m = match before {
             Some((same, outside_m)) if same == outline => outside_m,
             _ => ground.box_outside_m(&outline),
@@ -85,7 +84,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let over_median = |s: &Stretch| is_over_median(&ground, actor, s);
     (score.over_median, score.off_road) = left.into_iter().partition(over_median);
     score.wrong_way = stretches(actor, &wrong);
-    // They hold how far had been driven by then.
+    // They hold the distance driven up to then.
     for stretch in &mut score.wrong_way {
         let before = |w: &&(usize, f64)| time_of(w.0 as f64) == stretch.time_s;
         let begun_m = wrong.iter().find(before).map_or(0.0, |w| w.1);
@@ -94,12 +93,12 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     score
 }
 
-/// A vehicle under its own power.
+/// Whether the actor is a vehicle that moves under its own power.
 pub(super) fn drives(actor: &Actor<'_>) -> bool {
     actor.agent_type == AgentType::Vehicle && actor.subtype != Subtype::Trailer
 }
 
-/// Whether it begins at its recorded state of that step; without a recording of the step, the user placed it.
+/// Whether it begins in its recorded state of that step; without a recorded state, the user placed it.
 fn stands_where_logged(input: &ScoreInput<'_>, actor: &Actor<'_>) -> bool {
     let Some(step) = input.steps.clone().find(|step| actor.state(*step).is_some()) else { return true };
     let (now, logged) = (actor.state(step), actor.log.and_then(|log| log.at(step)));
@@ -107,8 +106,8 @@ fn stands_where_logged(input: &ScoreInput<'_>, actor: &Actor<'_>) -> bool {
     !actor.generated || moved_m.is_some_and(|m| m < PARKED_M)
 }
 
-/// What is driven over divides two roads: the edge is called a median, or the vehicle comes down on a lane
-/// that runs against it.
+/// Whether the crossed edge divides two roads: it is marked as a median, or the vehicle gets to a lane in the
+/// opposite direction.
 fn is_over_median(ground: &Drivable, actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let place = Vec2::new(stretch.x_m, stretch.y_m);
     if ground.is_median(place, actor.size.length_m + stretch.worst.unwrap_or(0.0)) {
@@ -119,7 +118,7 @@ fn is_over_median(ground: &Drivable, actor: &Actor<'_>, stretch: &Stretch) -> bo
     ground.is_wrong_way(to.position(), direction(from.heading_rad)) == Some(true)
 }
 
-/// The edge that the box lies over where it leaves the road, else the one nearest to there.
+/// The edge under the box where it leaves the road, else the nearest one.
 fn edge_of(ground: &Drivable, actor: &Actor<'_>, stretch: &Stretch) -> Option<String> {
     let outline = actor.outline(step_of(stretch.time_s))?;
     ground.edge_under(&outline).map(str::to_owned)

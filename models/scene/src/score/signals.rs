@@ -1,4 +1,4 @@
-//! Red lights: a front that crosses the stop line while the signal of its lane says stop.
+//! Red lights: the front crosses the stop line while the signal of its lane says stop.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, time_of};
@@ -8,16 +8,16 @@ use crate::{AgentType, Signal, SignalState};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
-/// A lane is taken by a road user that stays within this of its centre on average, metres.
+/// A road user takes a lane if its mean distance from the centre is below this, metres.
 const ON_LANE_M: f64 = 1.5;
 /// Lanes whose distances differ by less count as equally near, metres.
 const SAME_LANE_M: f64 = 0.3;
 /// Length of path after (or before) the line that decides which lane is taken, metres.
 const TELLING_M: f64 = 20.0;
 
-/// Crossings of lines within so many steps belong to one junction.
+/// Crossings of lines within this many steps belong to one junction.
 const SAME_JUNCTION_STEPS: usize = 10;
-/// One that ends nearer before a line waits there, metres.
+/// A road user that ends this near before a line waits there, metres.
 const WAITING_M: f64 = 15.0;
 
 /// Stop line of a signal.
@@ -28,7 +28,7 @@ pub(crate) struct SignalStopLine<'a> {
     /// Unit vector along the lane there.
     ahead: Vec2,
     half_width_m: f64,
-    /// The signal's lane goes on behind the stop line (it leads through the junction); else it ends there.
+    /// The signal's lane continues behind the stop line, through the junction; otherwise it ends there.
     goes_on: bool,
 }
 
@@ -69,7 +69,7 @@ struct LineCrossing<'a, 'b> {
 }
 
 impl LineCrossing<'_, '_> {
-    /// The signal of the line says stop at the time.
+    /// Whether the line's signal says stop at that time.
     fn must_stop(&self) -> bool {
         let state = self.line.signal.at(self.step);
         state.is_stop() && state != SignalState::FlashingStop
@@ -78,8 +78,8 @@ impl LineCrossing<'_, '_> {
 
 /// Lines that a vehicle or cyclist crosses at red.
 ///
-/// Where several lanes part at one line, the lane that the road user takes decides; flashing red counts
-/// as a stop sign and is left out; a right turn after a stop is allowed when the thresholds say so.
+/// If several lanes fork at one line, the lane that the road user takes decides. Flashing red counts as a
+/// stop sign and is ignored. A right turn after a stop is allowed if the thresholds say so.
 pub(crate) fn crossed_at_red(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -104,9 +104,8 @@ pub(crate) fn crossed_at_red(
     }
     crossings.sort_by_key(|c| c.step);
     let mut found = Vec::new();
-    // Crossings within a second belong to one junction: the nearest lane counts, and only if no equally near
-    // lane lets it pass. An agent on none of these lanes, nor on one without a signal, is bound by all of
-    // them.
+    // Crossings within a second belong to one junction: the nearest lane decides, unless an equally near lane
+    // lets it pass. An agent on none of these lanes, nor on one without a signal, is bound by all of them.
     for group in crossings.chunk_by(|a, b| b.step - a.step < SAME_JUNCTION_STEPS) {
         let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
         if allowed || !group.iter().any(LineCrossing::must_stop) {
@@ -136,8 +135,8 @@ pub(crate) fn crossed_at_red(
     found
 }
 
-/// State of the signal whose stop line a road user passes first, then; of one that stands before a line at its end,
-/// the state at that time. Where lanes part at a line, the lane that it takes decides. `None` without a line.
+/// State of the signal whose stop line a road user passes first, at that time; for a road user that stands at
+/// a line at its end, the state then. At a fork the lane that it takes decides. `None` without a line.
 pub(crate) fn signal_passed(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -163,7 +162,7 @@ pub(crate) fn signal_passed(
     lines.iter().find(waits).map(|line| line.signal.at(last))
 }
 
-/// Behind a line it takes a lane that no signal controls.
+/// Whether it takes a lane without a signal behind the line.
 fn takes_a_free_lane(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -184,8 +183,8 @@ fn takes_a_free_lane(
     })
 }
 
-/// The front crosses the line between this step and the next, in the lane's direction: how far along
-/// the step, 0 to 1.
+/// Whether the front crosses the line between this step and the next, in the lane's direction; returns the
+/// share of the step, 0 to 1.
 fn crosses(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize) -> Option<f64> {
     let (from, to) = (actor.state(step)?, actor.state(step + 1)?);
     let (ahead, reach) = (line.ahead, 0.5 * actor.size.length_m);
@@ -222,7 +221,7 @@ fn off_lane_m(actor: &Actor<'_>, line: &SignalStopLine<'_>, step: usize, end: us
     places.iter().map(|p| line.line.project(*p).lateral_m.abs()).sum::<f64>() / places.len() as f64
 }
 
-/// Turns right by more than 45 degrees in the six seconds after the line, having stood in the three
+/// Whether it turns right by more than 45 degrees in the six seconds after the line, and stood in the three
 /// seconds before it.
 fn turns_right_after_stop(actor: &Actor<'_>, step: usize) -> bool {
     let stood = (step.saturating_sub(30)..=step).filter_map(|i| actor.state(i)).any(|s| s.speed_mps() < 1.0);
@@ -308,7 +307,7 @@ mod tests {
     #[test]
     fn who_takes_no_lane_behind_the_line_is_bound_by_all() {
         use SignalState::{Go, Stop};
-        // To the right at once, where no lane leads.
+        // An immediate right turn, where no lane leads.
         let map =
             LaneMap { lanes: vec![lane("through", &[(40.0, 0.0), (100.0, 0.0)])], ..LaneMap::default() };
         let drivable = Drivable::default();

@@ -1,4 +1,4 @@
-//! Score of one road user's motion by itself.
+//! Score of a single road user's motion, independent of the others.
 
 use super::accuracy::{Accuracy, accuracy};
 use super::goal::{GoalError, goal_error};
@@ -10,13 +10,13 @@ use super::report::{AgentScore, RedLight, SceneScore, Stretch};
 use super::road::{RoadScore, score_road};
 use super::signals::{SignalStopLine, crossed_at_red};
 
-/// Score of one road user's motion by itself.
+/// Score of a single road user's motion, independent of the others.
 #[derive(Clone, Debug)]
 pub(super) struct Single {
     road: RoadScore,
     kinematic: Option<Kinematic>,
     implausible_turns: Vec<Stretch>,
-    /// By rule, in the order of [`MotionRule::ALL`].
+    /// Stretches by rule, in the order of [`MotionRule::ALL`].
     rules: [Vec<Stretch>; MotionRule::ALL.len()],
     red_lights: Vec<RedLight>,
     goal_error: Option<GoalError>,
@@ -24,7 +24,7 @@ pub(super) struct Single {
 }
 
 impl Single {
-    /// Of one road user of the input, with the stop lines there.
+    /// The score of one road user of the input, with the stop lines of the scene.
     pub(super) fn of(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[SignalStopLine<'_>]) -> Self {
         let mut road = score_road(input, actor);
         recorded::mark_road(input, actor, &mut road);
@@ -43,7 +43,7 @@ impl Single {
         }
     }
 
-    /// Adds what the scene's lists and sums take, and gives the road user's own score.
+    /// Adds its entries to the scene's lists and sums, and returns the road user's own score.
     pub(super) fn add_to(self, scene: &mut SceneScore, totals: &PairTotals) -> AgentScore {
         let road = self.road;
         scene.implausible_turns.extend(self.implausible_turns);

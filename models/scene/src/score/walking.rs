@@ -7,19 +7,19 @@ use crate::geometry::cross;
 use crate::map::Area;
 use crate::{AgentType, STEP_S, State, Vec2};
 
-/// A shorter run is none, seconds.
+/// Shortest run that counts, seconds.
 const RUNNING_S: f64 = 1.0;
-/// Walking along a lane for less time is none, seconds.
+/// Shortest walk along a lane that counts, seconds.
 const ALONG_S: f64 = 2.0;
 /// Cosine of the angle between a lane and a walk along it.
 const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// A pedestrian nearer to a crosswalk than this is on it, metres.
 pub const ON_CROSSWALK_M: f64 = 1.5;
-/// A shorter way over lanes is no crossing, metres.
+/// Shortest crossing of lanes that counts, metres.
 const CROSSING_M: f64 = 3.0;
-/// Off the lanes for longer is on the other side, steps.
+/// Steps off the lanes after which the pedestrian has reached the other side.
 const BETWEEN_LANES: usize = 15;
-/// A crosswalk leads over these shares of a crossing if it leads over the same lanes.
+/// Shares of a crossing that a crosswalk over the same lanes covers.
 const SAME_LANES: (f64, f64) = (0.3, 0.7);
 
 /// Stretches of running; `worst` in m/s.
@@ -33,8 +33,8 @@ pub(crate) fn running(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch>
     lasting(stretches(actor, &flagged), RUNNING_S)
 }
 
-/// Stretches along a lane of vehicles, and crossings of such lanes beside a crosswalk over them; `worst` in metres
-/// walked.
+/// Stretches along a vehicle lane, and crossings of such lanes beside a crosswalk over them; `worst` in
+/// metres walked.
 pub(crate) fn on_carriageway(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
     if actor.agent_type != AgentType::Pedestrian {
         return Vec::new();
@@ -117,7 +117,7 @@ fn is_there(actor: &Actor<'_>, input: &ScoreInput<'_>, step: usize) -> bool {
     input.steps.contains(&step) && actor.state(step).is_some()
 }
 
-/// The crosswalk leads over the same lanes, and lies at most so far beside the crossing.
+/// Whether the crosswalk leads over the same lanes, at most this far beside the crossing.
 fn serves(area: &Area, from: Vec2, to: Vec2, beside_m: f64) -> bool {
     let length_m = (to - from).norm();
     let over = (to - from) / length_m;
@@ -162,7 +162,7 @@ mod tests {
     fn a_walk_along_a_lane_is_on_the_carriageway() {
         let along = found((-10.0, 0.5), 0.2, 1.0);
         assert_eq!(along.len(), 1);
-        // It leaves the lane after 6.2 m and goes on along the next one.
+        // It leaves the lane after 6.2 m and continues along the next one.
         assert!((along[0].worst.unwrap() - 9.1).abs() < 0.2, "{along:?}");
         assert!(found((-10.0, 0.5), 0.0, 0.3).is_empty(), "2.7 m, slower than a walk");
         assert!(found((-10.0, -6.0), 0.0, 1.4).is_empty(), "beside the street");

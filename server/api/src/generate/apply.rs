@@ -1,4 +1,4 @@
-//! The scene that a request is about, with its road users and conditions of this call.
+//! The scene of a request, with the road users and conditions of this call.
 
 use super::request::{GenerateRequest, KeptFutures, MOST_ANGLE_RAD, more_than_a_turn};
 use crate::problem::{Problem, refuse, unknown_agent};
@@ -8,8 +8,8 @@ use scene::sentences::{expected, wanted};
 use scene::{STEP_S, Scene, relation};
 
 impl GenerateRequest {
-    /// The scene with this call's road users and conditions, for a carrier that keeps them. The length of the call bounds
-    /// the times of goals.
+    /// The scene with this call's road users and conditions. The length of the call bounds the times of
+    /// goals.
     ///
     /// # Errors
     /// Every fault of the start, the ids and the conditions, and of a scene with the added road users.
@@ -70,7 +70,8 @@ impl GenerateRequest {
     }
 }
 
-/// Angles of more than a turn. A scene's own conditions may have them, for those of earlier versions.
+/// Angles of more than a turn. A scene's own conditions may contain them, because earlier versions accepted
+/// them.
 fn angles(pointer: &str, doc: &ConditionsDoc) -> Vec<FieldProblem> {
     let start = doc.start.as_ref().map(|start| ("start/heading_rad", start.heading_rad));
     let goal = doc.goal.iter();

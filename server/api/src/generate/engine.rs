@@ -1,4 +1,4 @@
-//! From a request and its scene to the generator's request.
+//! Converts a request and its scene to the generator's request.
 
 use super::concerned;
 use super::request::{AgentChoice, GenerateRequest, ReactChoice, StreamModes};
@@ -83,7 +83,7 @@ impl GenerateRequest {
         Ok(request)
     }
 
-    /// The futures that are kept as they are, from the start on.
+    /// The pinned futures, from the start on.
     fn pinned(&self, scene: &Scene) -> Result<BTreeMap<String, Vec<scene::State>>, Problem> {
         self.known(scene, "/pinned", &self.pinned)?;
         let mut out = BTreeMap::new();

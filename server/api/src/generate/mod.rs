@@ -14,7 +14,7 @@ pub use run::{GenerationAnswer, GenerationEvent, GenerationRun, round_ms};
 use experts::{React, Request};
 use scene::{Sample, Scene};
 
-/// How many road users are regenerated or may react.
+/// Number of road users that are regenerated or may react.
 fn concerned(request: &Request) -> usize {
     match (&request.agents, &request.react) {
         (None, _) | (_, React::Everyone) => request.scene.agents.len() - request.scene.counts()[3],
@@ -23,8 +23,8 @@ fn concerned(request: &Request) -> usize {
     }
 }
 
-/// Adds the chosen futures of road users outside the call to its sample: the plans avoid exactly these futures, so the
-/// answer is coherent only with them.
+/// Adds the chosen futures of road users outside the call to a sample. The plans avoid exactly these futures,
+/// so the answer is coherent only with them.
 fn fill(scene: &Scene, sample: &mut Sample) {
     let kept = scene.generated.as_ref().and_then(|generated| generated.samples.get(generated.chosen_sample));
     let there = |id: &String| scene.agent(id).is_some();

@@ -1,4 +1,4 @@
-//! What a generation is to do: a request that was checked against its scene.
+//! The plan of a generation: a request that was checked against its scene.
 
 use super::concerned;
 use super::request::{GenerateRequest, KeptFutures, StreamModes};
@@ -18,38 +18,38 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Work for a via point of a road user, window and sample, where it lies far off every way; milliseconds of a core.
+/// Work per via point, window and sample if the point lies far off every path; milliseconds of a core.
 const VIA_MS: f64 = 22.0;
 
-/// A generation that can be started.
+/// A generation that is ready to start.
 #[derive(Clone)]
 pub struct GenerationPlan {
-    /// For the generator. Its scene has this call's road users and conditions.
+    /// The generator's request. Its scene has this call's road users and conditions.
     pub request: Request,
-    /// The caller reads drafts, not only the final answer.
+    /// Whether the caller reads drafts, not only the final answer.
     pub drafts: bool,
-    /// Scores of the unchanged scene, for a scene that stays open.
+    /// Scores of the unchanged scene, if that scene stays open.
     pub standings: Option<Arc<Standings>>,
-    /// What work on its map costs.
+    /// Cost of work on the map.
     map_cost: MapCost,
-    /// All alternatives in drafts, not only the chosen ones.
+    /// Drafts contain all alternatives, not only the chosen ones.
     pub(super) all_modes: bool,
-    /// Drafts that stand sooner than this after the work began are left out, until one is sent.
+    /// Drafts that are ready sooner than this after the start of the work are skipped, until one is sent.
     pub(super) draft_delay: Duration,
-    /// Steps that follow the draft sent before sooner than this are left out.
+    /// Drafts of steps that come sooner than this after the last sent draft are skipped.
     pub(super) draft_interval: Duration,
-    /// How futures are written.
+    /// Form of the futures.
     pub(super) form: FuturesForm,
-    /// Score each sample.
+    /// Whether each sample is scored.
     pub(super) score: bool,
-    /// Samples include the futures of road users outside the call.
+    /// Whether samples include the futures of road users outside the call.
     pub(super) with_kept: bool,
-    /// The rest of `generated`.
+    /// The other members of `generated`.
     pub(super) head: GeneratedHead,
 }
 
 impl GenerateRequest {
-    /// What the generator is to do with a scene.
+    /// Checks a request against a scene.
     ///
     /// # Errors
     /// Every fault of the options, conditions and ids.
@@ -89,8 +89,9 @@ impl GenerateRequest {
         Ok(plan)
     }
 
-    /// Refuses conditions that would change no motion: of road users that are not generated and keep no future. One that
-    /// may react keeps its motion unless another one is in the way, so its goal would be lost too.
+    /// Refuses conditions that would change no motion: those of road users that are not generated and keep no
+    /// future. A road user that may react keeps its motion unless another is in the way, so its goal would be
+    /// ignored too.
     fn refuse_not_asked(&self, scene: &Scene, applied: &Scene, request: &Request) -> Result<(), Problem> {
         let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
         let keeps = |id: &String| applied.generated.as_ref().is_some_and(|g| g.chosen_future(id).is_some());
@@ -100,7 +101,8 @@ impl GenerateRequest {
         refuse(ids.flat_map(|id| not_asked(id, &of(applied, id), &of(scene, id))).collect())
     }
 
-    /// Does a kept future belong to other conditions than those of the scene with this call's changes?
+    /// Whether a kept future was generated for other conditions than those of the scene with this call's
+    /// changes.
     fn keeps_stale(&self, scene: &Scene, applied: &Scene, request: &Request) -> bool {
         let (Some(before), Some(generated)) = (&scene.generated, &applied.generated) else { return false };
         let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
@@ -133,7 +135,7 @@ impl GenerateRequest {
     }
 }
 
-/// The parts of a condition that would be lost: those that the scene's own one does not have.
+/// The fields of a condition that would be ignored: those that differ from the scene's own.
 fn not_asked(id: &str, given: &Conditions, own: &Conditions) -> Vec<FieldProblem> {
     let relative = given.relation != own.relation && given.relation.is_some();
     let parts = [
@@ -149,8 +151,8 @@ fn not_asked(id: &str, given: &Conditions, own: &Conditions) -> Vec<FieldProblem
 }
 
 impl GenerationPlan {
-    /// Names what the answer follows from, in six characters: the scene with its conditions, what is kept of its
-    /// futures, the options, the seed, and the engine.
+    /// Six characters that identify the inputs of the answer: the scene with its conditions and kept futures,
+    /// the options, the seed, and the engine.
     pub fn code(&self) -> String {
         let Self { request, head, .. } = self;
         let generated = request.scene.generated.as_ref();
@@ -167,14 +169,14 @@ impl GenerationPlan {
         ContentHash::of(&of).short()
     }
 
-    /// About how long it takes one thread. A map that is not known is worked out first.
+    /// Approximate duration on one thread, including the preparation of a map that is not cached.
     pub fn cost(&self) -> Duration {
         self.map_cost.preparation + Duration::from_secs_f64(1e-3 * self.work_ms())
     }
 
-    /// The same without the map. Measured on two cores of 2.6 GHz, scores included: 4 ms for each road user, window and
-    /// sample, a tenth of one for each denoising step, and [`VIA_MS`] for each via point. Searches on a crowded map take
-    /// longer.
+    /// The same without the map. Measured on two cores of 2.6 GHz with scores: 4 ms for each road user,
+    /// window and sample, 0.1 ms for each denoising step, and [`VIA_MS`] for each via point. Searches on a
+    /// dense map take longer.
     fn work_ms(&self) -> f64 {
         let Request { agents, samples, steps, horizon_steps, replan_steps, .. } = &self.request;
         let windows = horizon_steps.div_ceil(replan_steps.unwrap_or(scene::HORIZON_STEPS).max(1));

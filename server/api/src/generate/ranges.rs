@@ -1,4 +1,4 @@
-//! Numbers of a request that do not depend on the scene.
+//! Ranges of the numbers in a request that do not depend on the scene.
 
 use super::request::{GenerateRequest, ShownDoc};
 use crate::english;
@@ -10,14 +10,14 @@ use formats::native::MAX_SAFE_INTEGER;
 use formats::refusals::unequal_columns;
 use scene::Vec2;
 
-/// Half seconds of a planning window.
+/// Half seconds in a planning window.
 const MOST_SHOWN: usize = 18;
 
 impl GenerateRequest {
-    /// Holds every number against its range.
+    /// Checks every number against its range.
     ///
     /// # Errors
-    /// All that lie outside, by pointer.
+    /// All numbers that lie outside, by pointer.
     pub fn check_ranges(&self) -> Result<(), Problem> {
         let (safe, drafts) = (MAX_SAFE_INTEGER as f64, DRAFT_MS as f64);
         let numbers = [
@@ -44,7 +44,7 @@ impl GenerateRequest {
 }
 
 impl ShownDoc {
-    /// The places that count.
+    /// The places that are used.
     pub(super) fn places(&self, pointer: &str) -> Result<Vec<Vec2>, FieldProblem> {
         if self.x_m.len() != self.y_m.len() {
             let message = unequal_columns(self.y_m.len(), self.x_m.len(), "x_m");

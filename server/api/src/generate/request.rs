@@ -13,8 +13,8 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Greatest angle of a condition in a request, either way: a turn, radians. A document may hold up to 1000 rad either
-/// way, which is wrapped.
+/// Largest absolute angle of a condition in a request: a full turn, radians. A document may contain up to
+/// 1000 rad, which is wrapped.
 pub const MOST_ANGLE_RAD: f64 = std::f64::consts::TAU;
 
 /// `"all"` or a list of ids.
@@ -166,7 +166,7 @@ pub struct GenerateRequest {
     pub thresholds: Thresholds,
 }
 
-/// What `agents` is when absent depends on the conditions: it has no value by default.
+/// The default of `agents` depends on the conditions, so the schema has none.
 fn absent_agents(schema: &mut Schema) {
     if let Some(agents) = schema.pointer_mut("/properties/agents").and_then(Value::as_object_mut) {
         agents.remove("default");
@@ -174,7 +174,7 @@ fn absent_agents(schema: &mut Schema) {
 }
 
 impl Default for GenerateRequest {
-    /// What a request has when it does not say.
+    /// The defaults of a request.
     fn default() -> Self {
         Self {
             scene: None,
@@ -237,7 +237,7 @@ impl AboutScene for GenerateRequest {
 }
 
 impl GenerateRequest {
-    /// The road users to regenerate: those that are named, else those with a goal, else all.
+    /// The road users to regenerate: the named ones, else those with a goal, else all.
     pub fn chosen_agents(&self) -> AgentChoice {
         let going = |doc: &ConditionsDoc| {
             !doc.via.is_empty() || doc.goal.as_ref().is_some_and(|goal| *goal != GoalDoc::default())

@@ -1,4 +1,4 @@
-//! A generation under way: drives the generator, turns its events into those of the API.
+//! A generation in progress: drives the generator and converts its events to those of the API.
 
 use super::{GenerationPlan, fill};
 use crate::compact::FuturesForm;
@@ -13,34 +13,34 @@ use scene::{Sample, Scene};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What a generation gives, one after the other.
+/// The events of a generation.
 pub enum GenerationEvent {
-    /// What will be done.
+    /// What will be done; the first event.
     Accepted(Accepted),
-    /// The first guess, or the state after a refinement step.
+    /// The first draft, or the draft after a refinement step.
     Draft(DraftBody),
-    /// The answer; nothing follows it.
+    /// The answer; the last event.
     Final(Box<GenerationAnswer>),
 }
 
-/// A generation under way. Dropping it ends the work; so does its [`Cancel`], between two steps.
+/// A generation in progress. Dropping it ends the work; its [`Cancel`] does so too, between two steps.
 pub struct GenerationRun<'g> {
     plan: GenerationPlan,
     generator: &'g Generator,
     inner: experts::Generation<'g>,
     clock: Clock,
     began: Duration,
-    /// When a draft was last given.
+    /// When a draft was last sent.
     drafted: Option<Duration>,
     over: bool,
 }
 
 impl GenerationPlan {
-    /// Begins. `clock` decides which drafts come too soon and measures the score; one that stands leaves out the
-    /// drafts of a call with a `draft_delay_ms`.
+    /// Starts a generation. `clock` decides which drafts come too soon, and measures the score. With a clock
+    /// that never advances, a call with a `draft_delay_ms` has no drafts.
     ///
     /// # Errors
-    /// What the generator cannot do.
+    /// The generator's errors.
     pub fn start(
         self,
         generator: &Generator,
@@ -61,7 +61,7 @@ impl Iterator for GenerationRun<'_> {
 }
 
 impl GenerationRun<'_> {
-    /// The next event. `watch` sees each step of the generator, those too that give no event.
+    /// The next event. `watch` sees each step of the generator, even those without an event.
     pub fn next_watched(
         &mut self,
         watch: &mut dyn FnMut(&Event),
@@ -109,10 +109,10 @@ impl GenerationRun<'_> {
         }
     }
 
-    /// The answer, without the events before it.
+    /// Runs to the answer, without the events before it.
     ///
     /// # Errors
-    /// What the generator cannot do, and a call that was cancelled.
+    /// The generator's errors, and a cancelled call.
     pub fn answer(mut self) -> Result<GenerationAnswer, Problem> {
         self.plan.drafts = false;
         for event in self.by_ref() {
@@ -128,22 +128,22 @@ impl GenerationRun<'_> {
 pub struct GenerationAnswer {
     /// The scene with this call's road users and conditions.
     pub scene: Arc<Scene>,
-    /// What the generator answered.
+    /// The generator's answer.
     pub answer: Answer,
-    /// Its samples; with the futures that were kept beside the new ones, where they are to be answered.
+    /// Its samples, including the kept futures of other road users if they were requested.
     pub samples: Vec<Sample>,
-    /// One a sample, where they are wanted.
+    /// One per sample, if scores were requested.
     pub scores: Option<Vec<Score>>,
-    /// The rest of `generated`; its time is the carrier's to say.
+    /// The other members of `generated`; the transport sets its time.
     pub head: GeneratedHead,
-    /// Names what it follows from, in six characters.
+    /// Six characters that identify the inputs of the answer.
     pub code: String,
     form: FuturesForm,
     score_ms: f64,
 }
 
 impl GenerationAnswer {
-    /// Of a plan.
+    /// The answer of a plan.
     pub fn new(plan: &GenerationPlan, mut answer: Answer, generator: &Generator, clock: Clock) -> Self {
         let named = plan.request.agents.as_ref().is_none_or(|asked| !asked.is_empty());
         if !named && answer.samples.iter().all(|sample| sample.agents.is_empty()) {
@@ -163,7 +163,7 @@ impl GenerationAnswer {
         Self { scene, answer, samples, scores, head, code, form: plan.form, score_ms }
     }
 
-    /// Its JSON form.
+    /// Its JSON body.
     pub fn body(&self) -> FinalBody {
         let Self { answer, samples, .. } = self;
         let t = &answer.timings;
@@ -190,7 +190,7 @@ impl GenerationAnswer {
     }
 }
 
-/// The samples with the futures that were kept beside the new ones.
+/// The samples, including the kept futures of other road users.
 fn whole(scene: &Scene, samples: &[Sample]) -> Vec<Sample> {
     let mut samples = samples.to_vec();
     samples.iter_mut().for_each(|sample| fill(scene, sample));
@@ -214,7 +214,7 @@ fn scored(
     whole.iter().zip(changed).map(score).collect()
 }
 
-/// To a hundredth.
+/// Rounds to a hundredth.
 pub fn round_ms(ms: f64) -> f64 {
     (ms * 100.0).round() / 100.0
 }

@@ -1,4 +1,4 @@
-//! From a request to the placer's input: every member is checked against its range.
+//! Converts a request to the placer's input, and checks every member against its range.
 
 use super::request::{ArrivalsDoc, DensityDoc, ParkedDoc, PlaceBody, RegionDoc, SpeedsDoc};
 use crate::english::{self, wanted, what};
@@ -17,13 +17,13 @@ use scene::{AgentType, STEP_S, Scene, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// How far a region may reach beyond the map's box, metres: a hand-drawn ring is seldom exact.
+/// Greatest distance of a region beyond the map's box, metres: hand-drawn rings are not exact.
 const REGION_MARGIN_M: f64 = 50.0;
 /// Most corners of a region.
 const MAX_CORNERS: usize = scene::MAX_POLYLINE_POINTS;
-/// Most arms that traffic may be asked of.
+/// Most arms in a request.
 const MAX_ARMS: usize = 256;
-/// Shares must sum to one within this.
+/// Tolerance of the sum of shares, which must be one.
 const SHARE_TOLERANCE: f64 = 1e-6;
 
 impl PlaceBody {
@@ -75,7 +75,7 @@ impl PlaceBody {
 }
 
 fn in_range(faults: &mut Vec<FieldProblem>, pointer: &str, (min, max): (f64, f64), got: f64) {
-    // The last step's time has a rounding of its own.
+    // The last step's time is rounded.
     if !(got >= min && got <= max + 1e-9) {
         faults.push(FieldProblem::range(pointer, min, max, got));
     }

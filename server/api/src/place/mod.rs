@@ -1,4 +1,4 @@
-//! Placement: road users where there are none yet.
+//! Placement of road users on a map.
 
 mod checks;
 mod reply;
@@ -17,7 +17,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 impl PlaceBody {
-    /// Checks the options and places.
+    /// Checks the options and places road users.
     ///
     /// # Errors
     /// Every fault of the options; a cancelled call.
@@ -34,8 +34,8 @@ impl PlaceBody {
         })
     }
 
-    /// The scene with what was placed, and of its own road users those that stay. Its futures go: with other road users
-    /// they mean nothing.
+    /// The scene with the placed road users and those of its own that stay. Its futures are dropped, because
+    /// they were planned among other road users.
     pub fn placed(&self, scene: &Scene, placement: Placement) -> Scene {
         let mut scene = scene.clone();
         if let Some(keep) = &self.keep {

@@ -1,4 +1,4 @@
-//! What was placed, as JSON.
+//! The reply of a placement, as JSON.
 
 use experts::placement::{ArmTraffic, Placement, PlacementMethod};
 use formats::native::AgentDoc;
@@ -76,7 +76,7 @@ impl ArmDoc {
 }
 
 impl PlaceReply {
-    /// Of a placement in this scene.
+    /// The reply of a placement in this scene.
     pub fn of(placement: &Placement, scene: &Scene) -> Self {
         Self {
             agents: placement.agents.iter().map(AgentDoc::from_agent).collect(),

@@ -121,7 +121,7 @@ pub struct PlaceBody {
 }
 
 impl Default for PlaceBody {
-    /// What a placement has when the body does not say.
+    /// The defaults of a placement.
     fn default() -> Self {
         Self {
             scene: None,

@@ -1,4 +1,4 @@
-//! Runs: traffic that is stepped, beside road users that the caller drives.
+//! Runs: stepped traffic around road users that the caller drives.
 
 mod reply;
 mod request;
@@ -61,7 +61,7 @@ impl StepBody {
 }
 
 impl PeekBody {
-    /// What the others would do.
+    /// Predicts what the others would do.
     ///
     /// # Errors
     /// Every fault of the plans; a cancelled call.
@@ -72,7 +72,7 @@ impl PeekBody {
 }
 
 impl Problem {
-    /// The same about another member.
+    /// The same refusal about another member.
     fn moved(mut self, from: &str, to: &str) -> Self {
         for error in self.members.errors.iter_mut().flatten() {
             if let Some(rest) = error.pointer.strip_prefix(from) {
@@ -106,7 +106,7 @@ impl From<RunError> for Problem {
     }
 }
 
-/// Where a text of `length` bytes is no base64.
+/// Index of the first invalid byte in a base64 text of `length` bytes.
 fn first_wrong(error: &DecodeError, length: usize) -> usize {
     match *error {
         DecodeError::InvalidByte(at, _) | DecodeError::InvalidLastSymbol(at, _) => at,
@@ -114,7 +114,7 @@ fn first_wrong(error: &DecodeError, length: usize) -> usize {
     }
 }
 
-/// What is wrong with a snapshot.
+/// The message about an invalid snapshot.
 fn snapshot(error: SnapshotError) -> scene::message::Message {
     match error {
         SnapshotError::NoSnapshot => english::snapshot_broken(0),
@@ -142,7 +142,7 @@ pub fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<PeekBody>();
 }
 
-/// A run that a carrier does not have, or does not have any more.
+/// The refusal of a run that the transport does not have, or no longer has.
 pub fn unknown_run() -> Problem {
     Problem::new(Code::NotFound, "No run has this id. A server forgets runs that are not used for a while.")
 }

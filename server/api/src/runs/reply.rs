@@ -1,4 +1,4 @@
-//! Replies about runs.
+//! Replies of runs.
 
 use super::request::{MotionDoc, StateDoc};
 use base64::Engine;
@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Coordinates and speeds are written to a tenth of a millimetre, headings to as many radians.
+/// Rounds to 0.0001: coordinates and speeds to a tenth of a millimetre (per second), headings to 0.0001 rad.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
@@ -149,7 +149,8 @@ pub struct RunReply {
 }
 
 impl RunReply {
-    /// Of a run under this id, which was used so many seconds ago and is forgotten after so many without a use.
+    /// The reply for a run with this id, the seconds since its last use, and the idle seconds after which it
+    /// is dropped.
     pub fn of(id: &str, run: &Run, unused_s: u64, idle_s: u64) -> Self {
         let settings = run.settings();
         Self {
@@ -201,7 +202,7 @@ pub struct PeekReply {
 }
 
 impl PeekReply {
-    /// Of what a run says.
+    /// The reply for a peek.
     pub fn of(run: &Run, peek: &RunPeek) -> Self {
         Self {
             time_s: rounded(run.time_s()),
@@ -224,7 +225,7 @@ pub struct SnapshotReply {
 }
 
 impl SnapshotReply {
-    /// Of a run.
+    /// The snapshot of a run.
     pub fn of(run: &Run) -> Self {
         let bytes = run.snapshot();
         Self { number: run.number(), bytes: bytes.len(), snapshot: STANDARD.encode(&bytes) }

@@ -1,4 +1,4 @@
-//! Requests about runs, with their defaults and ranges.
+//! Requests of runs, with their defaults and ranges.
 
 use crate::code::Code;
 use crate::english::{self, wanted};
@@ -56,7 +56,7 @@ impl AboutScene for RunBody {
 }
 
 impl RunBody {
-    /// The settings; every number within its range.
+    /// The settings, with every number checked against its range.
     pub(super) fn settings(&self, scene: &Scene) -> Result<RunSettings, Problem> {
         let usual = RunSettings::default();
         let seconds = |milliseconds: u32| f64::from(milliseconds) / 1e3;
@@ -74,7 +74,7 @@ impl RunBody {
             ("/start_s", 0.0, last_s, start_s),
             ("/steps", 0.0, STEPS as f64, steps as f64),
         ];
-        // The last step's time has a rounding of its own.
+        // The last step's time is rounded.
         let outside = numbers.into_iter().filter(|(_, min, max, got)| !(*got >= *min && *got <= max + 1e-9));
         refuse(outside.map(|(at, min, max, got)| FieldProblem::range(at, min, max, got)).collect())?;
         Ok(RunSettings {
@@ -86,7 +86,7 @@ impl RunBody {
         })
     }
 
-    /// Nothing but the scene is given beside a snapshot.
+    /// Checks that only the scene is given besides a snapshot.
     pub(super) fn check_restored(&self) -> Result<(), Problem> {
         let given = [
             ("egos", self.egos.is_some()),
@@ -131,7 +131,7 @@ pub struct MotionDoc {
 }
 
 impl MotionDoc {
-    /// The states, or the fault at this place.
+    /// The states, or the fault at this pointer.
     fn states(&self, pointer: &str) -> Result<Vec<AgentState>, FieldProblem> {
         let count = self.x_m.len();
         let columns = [&self.y_m, &self.heading_rad, &self.vx_mps, &self.vy_mps];

@@ -8,9 +8,9 @@ use scene::{AgentType, STEP_S, SignalState, State};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// Facts in words: columns of the tables, behind `case.`.
+/// Textual facts; their columns in the tables begin with `case.`.
 pub const WORDS: [&str; 7] = ["layout", "actor_type", "other", "other_type", "meeting", "first", "signal"];
-/// Facts in numbers, with their units; columns of the tables, behind `case.`.
+/// Numeric facts with their units; their columns in the tables begin with `case.`.
 pub const NUMBERS: [&str; 11] = [
     "ttc_s",
     "pet_s",
@@ -24,12 +24,12 @@ pub const NUMBERS: [&str; 11] = [
     "driven_s",
     "driven_m",
 ];
-/// What the names of the columns begin with.
+/// Prefix of the columns.
 const PREFIX: &str = "case.";
-/// What is said where there is nobody, and nothing of the kind.
+/// Value of a textual fact that does not apply.
 pub const NONE: &str = "none";
 
-/// Names of the columns with facts, each with the name of the fact.
+/// Names of the columns of facts, each with the name of its fact.
 pub fn columns() -> &'static [(String, &'static str)] {
     static COLUMNS: OnceLock<Vec<(String, &'static str)>> = OnceLock::new();
     let column = |fact: &&'static str| (format!("{PREFIX}{fact}"), *fact);
@@ -39,14 +39,14 @@ pub fn columns() -> &'static [(String, &'static str)] {
 /// The facts of one result, about one road user and the one it comes nearest to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseFacts {
-    /// By the names of [`WORDS`].
+    /// Textual facts by the names of [`WORDS`].
     pub words: BTreeMap<&'static str, String>,
-    /// By the names of [`NUMBERS`]; a number that the case does not have is absent.
+    /// Numeric facts by the names of [`NUMBERS`]; facts that do not apply are absent.
     pub numbers: BTreeMap<&'static str, f64>,
 }
 
 impl CaseFacts {
-    /// Of a road user, by its place in the input. `None` where it is not seen.
+    /// The facts of a road user, by its index in the input; `None` if it is not present.
     pub fn of(
         input: &ScoreInput<'_>,
         search: &MeetingSearch<'_>,
@@ -103,7 +103,7 @@ impl CaseFacts {
         })
     }
 
-    /// Takes the value of a column; false where the column has no fact.
+    /// Stores the value of a column; false if the column is not a fact.
     pub fn read(&mut self, column: &str, value: &ColumnValue<'_>) -> bool {
         let Some(name) = column.strip_prefix(PREFIX) else { return false };
         let fact = |names: &[&'static str]| names.iter().copied().find(|fact| *fact == name);
@@ -117,7 +117,7 @@ impl CaseFacts {
         true
     }
 
-    /// A word; that for nothing where it is not known.
+    /// A textual fact; [`NONE`] if it is unknown.
     pub fn word(&self, name: &str) -> &str {
         self.words.get(name).map_or(NONE, String::as_str)
     }
@@ -127,11 +127,11 @@ impl CaseFacts {
 pub struct RecordedFacts {
     /// Its id.
     pub id: String,
-    /// What it does.
+    /// Its facts.
     pub facts: CaseFacts,
 }
 
-/// A scene as it is recorded, to be scored.
+/// The input to score a scene as it was recorded.
 pub(crate) fn recorded_input<'a>(
     scene: &'a scene::Scene,
     drivable: &'a scene::score::Drivable,
@@ -140,7 +140,7 @@ pub(crate) fn recorded_input<'a>(
     ScoreInput { actors: logs.collect(), ..ScoreInput::of_sample(scene, None, drivable) }
 }
 
-/// The facts of a scene as it is recorded: those of each road user that moves.
+/// The facts of a scene as it was recorded: one entry per road user that moves.
 pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<RecordedFacts> {
     let input = recorded_input(scene, drivable);
     let search = MeetingSearch::new(&input);
@@ -154,17 +154,17 @@ pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<
     all.filter_map(named).collect()
 }
 
-/// A recorded road user that travels less stays, metres.
+/// A recorded road user that travels less than this stays, metres.
 const MOVES_M: f64 = 1.0;
 
-/// Seconds that a road user is seen, and metres that it drives.
+/// Seconds during which a road user is present, and metres that it drives.
 fn driven(actor: &Actor<'_>, input: &ScoreInput<'_>) -> (f64, f64) {
     let steps = input.steps.start..input.steps.end.saturating_sub(1);
     let moves = steps.filter_map(|step| Some((actor.state(step)?, actor.state(step + 1)?)));
     moves.fold((0.0, 0.0), |(s, m), (from, to)| (s + STEP_S, m + (to.position() - from.position()).norm()))
 }
 
-/// The word of a type.
+/// Name of a type in the tables.
 pub fn type_word(agent_type: AgentType) -> &'static str {
     match agent_type {
         AgentType::Vehicle => "vehicle",

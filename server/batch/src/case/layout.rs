@@ -1,26 +1,26 @@
-//! The road where two meet.
+//! The kind of road where two road users meet.
 
 use scene::geometry::Extent;
 use scene::geometry::polyline::Polyline;
 use scene::map::{Lane, LaneType};
 use scene::{LaneMap, Vec2, wrap_angle};
 
-/// A crosswalk counts within this of its outline, metres.
+/// A place counts as on a crosswalk within this distance of its outline, metres.
 const CROSSWALK_M: f64 = 1.0;
 /// A place is on a lane within this of its centre, metres.
 const ON_LANE_M: f64 = 3.0;
-/// Lanes that cross within this of the place make a junction, metres.
+/// Lanes that cross within this distance of the place form a junction, metres.
 const JUNCTION_M: f64 = 8.0;
-/// Lanes that join or part within this of the place along a lane, metres.
+/// Lanes that merge or fork within this distance along a lane count, metres.
 const JOINING_M: f64 = 20.0;
-/// A bend is seen over this length before and behind the place, metres.
+/// Distance before and after the place over which a bend is measured, metres.
 const BEND_M: f64 = 15.0;
-/// Lanes at a greater angle cross, radians: 25 degrees.
+/// Smallest angle at which lanes cross, radians: 25 degrees.
 const CROSSING_RAD: f64 = 0.436;
-/// A lane that turns more is a bend, radians: 20 degrees.
+/// Change of heading above which a lane bends, radians: 20 degrees.
 const BEND_RAD: f64 = 0.349;
 
-/// Words for what the road is like at a place, as [`road_layout`] gives them.
+/// Names of the kinds of road, as [`road_layout`] returns them.
 pub const LAYOUTS: [&str; 6] = ["crosswalk", "junction", "merge", "bend", "straight", "off-lane"];
 
 /// A lane at a place.
@@ -32,8 +32,8 @@ struct LaneAt<'a> {
     heading_rad: f64,
 }
 
-/// What the road is like at a place: on a crosswalk; where lanes cross or lead through a junction; where they join or
-/// part; in a bend; on a straight lane; on none.
+/// The kind of road at a place: on a crosswalk; where lanes cross or lead through a junction; where they
+/// merge or fork; in a bend; on a straight lane; off all lanes.
 pub fn road_layout(map: &LaneMap, place: Vec2) -> &'static str {
     if map.crosswalks.iter().any(|area| area.is_near(place, CROSSWALK_M)) {
         return "crosswalk";
@@ -66,7 +66,7 @@ pub fn road_layout(map: &LaneMap, place: Vec2) -> &'static str {
     }
 }
 
-/// A lane that carries traffic, where it is near enough to tell a junction.
+/// A lane that carries traffic, if it is near enough for a junction.
 fn lane_at(lane: &Lane, place: Vec2) -> Option<LaneAt<'_>> {
     let walked = matches!(lane.lane_type, LaneType::Sidewalk | LaneType::Parking);
     if walked || Extent::of(lane.points.xy.iter().copied()).outside_m(place) > JUNCTION_M {

@@ -1,31 +1,31 @@
 //! Which cases are near copies of each other, and which cases of a bucket are worth keeping.
 //!
-//! The distance is over what happens: the words of two cases, their measures and speeds, and how the one road user moves
-//! relative to the other. Places in the scene and ids count for nothing.
+//! The distance compares what happens: the textual facts of two cases, their measures and speeds, and the
+//! relative motion of the two road users. Absolute places and ids do not count.
 
 use super::facts::CaseFacts;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Words in which near copies are equal.
+/// Textual facts that are equal in near copies.
 const WORDS: [&str; 6] = ["layout", "signal", "actor_type", "other_type", "meeting", "first"];
-/// Numbers, and how much those of near copies differ at most.
+/// Numeric facts, and their greatest difference between near copies.
 const NUMBERS: [(&str, f64); 5] =
     [("ttc_s", TTC_S), ("gap_m", GAP_M), ("pet_s", 0.3), ("actor_mps", 1.5), ("other_mps", 1.5)];
 const TTC_S: f64 = 0.3;
 const GAP_M: f64 = 0.5;
-/// Relative places of near copies differ by this on average, decimetres.
+/// Greatest mean difference of the relative places of near copies, decimetres.
 const RELATIVE_DM: f64 = 15.0;
 
-/// What tells a case from another one.
+/// The data by which cases are compared.
 #[derive(Clone, Debug, Default)]
 pub struct CaseDigest {
     /// Name of the situation.
     pub situation: String,
-    /// What happens.
+    /// Facts of the case.
     pub facts: CaseFacts,
-    /// How the other one moves relative to the actor, as [`CaseMotion`](super::motion::CaseMotion) has it.
+    /// Motion of the other road user relative to the actor, as in [`CaseMotion`](super::motion::CaseMotion).
     pub relative: Vec<Option<[i32; 2]>>,
-    /// Number of faults that the score finds, for realism.
+    /// Number of faults in the score, for realism.
     pub faults: f64,
     /// Distance of the actor from its recording, metres.
     pub off_log_m: f64,
@@ -36,14 +36,14 @@ impl CaseDigest {
         self.facts.numbers.get(name).copied()
     }
 
-    /// Orders the harder case first: the least time, then the least gap.
+    /// Sort key with the harder case first: smallest time, then smallest gap.
     fn hardness(&self) -> [f64; 2] {
         let times = [self.number("ttc_s"), self.number("pet_s")];
         let least_s = times.into_iter().flatten().fold(f64::INFINITY, f64::min);
         [least_s, self.number("gap_m").unwrap_or(f64::INFINITY)]
     }
 
-    /// Orders the more realistic case first: fewer faults, then nearer to the recording.
+    /// Sort key with the more realistic case first: fewer faults, then nearer to the recording.
     fn realism(&self) -> [f64; 2] {
         [self.faults, self.off_log_m]
     }
@@ -52,7 +52,8 @@ impl CaseDigest {
         WORDS.map(|name| self.facts.word(name))
     }
 
-    /// Distance of two cases with equal words, 1 for the farthest near copies: the greatest of the differences.
+    /// Distance of two cases with equal textual facts: the greatest of the scaled differences. Near copies
+    /// have at most 1.
     fn distance(&self, other: &Self) -> f64 {
         let numbers = NUMBERS.iter().map(|(name, most)| match (self.number(name), other.number(name)) {
             (Some(a), Some(b)) => (a - b).abs() / most,
@@ -66,7 +67,7 @@ impl CaseDigest {
         numbers.fold(relative, f64::max)
     }
 
-    /// Where near copies are looked for: they lie in this cell or in one beside it.
+    /// Cell of the search: near copies lie in this cell or a neighbouring one.
     fn cell(&self) -> [i64; 2] {
         let cell = |name: &str, most: f64| {
             self.number(name).map_or(i64::MIN / 2, |value: f64| (value / most).floor() as i64)
@@ -79,8 +80,8 @@ fn compared(p: &[f64; 2], q: &[f64; 2]) -> std::cmp::Ordering {
     p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
 }
 
-/// For each case the harder one that it is a near copy of; `None` for a case of its own. Of equally hard cases the first
-/// one counts.
+/// For each case the harder one of which it is a near copy; `None` for an original. The first of equally hard
+/// cases is the original.
 pub fn near_copies(cases: &[CaseDigest]) -> Vec<Option<usize>> {
     let mut order: Vec<usize> = (0..cases.len()).collect();
     order.sort_by(|p, q| compared(&cases[*p].hardness(), &cases[*q].hardness()).then(p.cmp(q)));
@@ -101,8 +102,8 @@ pub fn near_copies(cases: &[CaseDigest]) -> Vec<Option<usize>> {
     copies
 }
 
-/// The cases worth keeping: of each bucket of situation and words at most so many cases of their own, the hardest and the
-/// most realistic in turn.
+/// The cases worth keeping: for each bucket of situation and textual facts at most `most` originals,
+/// alternately the hardest and the most realistic.
 pub fn best_of_buckets(cases: &[CaseDigest], copies: &[Option<usize>], most: usize) -> BTreeSet<usize> {
     let mut buckets: BTreeMap<(&str, [&str; 6]), Vec<usize>> = BTreeMap::new();
     for (i, case) in cases.iter().enumerate().filter(|(i, _)| copies.get(*i).is_some_and(Option::is_none)) {

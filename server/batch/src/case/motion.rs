@@ -1,4 +1,4 @@
-//! The motion of a result for a picture: a few road users about the place where two meet, twice a second.
+//! The motion of a result for a picture: a few road users around the place where two meet, twice per second.
 
 use super::facts::type_word;
 use scene::geometry::rotate;
@@ -7,13 +7,13 @@ use scene::score::{Actor, ScoreInput};
 use scene::{State, Vec2};
 use serde::{Deserialize, Serialize};
 
-/// Steps between two pictures.
+/// Steps from one frame to the next.
 pub const PICTURE_STEPS: usize = 5;
-/// Road users beside the two.
+/// Number of road users besides the two.
 const OTHERS: usize = 6;
 /// Others are drawn if they come this near to the place, metres.
 const NEAR_M: f64 = 40.0;
-/// Pictures before and after the moment of the least gap in which the relative motion is told.
+/// Frames before and after the moment of the smallest gap that are included in the relative motion.
 const AROUND: usize = 6;
 
 /// The motion of one result. Lengths are decimetres, angles hundredths of a radian.
@@ -22,16 +22,16 @@ const AROUND: usize = 6;
 pub struct CaseMotion {
     /// Id of the unit.
     pub unit: String,
-    /// Scene step of the first picture.
+    /// Scene step of the first frame.
     pub first: usize,
-    /// Where the two meet: x and y.
+    /// Place where the two meet: x and y.
     pub place: [i32; 2],
-    /// Number of the picture at the moment of the least gap.
+    /// Index of the frame at the moment of the smallest gap.
     pub moment: usize,
-    /// The actor, the other one, and who is near.
+    /// The actor, the other road user, and those near the place.
     pub agents: Vec<AgentMotion>,
-    /// x and y of the other one as the actor sees it, ahead and to the left, in the pictures about the moment; empty
-    /// without another one, null where one of the two is not seen.
+    /// Position of the other relative to the actor, ahead and to the left, in the frames around the moment.
+    /// Empty without another road user; null if one of the two is absent.
     pub relative: Vec<Option<[i32; 2]>>,
 }
 
@@ -45,9 +45,9 @@ pub struct AgentMotion {
     pub kind: String,
     /// Length and width.
     pub size: [i32; 2],
-    /// Picture in which it is first seen.
+    /// First frame in which it is present.
     pub from: usize,
-    /// x, y and heading in that picture, then the differences from each picture to the next.
+    /// x, y and heading in that frame, then the differences from each frame to the next.
     pub poses: Vec<i32>,
 }
 
@@ -57,7 +57,7 @@ fn decimetres(metres: f64) -> i32 {
 }
 
 impl CaseMotion {
-    /// Of a road user and its pair, by places in the input.
+    /// The motion of a road user and its pair, by indices in the input.
     pub fn of(unit: &str, input: &ScoreInput<'_>, of: usize, pair: Option<&MeetingPair>) -> Option<Self> {
         let actor = input.actors.get(of)?;
         let (first, end) = (input.steps.start, input.steps.end);
@@ -90,9 +90,9 @@ impl CaseMotion {
         })
     }
 
-    /// Its line, with the line's end.
+    /// Its JSON line, with the newline.
     pub fn line(&self) -> String {
-        // Numbers and texts: serde_json writes those without fail.
+        // It holds only numbers and texts, which serde_json always writes.
         serde_json::to_string(self).unwrap_or_default() + "\n"
     }
 }
@@ -102,7 +102,7 @@ impl AgentMotion {
         let from = steps.iter().position(|step| actor.state(*step).is_some())?;
         let (mut poses, mut before) = (Vec::new(), [0i32; 3]);
         for state in steps.iter().skip(from).map_while(|step| actor.state(*step)) {
-            // Headings go on beyond a full turn, so that a difference is a turn.
+            // Headings are unwrapped, so that each difference is a turn.
             let turn = scene::wrap_angle(state.heading_rad - f64::from(before[2]) / 100.0);
             let heading = before[2].saturating_add((turn * 100.0).round() as i32);
             let pose = [decimetres(state.x_m), decimetres(state.y_m), heading];

@@ -11,16 +11,16 @@ pub enum BucketState {
     Full,
     /// Some, but not enough.
     Thin,
-    /// No kept result, though results fell into it: the condition of the plan left all of them out.
+    /// No kept result, although results fell into it: the condition of the plan left out all of them.
     LeftOut,
     /// No result fell into it.
     NeverTried,
-    /// It has the cases without the fact, and needs none.
+    /// It holds the cases without the fact, so it need not be filled.
     Nothing,
 }
 
 impl BucketState {
-    /// Its word in the tables.
+    /// Name of the state in the tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Full => "full",
@@ -32,7 +32,7 @@ impl BucketState {
     }
 }
 
-/// Counts of one bucket, or of one bucket of each of two dimensions.
+/// Counts of one bucket, or of a pair of buckets of two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BucketCount {
     /// Road users of the recorded scenes.
@@ -41,12 +41,12 @@ pub struct BucketCount {
     pub tried: u64,
     /// Kept results.
     pub kept: u64,
-    /// Results that each comparison of the plan's condition left out, by its number.
+    /// Results that each comparison of the plan's condition left out, by its index.
     pub left_out: BTreeMap<usize, u64>,
 }
 
 impl BucketCount {
-    /// How well it is filled, where so many kept results are enough.
+    /// How well it is filled, if `full` kept results are enough.
     pub fn state(&self, full: u64) -> BucketState {
         match (self.kept, self.tried) {
             (0, 0) => BucketState::NeverTried,
@@ -56,7 +56,7 @@ impl BucketCount {
         }
     }
 
-    /// The condition that left out most, with its number of results.
+    /// The condition that left out most results, and their number.
     pub fn worst_condition(&self) -> Option<(usize, u64)> {
         let most =
             self.left_out.iter().max_by_key(|(condition, count)| (**count, std::cmp::Reverse(**condition)));

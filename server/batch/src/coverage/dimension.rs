@@ -3,14 +3,14 @@
 use crate::case::facts::{CaseFacts, NONE};
 use crate::case::layout::LAYOUTS;
 
-/// Where the bucket of a case stands.
+/// Source of a case's bucket.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum BucketSource {
     /// The situation of the plan.
     Situation,
-    /// A fact in words.
+    /// A textual fact.
     Word(&'static str),
-    /// A fact in numbers: buckets begin at these edges, in ascending order.
+    /// A numeric fact; buckets begin at these edges, in ascending order.
     Number(&'static str, &'static [f64]),
 }
 
@@ -21,9 +21,9 @@ pub struct CoverageDimension {
     pub name: &'static str,
     /// Unit of its edges.
     pub unit: Option<&'static str>,
-    /// Names of its buckets. The last one of a fact has the cases without that fact.
+    /// Names of its buckets. The last one of a fact holds the cases without that fact.
     pub buckets: Vec<String>,
-    /// It spans the space in which recordings and results are compared.
+    /// Whether it is part of the space in which recordings and results are compared.
     pub is_of_space: bool,
     source: BucketSource,
 }
@@ -77,7 +77,8 @@ impl CoverageDimension {
         Self { name, unit: Some(unit), buckets, is_of_space, source: BucketSource::Number(name, edges) }
     }
 
-    /// The bucket of a case; `None` where the dimension does not apply, as the situation of a recording.
+    /// The bucket of a case; `None` if the dimension does not apply, as the situation does not to a
+    /// recording.
     pub fn bucket(&self, situation: Option<&str>, facts: &CaseFacts) -> Option<usize> {
         let last = self.buckets.len().checked_sub(1)?;
         match self.source {
@@ -94,7 +95,7 @@ impl CoverageDimension {
         }
     }
 
-    /// The bucket has the cases without the fact: that it is empty is no hole.
+    /// Whether the bucket holds the cases without the fact, so that an empty one is no hole.
     pub fn is_nothing(&self, bucket: usize) -> bool {
         self.source != BucketSource::Situation && bucket + 1 == self.buckets.len()
     }

@@ -1,11 +1,11 @@
-//! How much of the space of what can happen is reached: two numbers, for recordings and for results.
+//! How much of the space of possible cases is reached: two numbers, for recordings and for results.
 
 use super::dimension::CoverageDimension;
 use crate::case::facts::CaseFacts;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Cases by cell: one bucket of each dimension of the space.
+/// Number of cases by cell; a cell is one bucket of each dimension of the space.
 #[derive(Clone, Debug, Default)]
 pub struct CaseSpace(BTreeMap<Vec<u8>, CellCount>);
 
@@ -40,22 +40,22 @@ impl CaseSpace {
         self.0.values().map(|count| [count.recorded, count.kept])
     }
 
-    /// Of the recordings.
+    /// The numbers of the recordings.
     pub fn recorded(&self) -> Diversity {
         self.of(|count| count.recorded)
     }
 
-    /// Of the kept results.
+    /// The numbers of the kept results.
     pub fn kept(&self) -> Diversity {
         self.of(|count| count.kept)
     }
 
-    /// Of both together.
+    /// The numbers of both together.
     pub fn both(&self) -> Diversity {
         self.of(|count| count.recorded + count.kept)
     }
 
-    /// Cells with a kept result in which no recording is.
+    /// Number of cells with a kept result but no recording.
     pub fn new_cells(&self) -> u64 {
         self.0.values().filter(|count| count.recorded == 0 && count.kept > 0).count() as u64
     }

@@ -12,17 +12,17 @@ use std::fmt::Write as _;
 pub struct CoverageDocument {
     format: &'static str,
     version: u32,
-    /// All chunks of the plan are there.
+    /// Whether all chunks of the plan exist.
     pub complete: bool,
-    /// Kept results that make a bucket full.
+    /// Number of kept results that fill a bucket.
     pub full: u64,
-    /// The comparisons of the plan's condition that `left_out_by` counts.
+    /// The comparisons of the plan's condition, which `left_out_by` refers to.
     pub conditions: Vec<String>,
     /// Counts by bucket.
     pub dimensions: Vec<DimensionBody>,
-    /// Counts by two buckets, for each two dimensions.
+    /// Counts by pair of buckets, for each pair of dimensions.
     pub pairs: Vec<PairBody>,
-    /// The space of what can happen.
+    /// The space of possible cases.
     pub diversity: DiversityBody,
 }
 
@@ -50,7 +50,7 @@ struct BucketBody {
     kept_m: f64,
 }
 
-/// Two dimensions.
+/// A pair of dimensions.
 #[derive(Clone, Debug, Serialize)]
 pub struct PairBody {
     dimensions: [&'static str; 2],
@@ -59,7 +59,7 @@ pub struct PairBody {
     /// Holes whose results the condition left out.
     left_out: u64,
     never_tried: u64,
-    /// Those with a recording or a result.
+    /// Cells with a recording or a result.
     cells: Vec<CellBody>,
 }
 
@@ -69,12 +69,12 @@ struct CellBody {
     recorded: u64,
     tried: u64,
     kept: u64,
-    /// Number of the condition that left out most.
+    /// Index of the condition that left out most results.
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out_by: Option<usize>,
 }
 
-/// The two numbers before and after generation.
+/// The numbers before and after generation.
 #[derive(Clone, Debug, Serialize)]
 pub struct DiversityBody {
     /// Dimensions that span the space.
@@ -85,17 +85,17 @@ pub struct DiversityBody {
     kept: Diversity,
     /// Both together.
     both: Diversity,
-    /// Cells with a kept result and without a recording.
+    /// Number of cells with a kept result but no recording.
     new_cells: u64,
 }
 
-/// To a tenth.
+/// Rounds to a tenth.
 fn tenth(value: f64) -> f64 {
     (value * 10.0).round() / 10.0 + 0.0
 }
 
 impl CoverageDocument {
-    /// Of a table. `conditions` are the comparisons by their numbers.
+    /// The document of a table. `conditions` are the comparisons by index.
     pub fn new(table: &CoverageTable, conditions: Vec<String>, full: u64, complete: bool) -> Self {
         let dimensions = (0..table.dimensions.len()).filter_map(|i| dimension(table, i, &conditions, full));
         let dimensions = dimensions.collect();
@@ -122,7 +122,7 @@ impl CoverageDocument {
         }
     }
 
-    /// The table of a terminal: a row for each bucket, then the pairs and the space.
+    /// The table for a terminal: one row per bucket, then the pairs and the space.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{:<11} {:<18} {:>8} {:>7} {:>7} {:>9} {:>10}  state\n",
@@ -148,7 +148,7 @@ impl CoverageDocument {
             }
         }
         let sum = |of: fn(&PairBody) -> u64| self.pairs.iter().map(of).sum::<u64>();
-        // Writing into a text does not fail.
+        // Writing into a string cannot fail.
         let _ = writeln!(
             text,
             "pairs of dimensions: {} full, {} thin, {} holes left out, {} holes never tried",

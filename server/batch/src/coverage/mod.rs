@@ -1,4 +1,5 @@
-//! What a batch covers: named dimensions by buckets, pairs of dimensions, and the space of recordings and results.
+//! Coverage of a batch: named dimensions by buckets, pairs of dimensions, and the space of recordings and
+//! results.
 
 pub mod count;
 pub mod dimension;

@@ -6,7 +6,7 @@ use super::diversity::CaseSpace;
 use crate::case::facts::CaseFacts;
 use std::collections::BTreeMap;
 
-/// Time and way of cases.
+/// Time and distance of cases.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exposure {
     /// Seconds.
@@ -23,34 +23,34 @@ impl Exposure {
     }
 }
 
-/// Two buckets: number of the dimension and of its bucket, for the first dimension and the second.
+/// A pair of buckets: index of the dimension and of its bucket, for the first dimension and the second.
 pub type BucketPair = [(usize, usize); 2];
 
-/// Counts of a batch. Its size depends on the dimensions, and not on the number of results.
+/// Counts of a batch. Its size depends on the dimensions, not on the number of results.
 #[derive(Clone, Debug)]
 pub struct CoverageTable {
     /// The dimensions.
     pub dimensions: Vec<CoverageDimension>,
-    /// By dimension and bucket.
+    /// Counts by dimension and bucket.
     pub single: Vec<Vec<BucketCount>>,
-    /// By dimension and bucket: exposure of the recordings, and of the actors of kept results.
+    /// Exposure of the recordings, and of the actors of kept results, by dimension and bucket.
     pub exposure: Vec<Vec<[Exposure; 2]>>,
-    /// By pair of buckets; a pair without a case is absent.
+    /// Counts by pair of buckets; a pair without cases is absent.
     pub pairs: BTreeMap<BucketPair, BucketCount>,
     /// The space of recordings and results.
     pub space: CaseSpace,
 }
 
-/// What is counted.
+/// The kind of a counted case.
 enum CountedCase<'a> {
     Recorded,
     Kept,
-    /// By these comparisons of the condition.
+    /// Left out by these comparisons of the condition.
     LeftOut(&'a [usize]),
 }
 
 impl CoverageTable {
-    /// Without a case, for a plan with these situations.
+    /// An empty table, for a plan with these situations.
     pub fn new(situations: &[String]) -> Self {
         let dimensions = CoverageDimension::all(situations);
         let single = dimensions.iter().map(|of| vec![BucketCount::default(); of.buckets.len()]).collect();
@@ -71,7 +71,7 @@ impl CoverageTable {
         self.add(Some(situation), facts, &CountedCase::Kept);
     }
 
-    /// Counts a result that is not kept, with the comparisons of the condition that it does not satisfy.
+    /// Counts a result that is not kept, with the comparisons of the condition that it fails.
     pub fn add_left_out(&mut self, situation: &str, facts: &CaseFacts, missed: &[usize]) {
         self.add(Some(situation), facts, &CountedCase::LeftOut(missed));
     }

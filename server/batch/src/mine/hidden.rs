@@ -1,25 +1,25 @@
-//! Pedestrians that a vehicle cannot see.
+//! Pedestrians hidden from a vehicle.
 
 use scene::geometry::direction;
 use scene::score::meeting::MeetingPair;
 use scene::score::{Actor, ScoreInput};
 use scene::{AgentType, STEP_S, State, Vec2};
 
-/// Looked at before the two are nearest, seconds.
+/// Time before the smallest distance in which visibility is checked, seconds.
 const BEFORE_S: f64 = 4.0;
-/// Hidden for less does not count, seconds.
+/// Shortest hidden time that counts, seconds.
 const LEAST_S: f64 = 0.5;
-/// The two cross within this of each other, seconds.
+/// Greatest time between the two at the crossing, seconds.
 const MEETS_S: f64 = 4.0;
-/// A pedestrian farther away is not looked for, metres.
+/// A pedestrian farther away than this is not considered, metres.
 const FAR_M: f64 = 50.0;
-/// The driver sits this far behind the middle of the vehicle's front, as a share of its length.
+/// Distance of the driver's eye behind the vehicle's front, as a share of its length.
 const DRIVER: f64 = 0.15;
-/// A vehicle that looks drives at least so fast, m/s.
+/// Lowest speed of the vehicle, m/s.
 const DRIVES_MPS: f64 = 2.0;
 
-/// How long a pedestrian of a crossing pair is hidden from the vehicle by another road user, in the seconds before the
-/// two are nearest.
+/// How long another road user hides a crossing pedestrian from the vehicle, in the seconds before the two are
+/// nearest.
 pub(super) fn hidden_s(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -43,7 +43,7 @@ pub(super) fn hidden_s(
     Some(steps as f64 * STEP_S).filter(|hidden_s| *hidden_s >= LEAST_S - 1e-6)
 }
 
-/// A vehicle stands in the line of sight.
+/// Whether a vehicle stands in the line of sight.
 fn hides(by: &Actor<'_>, step: usize, pair: [&Actor<'_>; 2], eye: Vec2, seen: &State) -> bool {
     by.agent_type == AgentType::Vehicle
         && pair.iter().all(|of| of.id != by.id)

@@ -1,4 +1,4 @@
-//! Changes of lane and turns round.
+//! Lane changes and U-turns.
 
 use super::{MinedEvent, MinedTag, time_s};
 use scene::geometry::direction;
@@ -10,40 +10,40 @@ use scene::{AgentType, HORIZON_STEPS, State, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-/// Steps between the places whose lane is looked up.
+/// Steps between lane look-ups.
 const STRIDE: usize = 5;
-/// So many of these places before and after a change tell it from a sway.
+/// Number of look-ups before and after a change that distinguish it from swaying.
 const SURE: usize = 2;
-/// The manoeuvre is told over so many steps before and after the change.
+/// Steps before and after the change over which the manoeuvre is classified.
 const AROUND: usize = 30;
-/// A vehicle that changes lanes drives at least so fast, m/s.
+/// Lowest speed of a vehicle that changes lanes, m/s.
 const DRIVES_MPS: f64 = 2.0;
 /// Lanes whose distances differ by less count as equally near, metres.
 const SAME_LANE_M: f64 = 0.5;
-/// The one that follows is in the lane within this, metres.
+/// Greatest distance of a follower from the lane, metres.
 const IN_LANE_M: f64 = 1.6;
-/// It drives the same way within this, radians.
+/// Greatest heading difference of a follower, radians.
 const ALIKE_RAD: f64 = 0.5;
-/// A cut-in leaves it less time, seconds.
+/// Time gap to the follower below which a lane change is a cut-in, seconds.
 const CUT_IN_S: f64 = 1.5;
-/// One that turns round comes so far from where it began, metres: a box that shakes does not.
+/// Smallest extent of a U-turn, metres, which excludes jittering boxes.
 const LEAST_EXTENT_M: f64 = 4.0;
-/// A way is looked at in pieces of at least this, metres.
+/// Smallest distance between samples of a path, metres.
 const APART_M: f64 = 1.0;
-/// A longer piece is a jump of the recording, metres.
+/// A longer distance between samples is a jump of the recording, metres.
 const JUMP_M: f64 = 8.0;
-/// Turning by more is no turn round but an error of the recording or a circle, radians.
+/// A larger change of heading is an error of the recording or a circle, radians.
 const MOST_ROUND_RAD: f64 = 4.5;
-/// Steps after the change at which the gap to the one behind is measured, as the vehicle is in its new lane.
+/// Steps after the change at which the gap to the follower is measured, when the vehicle is in its new lane.
 const SETTLED: usize = SURE * STRIDE;
 
-/// A change of lane.
+/// A lane change.
 pub(super) struct LaneChange {
-    /// Scene step at which the middle of the vehicle comes into the new lane.
+    /// Scene step at which the middle of the vehicle enters the new lane.
     pub(super) step: usize,
 }
 
-/// The changes of lane of a vehicle.
+/// The lane changes of a vehicle.
 pub(super) fn changes(input: &ScoreInput<'_>, actor: &Actor<'_>, graph: &LaneGraph) -> Vec<LaneChange> {
     if actor.agent_type != AgentType::Vehicle {
         return Vec::new();
@@ -65,7 +65,7 @@ pub(super) fn changes(input: &ScoreInput<'_>, actor: &Actor<'_>, graph: &LaneGra
                 let (step, _) = lanes.get(k)?;
                 Some(path.project(actor.state(*step)?.position()).lateral_m)
             };
-            // From well beside the new lane well into it.
+            // From well beside the new lane to well inside it.
             let (Some(before), Some(after)) = (aside(k - SURE), aside(k + SURE)) else { return false };
             before.abs() - after.abs() > 1.0
                 && lanes[k + 1..=k + SURE].iter().all(|(_, lane)| *lane != Some(old))
@@ -78,7 +78,7 @@ pub(super) fn changes(input: &ScoreInput<'_>, actor: &Actor<'_>, graph: &LaneGra
     found
 }
 
-/// The manoeuvre about a step is a change of lane.
+/// Whether the manoeuvre around a step is classified as a lane change.
 fn is_told(input: &ScoreInput<'_>, actor: &Actor<'_>, graph: &LaneGraph, step: usize) -> bool {
     let first = step.saturating_sub(AROUND).max(input.steps.start);
     let states: Vec<State> =
@@ -87,7 +87,7 @@ fn is_told(input: &ScoreInput<'_>, actor: &Actor<'_>, graph: &LaneGraph, step: u
     matches!(told, Some(Manoeuvre::LaneLeft | Manoeuvre::LaneRight))
 }
 
-/// The lane of a state: the one before or one that follows it, if those are as near as any.
+/// The lane of a state: the previous one or one of its successors, if they are as near as any.
 fn lane_of(graph: &LaneGraph, state: &State, last: Option<usize>) -> Option<usize> {
     let near = graph.nearest_for(state.position(), ON_LANE_M, AgentType::Vehicle);
     let mut along =
@@ -102,7 +102,7 @@ fn lane_of(graph: &LaneGraph, state: &State, last: Option<usize>) -> Option<usiz
     Some(alike.map(|hit| hit.lane).find(|lane| goes_on(*lane)).unwrap_or(first.lane))
 }
 
-/// The one that follows closely after a change, and its time gap, seconds.
+/// The close follower after a change, and its time gap, seconds.
 pub(super) fn follower<'a>(
     input: &'a ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -124,8 +124,8 @@ pub(super) fn follower<'a>(
     behind.filter(|(_, headway_s)| *headway_s < CUT_IN_S).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The turns round of a vehicle or cyclist by its places, one for each row of windows in which it turns round: boxes that
-/// stand may flip.
+/// The U-turns of a vehicle or cyclist, from its positions, because boxes of standing ones may flip. One
+/// event per run of windows with a U-turn.
 pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<MinedEvent> {
     let mut found: Vec<MinedEvent> = Vec::new();
     if !matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist) {
@@ -157,14 +157,15 @@ pub(super) fn turns_round(input: &ScoreInput<'_>, actor: &Actor<'_>) -> Vec<Mine
     found
 }
 
-/// How far a road user comes from its first place of a window.
+/// Greatest distance of a road user from its first place in a window.
 fn extent_m(actor: &Actor<'_>, window: Range<usize>) -> f64 {
     let mut places = window.filter_map(|step| actor.state(step)).map(State::position);
     let first = places.next().unwrap_or_default();
     places.map(|place| (place - first).norm()).fold(0.0, f64::max)
 }
 
-/// How far the way of a road user has turned at steps of a window, radians. Jumps and turns on the spot count as standing.
+/// Change of a road user's direction of motion by step of a window, radians. Jumps and turns on the spot
+/// count as standing.
 fn turned(actor: &Actor<'_>, window: Range<usize>) -> Vec<(usize, f64)> {
     let (mut all, mut turn_rad): (Vec<(usize, f64)>, f64) = (Vec::new(), 0.0);
     let (mut place, mut way): (Option<Vec2>, Option<f64>) = (None, None);
@@ -175,7 +176,7 @@ fn turned(actor: &Actor<'_>, window: Range<usize>) -> Vec<(usize, f64)> {
             continue;
         }
         place = Some(state.position());
-        // Driving back is no turn.
+        // Driving backwards is not a turn.
         let goes_ahead = moved.dot(&direction(state.heading_rad)) > 0.7 * moved.norm();
         if goes_ahead && moved.norm() < JUMP_M {
             let now = moved.y.atan2(moved.x);

@@ -1,5 +1,5 @@
-//! What happens in recorded scenes, as tags with time, place, road users and a figure. Collisions, near misses, braking,
-//! red lights and the like are those of the score; the rest is defined here.
+//! Events in recorded scenes, as tags with time, place, road users and a figure. Collisions, near misses,
+//! braking, red lights and similar events come from the score; the others are defined here.
 
 mod hidden;
 mod lanes;
@@ -17,19 +17,19 @@ use scene::score::{Actor, Drivable, ScoreInput, score};
 use scene::{STEP_S, Scene, State};
 use std::collections::BTreeSet;
 
-/// A crossing is close below this post-encroachment time, seconds.
+/// Post-encroachment time below which a crossing is close, seconds.
 const CLOSE_S: f64 = 1.5;
-/// Against the traffic for less is a turn across it, metres.
+/// Driving against the traffic for less than this is a turn across it, metres.
 const WRONG_WAY_M: f64 = 4.0;
 
-/// What a scene is tagged with.
+/// Tags of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MinedTag {
     /// Two boxes overlap, as the score counts it.
     Collision,
-    /// Near miss of the score that braking could still avoid.
+    /// A near miss of the score that braking could still avoid.
     NearMiss,
-    /// Two cross with a post-encroachment time below 1.5 s.
+    /// Two road users cross with a post-encroachment time below 1.5 s.
     CloseCrossing,
     /// A vehicle changes lanes closely ahead of another.
     CutIn,
@@ -37,15 +37,15 @@ pub enum MinedTag {
     LaneChange,
     /// A vehicle or cyclist turns round.
     UTurn,
-    /// A pedestrian crosses the way of a vehicle from behind another one.
+    /// A pedestrian crosses a vehicle's path from behind another vehicle.
     HiddenWalker,
-    /// Harsh braking of the score that the places show too.
+    /// Harsh braking of the score, confirmed by the positions.
     HardBraking,
-    /// Harsh steering of the score of one that drives.
+    /// Harsh steering of the score, for a moving vehicle.
     HardSteering,
     /// A stop line is crossed at red.
     RedLight,
-    /// Against the traffic, as the score counts it.
+    /// Driving against the traffic, as the score counts it.
     WrongWay,
     /// A pedestrian on the carriageway, as the score counts it.
     OnCarriageway,
@@ -74,7 +74,7 @@ impl MinedTag {
         Self::Speeding,
     ];
 
-    /// Its word, and the name of its figure.
+    /// Name of the tag, and of its figure.
     const fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Collision => ("collision", "depth_m"),
@@ -94,37 +94,37 @@ impl MinedTag {
         }
     }
 
-    /// Its word.
+    /// Name of the tag.
     pub const fn name(self) -> &'static str {
         self.names().0
     }
 
-    /// What its figure is, with its unit.
+    /// Name of its figure, with the unit.
     pub const fn figure(self) -> &'static str {
         self.names().1
     }
 }
 
-/// Something that happens.
+/// An event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MinedEvent {
-    /// What.
+    /// Tag.
     pub tag: MinedTag,
-    /// Who.
+    /// Road user that acts.
     pub actor: String,
-    /// The other road user, where two are concerned.
+    /// The other road user, if there is one.
     pub other: Option<String>,
     /// Scene time, seconds.
     pub time_s: f64,
-    /// Where, metres.
+    /// Position, metres.
     pub x_m: f64,
-    /// Where, metres.
+    /// Position, metres.
     pub y_m: f64,
     /// The figure of the tag.
     pub value: Option<f64>,
 }
 
-/// What happens in a scene as it is recorded, by time. `graph` and `drivable` are those of its map.
+/// Events of a scene as it was recorded, by time. `graph` and `drivable` belong to its map.
 pub fn mine(scene: &Scene, graph: &LaneGraph, drivable: &Drivable) -> Vec<MinedEvent> {
     let input = recorded_input(scene, drivable);
     let mut events = Vec::new();
@@ -150,7 +150,7 @@ fn time_s(step: usize) -> f64 {
     step as f64 / (1.0 / STEP_S).round()
 }
 
-/// What the score lists.
+/// Events that the score lists.
 fn of_score(input: &ScoreInput<'_>, events: &mut Vec<MinedEvent>) {
     let found = score(input).scene;
     let actor = |id: &str| input.actors.iter().find(|actor| actor.id == id);
@@ -251,7 +251,7 @@ fn of_crossings(input: &ScoreInput<'_>, pairs: &[Option<MeetingPair>], events: &
     }
 }
 
-/// A change of lane, and a cut-in where one follows closely.
+/// A lane change, and a cut-in if a follower is close.
 fn of_change(input: &ScoreInput<'_>, actor: &Actor<'_>, change: &LaneChange, events: &mut Vec<MinedEvent>) {
     let Some(state) = actor.state(change.step) else { return };
     let event = |tag, other: Option<&str>, value| MinedEvent {

@@ -1,35 +1,35 @@
-//! Events that the places of a recording confirm. Velocities and boxes of recordings have outliers, above all of road users
-//! that stand.
+//! Checks events against the positions of a recording. Velocities and boxes of recordings have outliers,
+//! mostly of standing road users.
 
 use scene::score::pairs::Measures;
 use scene::score::report::{RedLight, Stretch};
 use scene::score::{Actor, ScoreInput};
 use scene::{STEP_S, SignalState, State};
 
-/// No road user brakes or steers harder, m/s2.
+/// Greatest plausible braking or steering, m/s2.
 const HARDEST_MPS2: f64 = 10.0;
-/// Speeds are measured by the places over this time, steps.
+/// Steps over which speeds are measured from positions.
 const WINDOW: usize = 5;
-/// One that brakes or steers drives at least so fast, m/s.
+/// Lowest speed of a road user that brakes or steers, m/s.
 const DRIVES_MPS: f64 = 3.0;
-/// Braking takes at least this from the speed, m/s.
+/// Smallest loss of speed in braking, m/s.
 const LOSES_MPS: f64 = 2.0;
 
-/// Two that meet come so much nearer before, m/s: boxes that were drawn over each other do not.
+/// Lowest closing speed before a collision, m/s, which excludes boxes that were drawn over each other.
 const CLOSES_MPS: f64 = 1.0;
-/// One that runs comes so far in a second, metres.
+/// Shortest distance of a runner in a second, metres.
 const RUNS_M: f64 = 2.0;
-/// Recorded lights lag: whole queues set off so long before theirs turns to go, seconds.
+/// Recorded lights lag: whole queues set off this long before their light turns green, seconds.
 const LIGHT_LAGS_S: f64 = 5.0;
-/// Stretches of one road user with less between them are one event, seconds.
+/// Stretches of one road user with a shorter pause are one event, seconds.
 const SAME_EVENT_S: f64 = 2.0;
 
-/// Could braking still avoid the collision of a near miss? Else a box was not where the recording has it.
+/// Whether braking could still avoid the collision of a near miss. If not, a recorded box was wrong.
 pub(super) fn is_avoidable(measures: &Measures) -> bool {
     measures.drac_mps2.is_none_or(|drac_mps2| drac_mps2 <= HARDEST_MPS2)
 }
 
-/// The places show the braking: from at least 3 m/s, and by at least 2 m/s.
+/// Whether the positions confirm the braking: from at least 3 m/s, and by at least 2 m/s.
 pub(super) fn brakes(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let (first, last) = (step(stretch.time_s), step(stretch.until_s));
     let before = first.checked_sub(WINDOW).and_then(|from| speed_mps(actor, from));
@@ -37,13 +37,13 @@ pub(super) fn brakes(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     is_possible(stretch) && before >= DRIVES_MPS && before - after >= LOSES_MPS
 }
 
-/// The places show that it drives while it steers.
+/// Whether the positions confirm that it moves while it steers.
 pub(super) fn steers(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let drives = speed_mps(actor, step(stretch.time_s)).is_some_and(|speed| speed >= DRIVES_MPS);
     is_possible(stretch) && drives
 }
 
-/// The places show that the two came nearer over the half second before.
+/// Whether the positions show that the two came nearer over the half second before.
 pub(super) fn close_in(a: &Actor<'_>, b: &Actor<'_>, time_s: f64) -> bool {
     let apart_m = |step| Some((a.state(step)?.position() - b.state(step)?.position()).norm());
     let now = step(time_s);
@@ -52,7 +52,7 @@ pub(super) fn close_in(a: &Actor<'_>, b: &Actor<'_>, time_s: f64) -> bool {
     closed_m.is_some_and(|closed_m| closed_m >= CLOSES_MPS * WINDOW as f64 * STEP_S)
 }
 
-/// The places show that it runs.
+/// Whether the positions confirm that it runs.
 pub(super) fn runs(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let place = |step| actor.state(step).map(State::position);
     (step(stretch.time_s)..=step(stretch.until_s)).any(|from| {
@@ -61,7 +61,7 @@ pub(super) fn runs(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     })
 }
 
-/// The recorded light does not turn to go soon after.
+/// Whether the recorded light does not turn green soon after.
 pub(super) fn stays_red(input: &ScoreInput<'_>, red: &RedLight) -> bool {
     let first = step(red.time_s);
     let last = (first + step(LIGHT_LAGS_S)).min(input.steps.end);
@@ -70,7 +70,7 @@ pub(super) fn stays_red(input: &ScoreInput<'_>, red: &RedLight) -> bool {
     of_lane.flat_map(|signal| (first..last).map(|step| signal.at(step))).all(|state| !goes(state))
 }
 
-/// Stretches of one road user that follow each other closely are one, as bad as the worst of them.
+/// Joins stretches of one road user with short pauses; the result is as bad as the worst of them.
 pub(super) fn joined<'a>(stretches: impl Iterator<Item = &'a Stretch>) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
     for stretch in stretches {
@@ -98,7 +98,7 @@ fn step(time_s: f64) -> usize {
     (time_s / STEP_S).round() as usize
 }
 
-/// Mean speed of the places from a step on.
+/// Mean speed from the positions, from a step on.
 fn speed_mps(actor: &Actor<'_>, from: usize) -> Option<f64> {
     let place = |step| actor.state(step).map(State::position);
     Some((place(from + WINDOW)? - place(from)?).norm() / (WINDOW as f64 * STEP_S))

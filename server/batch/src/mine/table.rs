@@ -8,15 +8,15 @@ use scene::{AgentType, Scene};
 use serde::Serialize;
 use std::io;
 
-/// A scene with what happens in it.
+/// A scene with its events.
 pub struct MinedScene {
-    /// Its file, as it was given.
+    /// Path of its file, as given.
     pub file: String,
-    /// Its number in the file, from 0.
+    /// Index of the scene in the file, from 0.
     pub index: u64,
     /// Its name in results.
     pub name: String,
-    /// By time, each with the types of the actor and of the other one.
+    /// Events by time, each with the types of the actor and of the other.
     events: Vec<(MinedEvent, [Option<AgentType>; 2])>,
 }
 
@@ -39,7 +39,7 @@ pub struct MinedLine<'a> {
 }
 
 impl MinedScene {
-    /// Of a scene of a file.
+    /// The events of a scene in a file.
     pub fn new(file: String, index: u64, name: String, scene: &Scene) -> Self {
         let graph = LaneGraph::new(&scene.map);
         let kind = |id: &str| scene.agent(id).map(scene::Agent::kind);

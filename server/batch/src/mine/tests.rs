@@ -61,7 +61,7 @@ fn a_change_of_lane_is_a_cut_in_where_one_follows_closely() {
         agent("b", Vehicle, |t| (10.0 * t - 40.0, 0.0)),
     ]);
     assert_eq!(tags(&far), [(MinedTag::LaneChange, "a", None)]);
-    // A sway of a metre is no change.
+    // Swaying by one metre is no lane change.
     let sway = events(vec![agent("a", Vehicle, |t| (10.0 * t, (t * 0.7).sin()))]);
     assert_eq!(tags(&sway), []);
 }
@@ -69,7 +69,7 @@ fn a_change_of_lane_is_a_cut_in_where_one_follows_closely() {
 #[test]
 fn a_walker_behind_a_parked_car_is_hidden() {
     let car = || agent("car", AgentType::Vehicle, |t| (10.0 * t - 50.0, 0.0));
-    // Crosses at the origin, 5 s after the start, as the car comes there 1 s later.
+    // Crosses at the origin, 5 s after the start; the car is there 1 s later.
     let walker = || agent("walker", AgentType::Pedestrian, |t| (14.0, 1.5 * t - 7.5));
     let parked = || agent("parked", AgentType::Vehicle, |_| (8.0, -3.0));
     let open = events(vec![car(), walker()]);
@@ -83,13 +83,13 @@ fn a_walker_behind_a_parked_car_is_hidden() {
 #[test]
 fn boxes_that_shake_or_overlap_from_the_start_are_no_events() {
     use AgentType::{Pedestrian, Vehicle};
-    // A walker beside a parked car, whose box is drawn half a metre into it, and one that walks into it.
+    // A walker beside a parked car, whose box overlaps it by half a metre, and one that walks into the car.
     let car = || agent("car", Vehicle, |_| (0.0, -6.0));
     let beside = events(vec![car(), agent("walker", Pedestrian, |t| (0.02 * t, -5.3))]);
     assert!(beside.iter().all(|event| event.tag != MinedTag::Collision), "{beside:?}");
     let into = events(vec![car(), agent("walker", Pedestrian, |t| (0.0, 2.0 - 1.5 * t))]);
     assert!(tags(&into).iter().any(|(tag, ..)| *tag == MinedTag::Collision), "{into:?}");
-    // Back and forth by a step of 0.4 m ten times a second, and at 3 m/s.
+    // Back and forth by 0.4 m ten times a second, and at 3 m/s.
     let shakes = |t: f64| (40.0, -6.0 + if (t * 10.0).round() as i64 % 2 == 0 { 0.0 } else { 0.4 });
     let shaking = events(vec![agent("walker", Pedestrian, shakes)]);
     assert!(shaking.iter().all(|event| event.tag != MinedTag::Running), "{shaking:?}");

@@ -1,4 +1,4 @@
-//! The pattern that a plan names.
+//! The pattern of a plan.
 
 use super::document::RoadPattern;
 use super::shipped;
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 
-/// How the name of a file ends.
+/// Extension of a pattern file.
 const FILE: &str = ".toml";
 
-/// A pattern by its name, or as it is.
+/// A pattern by name, or inline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum PatternChoice {
-    /// One that comes with the program; a file before it is read.
+    /// A built-in pattern, or a file that has not been read yet.
     Named(String),
-    /// This one.
+    /// An inline pattern.
     Given(Box<RoadPattern>),
 }
 
@@ -26,7 +26,7 @@ impl PatternChoice {
     /// The pattern.
     ///
     /// # Errors
-    /// There is none with this name, in words.
+    /// An unknown name, as a sentence.
     pub fn pattern(&self) -> Result<&RoadPattern, String> {
         match self {
             Self::Named(name) => shipped::named(name),

@@ -1,20 +1,20 @@
-//! Where lanes cross each other.
+//! Crossings of lanes.
 
 use scene::routes::{GraphLane, LaneGraph, LaneHit};
 use scene::wrap_angle;
 use std::collections::BTreeMap;
 
-/// A lane is searched for crossings at places this far apart, metres.
+/// Spacing of the places at which a lane is searched for crossings, metres.
 const STEP_M: f64 = 2.0;
-/// Lanes are found this near to such a place, metres.
+/// Radius of the search for lanes at such a place, metres.
 const NEAR_M: f64 = 2.5;
-/// Most places of a lane that are looked at.
+/// Limit of searched places per lane.
 const MOST_PLACES: usize = 2_000;
 /// Most crossings of a lane.
 const MOST_CROSSINGS: usize = 32;
-/// Lanes at a smaller angle do not cross, radians: 20 degrees.
+/// Smallest angle at which lanes cross, radians: 20 degrees.
 const LEAST_RAD: f64 = 0.349;
-/// A foot farther from the lane than to its side lies beyond an end, metres.
+/// A foot whose distance exceeds its lateral offset by more than this lies beyond an end, metres.
 const ABREAST_M: f64 = 0.2;
 
 /// A lane that crosses another.
@@ -25,11 +25,12 @@ pub(super) struct LaneCrossing {
     pub(super) own_m: f64,
     /// Arc length on the other lane, metres.
     pub(super) other_m: f64,
-    /// Direction of the other lane less the own one, radians: positive where it comes from the right.
+    /// Heading of the other lane minus that of the own one, radians: positive if the other comes from the
+    /// right.
     pub(super) turn_rad: f64,
 }
 
-/// The lanes of a kind that cross a lane, along it.
+/// The lanes of a kind that cross a lane, in order along it.
 pub(super) fn crossings(
     graph: &LaneGraph,
     lane: usize,

@@ -1,4 +1,4 @@
-//! The document of a pattern: the road that it needs, who is placed on it, and the numbers that may be varied.
+//! The document of a pattern: the road that it needs, the road users on it, and its varied numbers.
 
 use super::number::PatternNumber;
 use crate::fault::{self, PlanFault};
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Most road users of a pattern.
 pub const MOST_USERS: usize = 8;
-/// Longest way before and after a place, metres.
+/// Longest path before and after a place, metres.
 pub const MOST_WAY_M: f64 = 400.0;
 /// Longest id of a road user, in characters.
 const MOST_ID: usize = 30;
@@ -258,7 +258,7 @@ impl RoadPattern {
     /// Reads a pattern from TOML.
     ///
     /// # Errors
-    /// Its faults, each with its path; an unknown member has the name that was probably meant.
+    /// Its faults, each with its path; an unknown member has a suggestion.
     pub fn parse(text: &str) -> Result<Self, Vec<PlanFault>> {
         let pattern: Self = fault::document(text)?;
         let mut faults = Vec::new();
@@ -266,12 +266,12 @@ impl RoadPattern {
         if faults.is_empty() { Ok(pattern) } else { Err(faults) }
     }
 
-    /// The standard values of its parameters.
+    /// The default values of its parameters.
     pub fn standard(&self) -> BTreeMap<String, f64> {
         self.parameters.iter().map(|(name, of)| (name.clone(), of.value)).collect()
     }
 
-    /// Every fault of it; `under` begins the paths.
+    /// Checks the pattern; the paths of faults begin with `under`.
     pub(crate) fn check(&self, under: &str, faults: &mut Vec<PlanFault>) {
         let place = |member: &str| {
             if under.is_empty() { member.to_owned() } else { format!("{under}.{member}") }
@@ -348,7 +348,7 @@ impl RoadPattern {
 }
 
 impl PatternUser {
-    /// The numbers of it, with their members.
+    /// Its numbers, with the names of their members.
     fn numbers(&self) -> impl Iterator<Item = (&'static str, &PatternNumber)> {
         let goal = |of: fn(&PatternGoal) -> &Option<PatternNumber>| {
             self.goal.as_ref().and_then(|goal| of(goal).as_ref())

@@ -16,7 +16,7 @@ pub enum PatternNumber {
 }
 
 impl PatternNumber {
-    /// The parameter that it names.
+    /// The name of its parameter.
     pub(super) fn name(&self) -> Option<&str> {
         match self {
             Self::Value(_) => None,
@@ -24,7 +24,7 @@ impl PatternNumber {
         }
     }
 
-    /// Its value; `None` for a parameter that is not there.
+    /// Its value; `None` for an unknown parameter.
     pub(super) fn of(&self, values: &BTreeMap<String, f64>) -> Option<f64> {
         match self {
             Self::Value(value) => Some(*value),

@@ -1,4 +1,4 @@
-//! A place of a map where a pattern fits, and the road users that it puts there.
+//! A place of a map where a pattern fits, and its road users there.
 
 use super::document::{PatternGoal, PatternRelation, PatternUser, PatternWay, RoadPattern};
 use super::number::PatternNumber;
@@ -16,26 +16,26 @@ use std::f64::consts::FRAC_PI_2;
 const KMH: f64 = 3.6;
 /// Fastest road user, m/s.
 const FASTEST_MPS: f64 = 60.0;
-/// Least time of a goal after the start, seconds.
+/// Shortest time of a goal after the start, seconds.
 const SOONEST_S: f64 = 0.5;
-/// Range of a box's length and of its width, metres.
+/// Ranges of a box's length and width, metres.
 const SIZE_M: [(f64, f64); 2] = [(0.2, 25.0), (0.2, 4.0)];
 
 /// A place.
 #[derive(Clone, Debug)]
 pub struct PatternPlace {
-    /// Lane, arc length, and what it crosses or joins.
+    /// Id made of the lane, the arc length, and the lane that it crosses or joins.
     pub id: String,
     /// Lane of the subject.
     pub lane: String,
     /// Arc length of the place on it, metres.
     pub s_m: f64,
-    /// Where it is, metres.
+    /// Position, metres.
     pub position: Vec2,
     pub(super) ways: BTreeMap<PatternWay, LaneWay>,
 }
 
-/// A road user that is put on a way.
+/// A road user placed on a path.
 struct PutUser<'a> {
     user: &'a PatternUser,
     at_m: f64,
@@ -45,11 +45,11 @@ struct PutUser<'a> {
 }
 
 impl PatternPlace {
-    /// The road users of a pattern with their conditions, from a step on. `values` has its parameters; one that is absent
-    /// has its standard value.
+    /// The road users of a pattern with their conditions, from a step on. `values` has its parameters; absent
+    /// ones have their default values.
     ///
     /// # Errors
-    /// In words: a road user that would stand or end outside of its way, or a number out of range.
+    /// A sentence about a road user that would start or end outside its path, or a number out of range.
     pub fn cast(
         &self,
         pattern: &RoadPattern,
@@ -70,7 +70,7 @@ impl PatternPlace {
         Ok(agents)
     }
 
-    /// The scene of a pattern at this place: the map and the signals of `scene`, with these road users alone.
+    /// The scene of a pattern at this place: map and signals of `scene`, with only these road users.
     pub fn scene(scene: &Scene, name: String, agents: Vec<Agent>, start_step: usize) -> Scene {
         let Scene { meta, time, map, signals, .. } = scene.clone();
         let meta = Meta { objects_of_interest: Vec::new(), tracks_to_predict: Vec::new(), ..meta };
@@ -111,7 +111,7 @@ impl PatternPlace {
         Ok(PutUser { user, at_m, left_m: of(&user.left_m).unwrap_or(0.0), speed_mps, size })
     }
 
-    /// A pose beside a way.
+    /// A pose beside a path.
     fn pose(&self, way: PatternWay, at_m: f64, left_m: f64) -> Option<Pose> {
         let on = self.ways.get(&way)?.pose_on(at_m)?;
         let left = direction(on.heading_rad + FRAC_PI_2) * left_m;

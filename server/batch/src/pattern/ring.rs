@@ -1,29 +1,30 @@
-//! Roundabouts: lanes that lead round to where they begin.
+//! Roundabouts: closed chains of lanes.
 
 use scene::routes::{LaneGraph, Polyline};
 use scene::{AgentType, wrap_angle};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Longest way round, metres.
+/// Longest circumference, metres.
 const LONGEST_M: f64 = 400.0;
-/// Most lanes that are looked at for one ring.
+/// Most lanes that are searched for one ring.
 const MOST_LANES: usize = 96;
-/// A ring is looked at in so many pieces of equal length.
+/// Number of equal pieces in which a ring is examined.
 const PIECES: usize = 12;
-/// Pieces that turn together; a way there and back between two U-turns is straight over more.
+/// Number of consecutive pieces that must turn together. A road out and back between two U-turns is straight
+/// over more pieces.
 const TOGETHER: usize = 4;
-/// These pieces turn by at least this, radians; those of a circle by 2.1.
+/// Smallest turn of these pieces, radians; that of a circle is 2.1.
 const LEAST_RAD: f64 = 0.7;
 
-/// Do the lanes from `first` on lead round to `last`, which leads to `first`?
+/// Whether the lanes from `first` on lead round to `last`, which leads to `first`.
 pub(super) fn is_ring(graph: &LaneGraph, first: usize, last: usize) -> bool {
     ring(graph, first, last).is_some_and(|path| is_round(&path))
 }
 
-/// The shortest row of lanes from `first` to `last`, as one line.
+/// The shortest chain of lanes from `first` to `last`, as one line.
 fn ring(graph: &LaneGraph, first: usize, last: usize) -> Option<Polyline> {
     let lanes = graph.lanes();
-    // For each lane that is reached: the one before it, and the metres to its end.
+    // For each reached lane: the previous lane, and the metres to its end.
     let mut known = BTreeMap::from([(first, (first, lanes[first].path.length_m()))]);
     let mut next = VecDeque::from([first]);
     while let Some(lane) = next.pop_front() {
@@ -47,7 +48,7 @@ fn ring(graph: &LaneGraph, first: usize, last: usize) -> Option<Polyline> {
     Some(Polyline::new(points)).filter(|path| path.length_m() <= LONGEST_M)
 }
 
-/// Does a closed line turn one way everywhere?
+/// Whether a closed line turns in one direction everywhere.
 fn is_round(path: &Polyline) -> bool {
     let heading = |piece: usize| {
         let place = (piece % PIECES) as f64 + 0.5;

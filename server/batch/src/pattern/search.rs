@@ -1,4 +1,4 @@
-//! The places of a map where a pattern fits.
+//! Search for the places of a map where a pattern fits.
 
 use super::crossing::{LaneCrossing, crossings};
 use super::document::{LaneSide, OtherSide, PatternWay, RoadFeature, RoadNeeds, RoadPattern, RoadTurn};
@@ -10,26 +10,26 @@ use scene::{AgentType, Scene, wrap_angle};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::f64::consts::FRAC_PI_2;
 
-/// A turn is seen from so far before a place to so far after it, metres.
+/// Distance before and after a place over which a turn is measured, metres.
 const TURN_M: (f64, f64) = (25.0, 5.0);
-/// A way that turns by less is straight, radians: 20 degrees.
+/// Change of heading below which a path is straight, radians: 20 degrees.
 const STRAIGHT_RAD: f64 = 0.349;
-/// A way that turns by more turns off, radians: 35 degrees.
+/// Change of heading above which a path turns, radians: 35 degrees.
 const TURN_RAD: f64 = 0.611;
-/// A bend is looked for in this stretch before a place, metres.
+/// Distance before a place in which a bend is searched, metres.
 const BEND_M: f64 = 60.0;
-/// Directions that differ by more are opposite, radians: 135 degrees.
+/// Headings that differ by more are opposite, radians: 135 degrees.
 const OPPOSITE_RAD: f64 = 2.356;
-/// A signal of a lane that ends farther before a place does not control it, metres.
+/// Greatest distance before a place of the end of a signal's lane that controls it, metres.
 const SIGNAL_M: f64 = 60.0;
-/// An oncoming lane is this near beside the place, metres.
+/// Range of the distance to an oncoming lane, metres.
 const ONCOMING_M: (f64, f64) = (2.0, 8.0);
-/// Where the other way of a merge comes from is seen so far before the place, metres.
+/// Distance before a merge at which the direction of the other path is measured, metres.
 const MERGE_M: f64 = 15.0;
-/// Most lanes that a lane may be reached from.
+/// Most predecessors of a lane that are considered.
 const MOST_BEFORE: usize = 8;
 
-/// Looks for the places of one map.
+/// Finds the places of one map.
 pub struct PatternSearch<'a> {
     pattern: &'a RoadPattern,
     scene: &'a Scene,
@@ -40,7 +40,7 @@ pub struct PatternSearch<'a> {
 }
 
 impl<'a> PatternSearch<'a> {
-    /// On the map of a scene, with its graph.
+    /// A search on the map of a scene, with its graph.
     pub fn new(pattern: &'a RoadPattern, scene: &'a Scene, graph: &'a LaneGraph) -> Self {
         let signals = scene.signals.iter().filter_map(|signal| graph.lane_index(&signal.lane)).collect();
         Self { pattern, scene, graph, signals, standard: pattern.standard() }
@@ -56,7 +56,7 @@ impl<'a> PatternSearch<'a> {
         (0..self.scene.map.lanes.len()).flat_map(|lane| self.on_lane(lane)).collect()
     }
 
-    /// The place with an id.
+    /// The place with this id.
     pub fn find(&self, id: &str) -> Option<PatternPlace> {
         let (lane, _) = id.split_once('@')?;
         self.on_lane(self.graph.lane_index(lane)?).into_iter().find(|place| place.id == id)
@@ -65,7 +65,7 @@ impl<'a> PatternSearch<'a> {
     /// The places of one lane, each id once.
     fn on_lane(&self, lane: usize) -> Vec<PatternPlace> {
         let own = &self.graph.lanes()[lane];
-        // Of lanes with equal ids the graph knows the first one.
+        // For lanes with equal ids, the graph knows only the first one.
         let is_first = self.graph.lane_index(&self.scene.map.lanes[lane].id) == Some(lane);
         if !is_first || !own.carries(AgentType::Vehicle) || own.path.length_m() <= 0.0 || !self.has_limit(own)
         {
@@ -75,7 +75,8 @@ impl<'a> PatternSearch<'a> {
             RoadFeature::Lane => self.of_lane(lane).into_iter().collect(),
             RoadFeature::Crosswalk => {
                 let walks = |lane: &GraphLane| matches!(lane.source, LaneSource::Crosswalk(_));
-                // Both directions over a crosswalk are lanes of the graph: the one from the right stands for both.
+                // Both directions over a crosswalk are lanes of the graph; the one from the right represents
+                // both.
                 let crossed = crossings(self.graph, lane, walks).into_iter().filter(|at| at.turn_rad > 0.0);
                 crossed.filter_map(|at| self.of_crosswalk(lane, &at)).collect()
             }
@@ -100,7 +101,7 @@ impl<'a> PatternSearch<'a> {
         self.needs().limit_kmh.is_none_or(|(least, most)| kmh > least - 1.0 && kmh < most + 1.0)
     }
 
-    /// The middle of a lane.
+    /// The place in the middle of a lane.
     fn of_lane(&self, lane: usize) -> Option<PatternPlace> {
         let own = &self.graph.lanes()[lane];
         let s_m = 0.5 * own.path.length_m();
@@ -146,7 +147,7 @@ impl<'a> PatternSearch<'a> {
         Some(place)
     }
 
-    /// The lanes that lead where this one does.
+    /// The places where other lanes merge with this one.
     fn of_merges(&self, lane: usize) -> Vec<PatternPlace> {
         let lanes = self.graph.lanes();
         let mut found = Vec::new();
@@ -165,7 +166,7 @@ impl<'a> PatternSearch<'a> {
         {
             return None;
         }
-        // The place is where the common lane begins.
+        // The place is the beginning of the common lane.
         let way = self.checked(LaneWay::along(self.graph, next, 0.0, Some(lane)))?;
         let joined = LaneWay::along(self.graph, next, 0.0, Some(other));
         let here = way.pose(-MERGE_M);
@@ -179,7 +180,7 @@ impl<'a> PatternSearch<'a> {
         Some(place)
     }
 
-    /// The first way through a place of a lane that has what is needed.
+    /// The first path through a place of a lane that has what the pattern needs.
     fn own_way(&self, lane: usize, s_m: f64) -> Option<LaneWay> {
         let lanes = self.graph.lanes();
         let along = |before: Option<usize>| self.checked(LaneWay::along(self.graph, lane, s_m, before));
@@ -190,7 +191,7 @@ impl<'a> PatternSearch<'a> {
         along(None).or_else(|| others().find_map(|before| along(Some(before))))
     }
 
-    /// The way, if it has what is needed.
+    /// The path, if it has what the pattern needs.
     fn checked(&self, way: LaneWay) -> Option<LaneWay> {
         let needs = self.needs();
         let (before_m, after_m) = way.room_m();
@@ -232,7 +233,7 @@ impl<'a> PatternSearch<'a> {
         place.ways.insert(PatternWay::FromLeft, across(heading_rad + std::f64::consts::PI));
     }
 
-    /// The lane that is needed beside the place; `None` where there is none.
+    /// Adds the neighbouring lane that the pattern needs; `None` if it does not exist.
     fn add_neighbor(&self, place: &mut PatternPlace, lane: usize, s_m: f64) -> Option<()> {
         let own = &self.graph.lanes()[lane];
         let here = own.path.sample(s_m);

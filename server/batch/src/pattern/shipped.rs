@@ -1,4 +1,4 @@
-//! The patterns that come with the program.
+//! The built-in patterns.
 
 use super::document::RoadPattern;
 use crate::names::hint;
@@ -36,17 +36,17 @@ const FILES: [&str; 24] = files![
     "roundabout-entry",
 ];
 
-/// All of them, by name.
+/// All built-in patterns, sorted by name.
 pub fn all() -> &'static [RoadPattern] {
     static ALL: OnceLock<Vec<RoadPattern>> = OnceLock::new();
-    // Each is read by the tests.
+    // The tests parse each of them.
     ALL.get_or_init(|| FILES.iter().filter_map(|text| RoadPattern::parse(text).ok()).collect())
 }
 
-/// The pattern with a name, whatever the case of its letters.
+/// The pattern with this name, ignoring case.
 ///
 /// # Errors
-/// That there is none, with a name that was probably meant.
+/// An unknown name, with a suggestion.
 pub fn named(name: &str) -> Result<&'static RoadPattern, String> {
     let found = all().iter().find(|pattern| pattern.name.eq_ignore_ascii_case(name));
     let names = || all().iter().map(|pattern| pattern.name.as_str());

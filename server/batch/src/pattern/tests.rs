@@ -17,7 +17,7 @@ fn lane(id: &str, points: &[(f64, f64)], after: &[&str]) -> Lane {
     Lane { successors, ..Lane::street(id, line(points)) }
 }
 
-/// A quarter of a circle from a place on, to the left.
+/// A quarter circle to the left.
 fn left_turn(from: (f64, f64), radius_m: f64) -> Vec<(f64, f64)> {
     let angle = |i: i32| f64::from(i) * std::f64::consts::FRAC_PI_2 / 12.0;
     (0..=12)
@@ -25,8 +25,8 @@ fn left_turn(from: (f64, f64), radius_m: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A junction: eastbound and westbound lanes 3.5 m apart, a left turn from the east to the north, a road from the south,
-/// and a crosswalk over the northern exit.
+/// A junction: eastbound and westbound lanes 3.5 m apart, a left turn from the east to the north, a road from
+/// the south, and a crosswalk over the northern exit.
 fn junction() -> LaneMap {
     let turn = Lane { interpolating: true, ..lane("left", &left_turn((0.0, 0.0), 12.0), &["north"]) };
     let through = Lane { interpolating: true, ..lane("through", &[(0.0, 0.0), (30.0, 0.0)], &["east"]) };
@@ -128,7 +128,7 @@ fn a_roundabout_is_entered_from_outside() {
         ..LaneMap::default()
     };
     assert_eq!(ids("roundabout-entry", map.clone()), ["entry@60.0xsecond"]);
-    // From the ring the other lane is a merge, and no entry.
+    // From the ring, the other lane is a merge and not an entry.
     let merges = ids("merge", map);
     assert!(merges.iter().all(|id| id.starts_with("entry@")), "{merges:?}");
 }
@@ -180,7 +180,7 @@ fn faults_have_their_place() {
     assert_eq!(wide.unwrap_err().len(), 2);
 }
 
-/// A map of lanes anywhere, of any shape, with any links.
+/// A map of random lanes of any shape and with any links.
 fn random_map(seed: u64) -> LaneMap {
     let mut draw = Key::default().words(&["pattern tests"]).number(seed).stream();
     let count = 1 + (draw.unit() * 30.0) as usize;
@@ -188,7 +188,7 @@ fn random_map(seed: u64) -> LaneMap {
     for i in 0..count {
         let (mut x, mut y) = (draw.between(-60.0, 60.0), draw.between(-60.0, 60.0));
         let points = (0..1 + (draw.unit() * 9.0) as usize).map(|_| {
-            // Places may repeat.
+            // Points may repeat.
             let step = if draw.unit() < 0.1 { 0.0 } else { 25.0 };
             (x, y) = (x + draw.between(-step, step), y + draw.between(-step, step));
             (x, y)
@@ -251,6 +251,6 @@ fn the_work_grows_with_the_lanes() {
     let (few, short) = spent(8);
     let (many, long) = spent(64);
     assert_eq!(many, few * 8);
-    // Eight times the lanes; squared growth would take 64 times as long.
+    // Eight times the lanes; quadratic growth would take 64 times as long.
     assert!(long < 24.0 * short.max(1e-3), "{short} s and {long} s");
 }

@@ -1,18 +1,18 @@
-//! Ways of a place: polylines along lanes or across them, with the place at a known arc length.
+//! Paths through a place: polylines along lanes or across them, with the place at a known arc length.
 
 use scene::AgentType;
 use scene::geometry::direction;
 use scene::routes::{LaneGraph, Polyline, Pose};
 use scene::wrap_angle;
 
-/// A way reaches so far before and after its place where lanes go on, metres.
+/// Length of a path before and after its place if lanes continue, metres.
 const REACH_M: f64 = 300.0;
-/// A way across a lane reaches so far to both sides, metres.
+/// Length of a path across a lane to each side, metres.
 const ACROSS_M: f64 = 40.0;
-/// Most lanes of a way, each side of the place.
+/// Most lanes of a path on each side of the place.
 const MOST_LANES: usize = 48;
 
-/// A way with its place.
+/// A path with its place.
 #[derive(Clone, Debug)]
 pub(super) struct LaneWay {
     path: Polyline,
@@ -22,8 +22,8 @@ pub(super) struct LaneWay {
 }
 
 impl LaneWay {
-    /// Along the lanes of motor vehicles through a place of one of them: straight on where lanes part or join, but from
-    /// `before` if that is given.
+    /// The path along motor vehicle lanes through a place of one of them: straight on at forks and merges,
+    /// but from `before` if that is given.
     pub(super) fn along(graph: &LaneGraph, lane: usize, s_m: f64, before: Option<usize>) -> Self {
         let lanes = graph.lanes();
         let own = &lanes[lane].path;
@@ -49,7 +49,7 @@ impl LaneWay {
             (last, count) = (next, count + 1);
         }
         let path = Polyline::new(parts.iter().flat_map(|part| part.points().iter().copied()));
-        // Lanes do not join to the millimetre: the place is looked up where it should be.
+        // Lanes do not join exactly, so the place is searched near its expected arc length.
         let place_m = path.project_between(
             own.position_at(s_m),
             known_m.min(REACH_M) - 5.0,
@@ -58,40 +58,40 @@ impl LaneWay {
         Self { place_m: place_m.s_m, path, lanes: behind }
     }
 
-    /// The same way in the opposite direction.
+    /// The same path in the opposite direction.
     pub(super) fn reversed(&self) -> Self {
         Self { path: self.path.reversed(), place_m: self.path.length_m() - self.place_m, lanes: Vec::new() }
     }
 
-    /// A straight way across a place.
+    /// A straight path across a place.
     pub(super) fn across(place: Pose) -> Self {
         let side = direction(place.heading_rad) * ACROSS_M;
         let path = Polyline::new([place.position - side, place.position + side]);
         Self { path, place_m: ACROSS_M, lanes: Vec::new() }
     }
 
-    /// Metres of it before the place and after it.
+    /// Its length before the place and after it, metres.
     pub(super) fn room_m(&self) -> (f64, f64) {
         (self.place_m, self.path.length_m() - self.place_m)
     }
 
-    /// The pose so many metres after the place; the last one beyond an end.
+    /// The pose this many metres after the place, clamped to the path.
     pub(super) fn pose(&self, at_m: f64) -> Pose {
         self.path.sample(self.place_m + at_m)
     }
 
-    /// The same, where the way has it.
+    /// The same; `None` beyond the path.
     pub(super) fn pose_on(&self, at_m: f64) -> Option<Pose> {
         let (before_m, after_m) = self.room_m();
         (at_m >= -before_m - 1e-6 && at_m <= after_m + 1e-6).then(|| self.pose(at_m))
     }
 
-    /// The turn from one place of it to another, radians.
+    /// The change of heading from one place of it to another, radians.
     pub(super) fn turn_rad(&self, from_m: f64, to_m: f64) -> f64 {
         wrap_angle(self.pose(to_m).heading_rad - self.pose(from_m).heading_rad)
     }
 
-    /// The greatest turn between its places and the last one of a stretch, radians.
+    /// The greatest change of heading between places of a stretch and its end, radians.
     pub(super) fn bend_rad(&self, from_m: f64, to_m: f64) -> f64 {
         let steps = ((to_m - from_m) / 5.0).ceil().max(1.0) as usize;
         let at = |i: usize| from_m + (to_m - from_m) * i as f64 / steps as f64;
@@ -99,7 +99,7 @@ impl LaneWay {
     }
 }
 
-/// The lane of these that motor vehicles use and that turns least.
+/// The straightest of these lanes that motor vehicles use.
 fn straightest(graph: &LaneGraph, lanes: &[usize]) -> Option<usize> {
     let turn = |lane: usize| {
         let path = &graph.lanes()[lane].path;

@@ -1,4 +1,4 @@
-//! The request of a search in one scene, and what is told of its tries.
+//! The request of a search in one scene, and the report on its tries.
 
 use crate::engine::UnitEnd;
 use crate::plan::{BatchOptions, BatchSeeds};
@@ -133,7 +133,7 @@ pub struct TryRequest {
 }
 
 impl SearchTry {
-    /// Of a unit that was worked on with these options.
+    /// The report on a completed unit.
     pub fn new(number: u64, end: UnitEnd, options: &BatchOptions) -> Self {
         let UnitEnd { row, conditions, .. } = end;
         let react = options.react && row.actor.is_some();

@@ -1,21 +1,21 @@
-//! Covariance matrix adaptation: draws points from a normal distribution, and moves, stretches and turns it towards
-//! the best of them. After Hansen, "The CMA Evolution Strategy: A Tutorial" (arXiv 1604.00772), with his default
-//! parameters and positive weights alone. The equations in comments are those of its appendix A.
+//! Covariance matrix adaptation: draws points from a normal distribution, and moves, scales and rotates it
+//! towards the best of them. After Hansen, "The CMA Evolution Strategy: A Tutorial" (arXiv 1604.00772), with
+//! his default parameters and only positive weights. Equation numbers refer to its appendix A.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Least length of an axis: a shape that collapses cannot grow again.
+/// Shortest axis: a collapsed distribution cannot grow again.
 const LEAST_LENGTH: f64 = 1e-9;
-/// Longest step, in units of the space: a longer one is a draw from everywhere.
+/// Longest step, in units of the space: a longer one would draw from the whole space.
 const MOST_STEP: f64 = 1.0;
 
-/// A distribution that adapts.
+/// An adaptive distribution.
 #[derive(Clone, Debug)]
 pub struct CmaEs {
     mean: DVector<f64>,
     step: f64,
     covariance: DMatrix<f64>,
-    /// Axes of the covariance as columns, and its standard deviation along each.
+    /// Axes of the covariance as columns, and the standard deviation along each.
     axes: DMatrix<f64>,
     lengths: DVector<f64>,
     step_path: DVector<f64>,
@@ -24,12 +24,12 @@ pub struct CmaEs {
 }
 
 impl CmaEs {
-    /// Points that are drawn before each update, in so many dimensions: equation 48.
+    /// Number of points per update for this number of dimensions: equation 48.
     pub fn population(dimensions: usize) -> usize {
         4 + (3.0 * (dimensions.max(1) as f64).ln()) as usize
     }
 
-    /// Round about a point, with a standard deviation.
+    /// A distribution around a point, with a standard deviation.
     pub fn new(mean: DVector<f64>, step: f64) -> Self {
         let n = mean.len();
         Self {
@@ -44,24 +44,24 @@ impl CmaEs {
         }
     }
 
-    /// The point that belongs to standard normal numbers, one for each dimension.
+    /// The point for standard normal numbers, one per dimension.
     pub fn point(&self, normal: &DVector<f64>) -> DVector<f64> {
         &self.mean + self.step * &self.axes * normal.component_mul(&self.lengths)
     }
 
-    /// Longest standard deviation of the distribution.
+    /// Largest standard deviation of the distribution.
     pub fn extent(&self) -> f64 {
         self.step * self.lengths.max()
     }
 
-    /// Moves to the middle of points that are equally good, and looks further round.
+    /// Moves to the mean of equally good points, and widens.
     pub fn widen(&mut self, points: &[DVector<f64>], times: f64) {
         let sum = points.iter().fold(self.mean.clone() * 0.0, |sum, point| sum + point);
         self.mean = sum / points.len().max(1) as f64;
         self.step = (self.step * times).min(MOST_STEP);
     }
 
-    /// Adapts to a population that was drawn from it, the best point first.
+    /// Adapts to a population that was drawn from it, best point first.
     pub fn adapt(&mut self, ranked: &[DVector<f64>]) {
         let n = self.mean.len() as f64;
         let weights = weights(ranked.len());
@@ -80,12 +80,12 @@ impl CmaEs {
         let round = &self.axes * (self.axes.transpose() * &shift).component_div(&self.lengths);
         self.step_path *= 1.0 - step_rate;
         self.step_path += (step_rate * (2.0 - step_rate) * mass).sqrt() * round;
-        // Length of a path without selection, about.
+        // Approximate length of a path without selection.
         let expected = n.sqrt() * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n));
         let length = self.step_path.norm();
         self.updates += 1;
         let settled = (1.0 - (1.0 - step_rate).powi(2 * self.updates)).sqrt();
-        // A long path is no news about the shape: the step grows first.
+        // A long path does not describe the shape: the step grows first.
         let counts = f64::from(u8::from(length / settled < (1.4 + 2.0 / (n + 1.0)) * expected));
         self.shape_path *= 1.0 - shape_rate;
         self.shape_path += counts * (shape_rate * (2.0 - shape_rate) * mass).sqrt() * &shift;
@@ -123,7 +123,7 @@ mod tests {
         DVector::from_fn(n, |_, _| stream.normal())
     }
 
-    /// Least value that so many generations find.
+    /// Smallest value found within this number of generations.
     fn found(value: impl Fn(&DVector<f64>) -> f64, n: usize, generations: usize, seed: u64) -> f64 {
         let mut stream = Key::default().number(seed).stream();
         let mut optimiser = CmaEs::new(DVector::repeat(n, 0.3), 0.3);
@@ -148,7 +148,7 @@ mod tests {
             let best = found(valley, 4, 180, seed);
             assert!(best < 1e-8, "seed {seed}: {best}");
         }
-        // Rosenbrock's: a bent valley, with its bottom at (1, 1).
+        // Rosenbrock's function: a bent valley with its minimum at (1, 1).
         let bent = |x: &DVector<f64>| 100.0 * (x[1] - x[0] * x[0]).powi(2) + (1.0 - x[0]).powi(2);
         assert!(found(bent, 2, 150, 1) < 1e-8);
         assert!(found(|x| (x[0] - 0.5).abs(), 1, 40, 1) < 1e-4);

@@ -1,5 +1,5 @@
-//! Searches: tries that come nearer to the condition of a plan. The numbers of a population follow from the rows of
-//! the populations before it, so a search that was interrupted goes on from its chunks.
+//! Searches: tries that approach the condition of a plan. The numbers of a population follow from the rows of
+//! earlier populations, so an interrupted search resumes from its chunks.
 
 pub mod call;
 mod cma;
@@ -16,20 +16,21 @@ use state::SearchState;
 pub struct GroupSearch<'a> {
     list: &'a UnitList<'a>,
     group: SearchGroup,
-    /// One for each search; `None` where nobody is meant.
+    /// One per search; `None` if no road user fits.
     searches: Vec<Option<SearchState<'a>>>,
     generation: u64,
 }
 
 impl<'a> GroupSearch<'a> {
-    /// The searches of a group, by the share of its chunks, at their start; `None` for a plan without searches.
+    /// The searches of a group at their start, by the share of its chunks; `None` for a plan without
+    /// searches.
     pub fn new(list: &'a UnitList<'a>, share: u64) -> Option<Self> {
         let group = list.searches()?.group(share)?;
         let searches = group.series.iter().map(|series| list.search(series.place)).collect();
         Some(Self { list, group, searches, generation: 0 })
     }
 
-    /// A unit of the chunk that is next, with its numbers.
+    /// A unit of the next chunk, with its numbers.
     pub fn unit(&self, number: u64) -> Option<BatchUnit> {
         let (series, place) = self.group.find(number)?;
         let mut unit = self.list.at(place)?;
@@ -38,7 +39,7 @@ impl<'a> GroupSearch<'a> {
         Some(unit)
     }
 
-    /// Takes in the rows of the chunk that is next, in their order.
+    /// Takes the rows of the next chunk, in their order.
     pub fn learn(&mut self, rows: &[BatchRow]) {
         let mut misses = rows.iter().map(|row| row.miss);
         for (series, search) in self.group.series.iter().zip(&mut self.searches) {

@@ -1,4 +1,4 @@
-//! A search in one scene: its tries after each other, each chosen from the tries before it.
+//! A search in one scene: its tries one after the other, each chosen from the previous ones.
 
 use super::GroupSearch;
 use super::call::{MOST_TRIES, SearchBody, SearchEnd, SearchTry};
@@ -17,10 +17,10 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Tries between two looks at what was found, for methods that do not learn.
+/// Tries between two checks of what was found, for methods that do not learn.
 const CHUNK: u64 = 20;
 
-/// A search that was checked.
+/// A checked search.
 pub struct SceneSearch {
     plan: BatchPlan,
     entries: Vec<CatalogueScene>,
@@ -31,7 +31,7 @@ pub struct SceneSearch {
 }
 
 impl SceneSearch {
-    /// Of a request about a scene. `engine` names the hashes of weights and tuning.
+    /// Checks a request about a scene. `engine` holds the hashes of weights and tuning.
     ///
     /// # Errors
     /// Each fault of the request with its pointer, and `out-of-range` for more than [`MOST_TRIES`] tries.
@@ -79,12 +79,12 @@ impl SceneSearch {
         Ok(search)
     }
 
-    /// Most tries that it makes.
+    /// Limit of its tries.
     pub fn tries(&self) -> u64 {
         self.tries
     }
 
-    /// Paths of the numbers that it varies.
+    /// Paths of the varied numbers.
     pub fn varied(&self) -> Vec<String> {
         let situations = self.plan.situations.iter();
         situations.flat_map(|situation| situation.dimensions()).map(|dimension| dimension.path).collect()
@@ -94,10 +94,10 @@ impl SceneSearch {
         UnitList::new(&self.plan, &self.entries, &self.engine)
     }
 
-    /// Makes the tries. `each` takes them in and may end the search.
+    /// Makes the tries. `each` receives them and may end the search.
     ///
     /// # Errors
-    /// The problem of a generation that was cancelled. Other problems belong to their try.
+    /// The problem of a cancelled generation. Other problems belong to their try.
     pub fn run(
         &self,
         operations: &Operations,
@@ -148,7 +148,7 @@ impl SceneSearch {
     }
 }
 
-/// The member of the request that a member of the plan stands for.
+/// The pointer in the request for a path in the plan.
 fn pointer(path: &str) -> String {
     let named = match path {
         "sampling.draws" => "tries".to_owned(),

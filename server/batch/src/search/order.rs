@@ -1,5 +1,5 @@
-//! The order of the tries of searches. Searches form groups; a chunk has one population of each search of a group, so
-//! that it follows from the chunks of the group before it.
+//! The order of the tries of searches. Searches form groups. A chunk has one population of each search of a
+//! group, so that it follows from the previous chunks of the group.
 
 use super::cma::CmaEs;
 use crate::chunk::BatchChunk;
@@ -11,9 +11,9 @@ use std::ops::Range;
 /// All tries of all searches of a plan.
 pub struct SearchOrder {
     blocks: Vec<UnitBlock>,
-    /// Tries between two adaptations, by situation.
+    /// Number of tries between two adaptations, by situation.
     populations: Vec<u64>,
-    /// Searches in a group.
+    /// Number of searches in a group.
     group_size: u64,
     /// Most populations of a search.
     generations: u64,
@@ -21,7 +21,7 @@ pub struct SearchOrder {
 
 /// Searches that advance together.
 pub struct SearchGroup {
-    /// Each of them.
+    /// The searches of the group.
     pub series: Vec<TrySeries>,
     first_unit: u64,
 }
@@ -29,14 +29,14 @@ pub struct SearchGroup {
 /// The tries of one search.
 #[derive(Clone, Copy, Debug)]
 pub struct TrySeries {
-    /// Place of the first one.
+    /// Place of the first try.
     pub place: UnitPlace,
     tries: u64,
     population: u64,
 }
 
 impl SearchOrder {
-    /// Of the blocks of a plan: each road user and each seed of a block is a search of its own.
+    /// The order over the blocks of a plan: each road user and each seed of a block is a separate search.
     pub fn new(plan: &BatchPlan, blocks: Vec<UnitBlock>) -> Self {
         let is_range = |distribution: &Distribution| matches!(distribution, Distribution::Uniform { .. });
         let populations = plan.situations.iter().map(|situation| {
@@ -76,11 +76,11 @@ impl SearchOrder {
 
     /// The group of a try.
     pub fn group_of(&self, number: u64) -> Option<SearchGroup> {
-        // Groups have the same tries in every order of them.
+        // Every order of the tries within groups leaves the groups unchanged.
         self.group(UnitBlock::search_of(&self.blocks, number)? / self.group_size)
     }
 
-    /// The chunks, those of one group after each other. Their numbers have gaps where searches end early.
+    /// The chunks, group by group. Their numbers have gaps where searches end early.
     pub fn chunks(&self) -> impl Iterator<Item = BatchChunk> {
         let groups = (0..).map_while(|share| Some((share, self.group(share)?)));
         groups.flat_map(move |(share, group)| {
@@ -99,7 +99,7 @@ impl SearchGroup {
         self.series.iter().map(|series| series.tries.div_ceil(series.population)).max().unwrap_or(0)
     }
 
-    /// Tries before a population.
+    /// Number of tries before a population.
     fn before(&self, generation: u64) -> u64 {
         self.series.iter().map(|series| series.before(generation)).sum()
     }
@@ -118,7 +118,7 @@ impl SearchGroup {
         low
     }
 
-    /// The try that a number names: index of its search in the group, and its place in the plan.
+    /// The try with a number: index of its search in the group, and its place in the plan.
     pub fn find(&self, number: u64) -> Option<(usize, UnitPlace)> {
         let within = number.checked_sub(self.first_unit)?;
         let generation = self.generation(within);

@@ -1,4 +1,4 @@
-//! One search: the numbers of its next tries follow from how near the tries before came to the condition.
+//! One search: the numbers of its next tries follow from the distances of earlier tries to the condition.
 
 use super::cma::CmaEs;
 use crate::distribution::Distribution;
@@ -8,14 +8,15 @@ use nalgebra::DVector;
 use scene::random::Key;
 use std::collections::BTreeMap;
 
-/// First standard deviation of the tries, as a share of each range: most of the range is within two of them.
+/// Initial standard deviation of the tries as a share of each range: most of the range is within two of them.
 const FIRST_STEP: f64 = 0.3;
-/// A search whose tries lie closer together than this share of a range has nothing new to try.
+/// A search whose tries lie closer together than this share of a range is exhausted.
 const LEAST_STEP: f64 = 0.002;
 
-/// Growth of the step after a population that holds: more tries at the same place are near copies.
+/// Growth of the step after a population that satisfies the condition: more tries at the same place would be
+/// near copies.
 const WIDENING: f64 = 1.5;
-/// Populations that hold, after which the search goes elsewhere.
+/// Number of satisfying populations after which the search restarts elsewhere.
 const MOST_HOLDING: u32 = 4;
 
 /// A search of one situation, for one road user of one scene and one seed.
@@ -24,14 +25,14 @@ pub struct SearchState<'a> {
     key: Key,
     optimiser: CmaEs,
     starts: u64,
-    /// Populations since the start whose better half holds.
+    /// Number of populations since the start whose better half satisfies the condition.
     holding: u32,
-    /// Tries whose result is known.
+    /// Number of tries with a known result.
     known: u64,
 }
 
 impl<'a> SearchState<'a> {
-    /// At its start. `key` says what it is for.
+    /// A new search. `key` is the key of its random numbers.
     pub fn new(situation: &'a BatchSituation, key: Key) -> Self {
         let dimensions = situation.dimensions();
         let optimiser = CmaEs::new(DVector::zeros(0), FIRST_STEP);
@@ -40,7 +41,7 @@ impl<'a> SearchState<'a> {
         search
     }
 
-    /// Begins in another place. The places spread over all ranges.
+    /// Restarts at another place. The places spread over all ranges.
     fn start(&mut self) {
         let ranges = self.dimensions.iter().filter(|dimension| is_range(dimension)).enumerate();
         let at = |(i, dimension): (usize, &Dimension<'_>)| {
@@ -48,7 +49,7 @@ impl<'a> SearchState<'a> {
         };
         let mut mean: Vec<f64> = ranges.map(at).collect();
         if mean.is_empty() {
-            // Nothing to adapt: all numbers are fixed or of a list.
+            // Nothing to adapt: all numbers are fixed or from lists.
             mean.push(0.5);
         }
         self.optimiser = CmaEs::new(mean.into(), FIRST_STEP);
@@ -56,14 +57,14 @@ impl<'a> SearchState<'a> {
         self.holding = 0;
     }
 
-    /// The point of a try, in shares of the ranges; outside of 0 to 1 the ranges go on mirrored.
+    /// The point of a try, as shares of the ranges; the ranges are mirrored outside of 0 to 1.
     fn point(&self, number: u64) -> DVector<f64> {
         let mut stream = self.key.clone().text("try").number(number).stream();
         let ranges = self.dimensions.iter().filter(|dimension| is_range(dimension)).count().max(1);
         self.optimiser.point(&DVector::from_fn(ranges, |_, _| stream.normal()))
     }
 
-    /// The numbers of a try of the population that is next, by path. Numbers without a range are drawn at random.
+    /// The numbers of a try of the next population, by path. Numbers without a range are drawn at random.
     pub fn drawn(&self, number: u64) -> BTreeMap<String, f64> {
         let point = self.point(number);
         let mut ranges = point.iter().copied().map(mirrored);
@@ -75,8 +76,8 @@ impl<'a> SearchState<'a> {
         self.dimensions.iter().map(value).collect()
     }
 
-    /// Takes the results of the next population in: how far each try was from the condition, 0 where it holds,
-    /// `None` where it has no result.
+    /// Takes the results of the next population: how far each try was from the condition, 0 if it holds,
+    /// `None` without a result.
     pub fn learn(&mut self, misses: &[Option<f64>]) {
         let misses = misses.iter().map(|miss| miss.unwrap_or(f64::MAX));
         let mut tries: Vec<(f64, DVector<f64>)> =
@@ -86,7 +87,7 @@ impl<'a> SearchState<'a> {
         let holds = tries.iter().filter(|(miss, _)| *miss == 0.0).count();
         let is_flat = tries.first().map(|(miss, _)| miss) == tries.last().map(|(miss, _)| miss);
         let mut points: Vec<DVector<f64>> = tries.into_iter().map(|(_, point)| point).collect();
-        // Only the better half counts, and where all of it holds the ranks mean nothing.
+        // Only the better half counts; if all of it satisfies the condition, its ranks mean nothing.
         if 2 * holds >= points.len() && self.holding < MOST_HOLDING {
             points.truncate(holds);
             self.optimiser.widen(&points, WIDENING);
@@ -103,7 +104,7 @@ fn is_range(dimension: &Dimension<'_>) -> bool {
     matches!(dimension.distribution, Distribution::Uniform { .. })
 }
 
-/// A share of a range that goes on mirrored beyond its bounds.
+/// A share of a range that is mirrored at its bounds.
 fn mirrored(share: f64) -> f64 {
     let share = share.rem_euclid(2.0);
     if share > 1.0 { 2.0 - share } else { share }
@@ -124,7 +125,7 @@ mod tests {
         serde_json::from_str(text).unwrap()
     }
 
-    /// Holds in a corner of 0.2 % of the ranges.
+    /// The condition holds in a corner of 0.2 % of the ranges.
     fn miss(numbers: &BTreeMap<String, f64>) -> f64 {
         let off = |path: &str, at: f64, width: f64| ((numbers[path] - at).abs() / width - 1.0).max(0.0);
         off("goal.speed_mps", 21.0, 1.0) + off("goal.ahead_m", 90.0, 6.0) + off("goal.left_m", 3.0, 0.7)

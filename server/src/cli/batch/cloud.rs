@@ -1,7 +1,7 @@
-//! Results in an object store: S3 and what speaks its protocol, Google Cloud Storage, Azure.
+//! Results in an object store: S3 and compatible stores, Google Cloud Storage, Azure.
 //!
-//! A chunk is created by a conditional request (`If-None-Match: *` in S3): of two writers one succeeds, and the other
-//! compares the bytes that are there with its own.
+//! A chunk is created by a conditional request (`If-None-Match: *` in S3): of two writers one succeeds, and
+//! the other compares the stored bytes with its own.
 
 use crate::cli::Failure;
 use formats::folder::Creation;
@@ -17,7 +17,7 @@ use tokio::io::AsyncWriteExt;
 use tokio::runtime::{Builder, Runtime};
 use url::Url;
 
-/// What the names of variables of the environment begin with that say how a store is reached and who asks.
+/// Prefixes of environment variables with credentials and endpoints.
 const PREFIXES: [&str; 3] = ["AWS_", "GOOGLE_", "AZURE_"];
 
 /// A prefix of a bucket or container.
@@ -25,16 +25,16 @@ pub struct CloudStore {
     url: String,
     store: Arc<dyn ObjectStore>,
     prefix: Path,
-    /// Requests are sent from here; any number of threads wait for them.
+    /// Sends requests; any number of threads wait for them.
     runtime: Runtime,
 }
 
 impl CloudStore {
-    /// Of a URL: `s3://`, `gs://`, `az://`, or the https address that a provider shows. Credentials, region and endpoint
-    /// come from the environment, by the providers' names.
+    /// The store of a URL: `s3://`, `gs://`, `az://`, or a provider's https address. Credentials, region and
+    /// endpoint come from the providers' environment variables.
     ///
     /// # Errors
-    /// Exit 2 for a URL that names no object store, exit 1 where requests cannot be sent from this machine.
+    /// Exit 2 for a URL that names no object store, exit 1 if this machine cannot send requests.
     pub fn new(url: &str) -> Result<Self, Failure> {
         let wrong = |reason: String| Failure::usage(format!("{url}: {reason}"));
         let parsed = Url::parse(url).map_err(|error| wrong(error.to_string()))?;
@@ -49,7 +49,7 @@ impl CloudStore {
         ) {
             return Err(wrong(expected().into()));
         }
-        // A second provider in one process is refused, and is the same one.
+        // A second provider in one process is refused; it is the same one.
         let _ = rustls::crypto::ring::default_provider().install_default();
         let known = |name: &String| PREFIXES.iter().any(|prefix| name.starts_with(prefix));
         let options = std::env::vars_os().filter_map(|(name, value)| {
@@ -62,15 +62,15 @@ impl CloudStore {
         Ok(Self { url: url.to_owned(), store: store.into(), prefix, runtime })
     }
 
-    /// As it was given.
+    /// The URL as given.
     pub fn url(&self) -> &str {
         &self.url
     }
 
-    /// The bytes of an object; `None` where none has the name.
+    /// The bytes of an object; `None` if it does not exist.
     ///
     /// # Errors
-    /// When the store does not give them.
+    /// When the store refuses or fails.
     pub fn find(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
         let path = self.path(name);
         let got = self.wait(async { self.store.get(&path).await?.bytes().await });
@@ -80,10 +80,10 @@ impl CloudStore {
         }
     }
 
-    /// An object has the name.
+    /// Whether an object exists.
     ///
     /// # Errors
-    /// When the store does not say.
+    /// When the store refuses or fails.
     pub fn has(&self, name: &str) -> io::Result<bool> {
         match self.wait(self.store.head(&self.path(name))) {
             Err(Error::NotFound { .. }) => Ok(false),
@@ -91,10 +91,10 @@ impl CloudStore {
         }
     }
 
-    /// Names of the objects below a part of the prefix, without it.
+    /// Names of the objects below `part` of the prefix, without the prefix.
     ///
     /// # Errors
-    /// When the store does not list them.
+    /// When the store refuses or fails.
     pub fn list(&self, part: &str) -> io::Result<BTreeSet<String>> {
         let below = self.path(part);
         let objects = self.store.list(Some(&below)).try_filter_map(|object| {
@@ -104,15 +104,15 @@ impl CloudStore {
         Ok(self.wait(objects.try_collect())?)
     }
 
-    /// Creates an object, unless it is there.
+    /// Creates an object unless it exists.
     ///
     /// # Errors
-    /// When the store does not keep it.
+    /// When the store refuses or fails.
     pub fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Creation> {
         let path = self.path(name);
         let payload = PutPayload::from(bytes.to_vec());
         match self.wait(self.store.put_opts(&path, payload, PutMode::Create.into())) {
-            // Also where the answer to an own request was lost and it was sent again.
+            // This also happens if the reply to our own request was lost and the request was repeated.
             Err(Error::AlreadyExists { .. }) => {
                 let there = self.find(name)?;
                 Ok(if there.as_deref() == Some(bytes) { Creation::Equal } else { Creation::Different })
@@ -121,16 +121,16 @@ impl CloudStore {
         }
     }
 
-    /// Writes an object, in place of the one that may be there.
+    /// Writes an object, and replaces an existing one.
     ///
     /// # Errors
-    /// When the store does not keep it.
+    /// When the store refuses or fails.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         self.wait(self.store.put(&self.path(name), PutPayload::from(bytes.to_vec())))?;
         Ok(())
     }
 
-    /// Begins an object that is written part by part.
+    /// Begins an object that is written in parts.
     pub fn writer(&self, name: &str) -> CloudWriter<'_> {
         CloudWriter {
             runtime: &self.runtime,
@@ -147,17 +147,17 @@ impl CloudStore {
     }
 }
 
-/// An object that is written part by part; nobody sees it before it is whole.
+/// An object that is written in parts; it is invisible until it is complete.
 pub struct CloudWriter<'a> {
     runtime: &'a Runtime,
     object: BufWriter,
 }
 
 impl CloudWriter<'_> {
-    /// Puts the object in its place.
+    /// Completes the object, which then becomes visible.
     ///
     /// # Errors
-    /// When the store does not keep it.
+    /// When the store refuses or fails.
     pub fn finish(mut self) -> io::Result<()> {
         self.runtime.block_on(self.object.shutdown())
     }

@@ -1,4 +1,4 @@
-//! The folder of results: what each file is called, and how a chunk gets there.
+//! The folder of results: names of its files, and how chunks are stored.
 
 use super::store::ResultStore;
 use crate::cli::{Exit, Failure};
@@ -20,15 +20,15 @@ pub const RECORD: &str = "plan.json";
 const CHUNKS: &str = "chunks";
 /// Folder of the scenes.
 const SCENES: &str = "scenes";
-/// How the names of the tables end.
+/// Extension of the tables.
 const TABLE: &str = ".parquet";
 
 /// Compression level of the scenes.
 const ZSTD_LEVEL: i32 = 3;
-/// Largest document of a scene, bytes.
+/// Size limit of a scene document, bytes.
 const MOST_SCENE: usize = 1 << 30;
 
-/// A folder of results, on this machine or in an object store.
+/// A folder of results, on disk or in an object store.
 pub struct BatchFolder(ResultStore);
 
 impl Deref for BatchFolder {
@@ -40,15 +40,15 @@ impl Deref for BatchFolder {
 }
 
 impl BatchFolder {
-    /// At a path or a URL.
+    /// The folder at a path or a URL.
     ///
     /// # Errors
-    /// Exit 2 when a file is there, or the URL names no object store.
+    /// Exit 2 when the path is a file, or the URL names no object store.
     pub fn new(place: &Path) -> Result<Self, Failure> {
         ResultStore::new(place).map(Self)
     }
 
-    /// The table of a chunk. It is written last: with it the chunk is there.
+    /// The table of a chunk. It is written last, so its existence marks a complete chunk.
     fn table(chunk: &str) -> String {
         format!("{CHUNKS}/{chunk}{TABLE}")
     }
@@ -63,15 +63,15 @@ impl BatchFolder {
         format!("{CHUNKS}/{chunk}.motions.jsonl")
     }
 
-    /// A chunk is there.
+    /// Whether a chunk exists.
     ///
     /// # Errors
-    /// Exit 3 when the store does not say.
+    /// Exit 3 when the store cannot tell.
     pub fn has_chunk(&self, chunk: &str) -> Result<bool, Failure> {
         self.has(&Self::table(chunk))
     }
 
-    /// The rows of a chunk that is there.
+    /// The rows of an existing chunk.
     ///
     /// # Errors
     /// Exit 3 for a table that cannot be read.
@@ -81,7 +81,7 @@ impl BatchFolder {
             .map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(&table))))
     }
 
-    /// The names of the rows of a chunk that is there.
+    /// The identifiers of the rows of an existing chunk.
     ///
     /// # Errors
     /// Exit 3 for a table that cannot be read.
@@ -91,7 +91,7 @@ impl BatchFolder {
             .map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(&table))))
     }
 
-    /// Each of these chunks with its name, and whether it is there.
+    /// Each of these chunks with its name, and whether it exists.
     ///
     /// # Errors
     /// Exit 3 when the folder cannot be listed.
@@ -110,10 +110,10 @@ impl BatchFolder {
         }))
     }
 
-    /// Puts a chunk into the folder: its kept results with their motions, then its table.
+    /// Stores a chunk: its kept results with their motions, then its table.
     ///
     /// # Errors
-    /// Exit 1 when a file of it is there with other bytes, or cannot be written.
+    /// Exit 1 when one of its files exists with other bytes, or cannot be written.
     pub fn put(&self, chunk: &str, table: &[u8], cases: &[u8], motions: &[u8]) -> Result<(), Failure> {
         let files =
             [(Self::cases(chunk), cases), (Self::motions(chunk), motions), (Self::table(chunk), table)];
@@ -126,7 +126,7 @@ impl BatchFolder {
         Ok(())
     }
 
-    /// Puts a scene into the folder and gives its hash: that of its document.
+    /// Stores a scene and returns its hash: that of its document.
     ///
     /// # Errors
     /// Exit 1 when it cannot be written.
@@ -134,7 +134,7 @@ impl BatchFolder {
         let document = native::write(scene);
         let hash = ContentHash::of_bytes(&document).hex();
         let name = scene_file(&hash);
-        // The name says the content.
+        // The name is the hash of the content.
         if !self.has(&name)? {
             self.create(&name, &zstd::bulk::compress(&document, ZSTD_LEVEL)?)?;
         }
@@ -144,7 +144,7 @@ impl BatchFolder {
     /// Reads a scene of the catalogue.
     ///
     /// # Errors
-    /// Exit 3 when it is not there, or is another one.
+    /// Exit 3 when it is missing, or has another hash.
     pub fn read_scene(&self, entry: &CatalogueScene) -> Result<Scene, Failure> {
         let name = scene_file(&entry.sha256);
         let wrong = |reason: String| Failure::input(format!("{}: {reason}", self.shown_at(&name)));
@@ -160,7 +160,7 @@ impl BatchFolder {
         native::read(&unpacked).map_err(|error| wrong(error.to_string()))
     }
 
-    /// Removes what killed processes left half written.
+    /// Removes incomplete files of killed processes.
     ///
     /// # Errors
     /// Exit 1 when the folder cannot be read.
@@ -173,7 +173,7 @@ fn scene_file(hash: &str) -> String {
     format!("{SCENES}/{hash}.json.zst")
 }
 
-/// Two calls that should give equal bytes did not.
+/// The failure of two calls that should give equal bytes but did not.
 pub fn not_reproducible(what: &str) -> Failure {
     let message = format!(
         "not-reproducible: {what}; the results come from different programs or processors, or a file was changed"

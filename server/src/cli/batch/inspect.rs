@@ -1,4 +1,4 @@
-//! What stands in a folder of results: counted, made again in part, or merged.
+//! Checks a folder of results: counts its units, or regenerates some of them.
 
 use super::folder::{BatchFolder, not_reproducible};
 use super::record::BatchRecord;
@@ -42,18 +42,18 @@ pub struct VerifyArgs {
     seed: u64,
 }
 
-/// The chunks of a folder, those that are there and how many there should be.
+/// The existing chunks of a folder, and how many there should be.
 pub struct DoneChunks {
-    /// Those that are there, with their names.
+    /// Existing chunks with their names.
     pub done: Vec<(BatchChunk, String)>,
-    /// Number of all.
+    /// Number of all chunks.
     pub all: u64,
-    /// Numbers of the shares with a chunk that is not there.
+    /// Numbers of the shares with a missing chunk.
     pub due: BTreeSet<u64>,
 }
 
 impl DoneChunks {
-    /// Of a folder.
+    /// The chunks of a folder.
     ///
     /// # Errors
     /// Exit 3 when it cannot be listed.
@@ -71,7 +71,7 @@ impl DoneChunks {
     }
 }
 
-/// Prints how far a batch is.
+/// Prints the progress of a batch.
 ///
 /// # Errors
 /// Exit 3 for a folder without results, or with a table that cannot be read.
@@ -102,10 +102,10 @@ pub fn status(args: &StatusArgs) -> Result<(), Failure> {
     output::print(text.as_bytes())
 }
 
-/// Makes some units again and compares.
+/// Regenerates some units and compares.
 ///
 /// # Errors
-/// Exit 1 for a unit that is another one now, 3, 7, 8.
+/// Exit 1 for a unit that differs, 3, 7, 8.
 pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
@@ -154,7 +154,8 @@ pub fn verify(args: &VerifyArgs, common: &Common) -> Result<(), Failure> {
     }
 }
 
-/// Some units that are done, each once: place of the chunk among those that are done, and number of the unit.
+/// A sample of completed units without repetition: index of the chunk among the existing ones, and number of
+/// the unit.
 fn sample(chunks: &DoneChunks, count: u64, seed: u64) -> BTreeSet<(usize, u64)> {
     let units: Vec<(usize, u64)> = (chunks.done.iter().enumerate())
         .flat_map(|(at, (chunk, _))| chunk.units.clone().map(move |number| (at, number)))

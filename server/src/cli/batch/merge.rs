@@ -1,4 +1,4 @@
-//! `batch merge`: the tables of the whole batch, of all kept cases or of the best of each bucket.
+//! `batch merge`: writes the tables of the whole batch, with all kept cases or the best of each bucket.
 
 use super::folder::BatchFolder;
 use super::inspect::DoneChunks;
@@ -31,7 +31,7 @@ const FAULTS: [&str; 9] = [
 ];
 /// The table of the listed cases.
 const TABLE: &str = "cases.parquet";
-/// Their references, a line each.
+/// Their references, one per line.
 const REFERENCES: &str = "cases.jsonl";
 /// Distance of the actor from its recording.
 const OFF_LOG: &str = "actor.ade_m";
@@ -47,10 +47,10 @@ pub struct MergeArgs {
     per_bucket: Option<u64>,
 }
 
-/// Rows that are in memory at a time, beside those of one chunk.
+/// Rows in memory at a time, in addition to those of one chunk.
 const GROUP_ROWS: usize = 4096;
 
-/// What tells the kept cases of a batch from each other.
+/// The data by which the kept cases of a batch are compared.
 #[derive(Default)]
 struct KeptCases {
     tally: OutcomeTally,
@@ -63,16 +63,16 @@ struct ListedCases<'a> {
     folder: &'a BatchFolder,
     chunks: &'a DoneChunks,
     kept: &'a KeptCases,
-    /// For each kept case the harder one that it is a near copy of.
+    /// For each kept case, the harder one of which it is a near copy.
     copies: Vec<Option<usize>>,
-    /// Places of the kept cases that are listed; `None` for all.
+    /// Indices of the listed cases among the kept ones; `None` for all.
     chosen: Option<BTreeSet<usize>>,
 }
 
 /// Writes the tables of the whole batch.
 ///
 /// # Errors
-/// Exit 1 when one cannot be written, 3.
+/// Exit 1 when a table cannot be written, 3.
 pub fn merge(args: &MergeArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
@@ -139,7 +139,7 @@ impl ListedCases<'_> {
         self.chosen.as_ref().is_none_or(|chosen| chosen.contains(&case))
     }
 
-    /// Writes `cases.jsonl`, chunk after chunk.
+    /// Writes `cases.jsonl`, chunk by chunk.
     fn write_references(&self) -> Result<(), Failure> {
         let failed = |error: std::io::Error| self.folder.unwritten(REFERENCES, &error);
         let mut file = self.folder.writer(REFERENCES)?;
@@ -155,7 +155,7 @@ impl ListedCases<'_> {
         file.finish().map_err(failed)
     }
 
-    /// Writes `cases.parquet`, a group of rows after the other.
+    /// Writes `cases.parquet`, one row group after the other.
     fn write_table(&self) -> Result<(), Failure> {
         let (mut chunks, mut case, mut failure) = (self.chunks.done.iter(), 0, None);
         let mut is_first = true;
@@ -176,7 +176,7 @@ impl ListedCases<'_> {
                     case += 1;
                 }
             }
-            // A table without cases has its columns.
+            // A table without cases still has its columns.
             (std::mem::take(&mut is_first) || !rows.is_empty()).then_some((rows, copies))
         });
         let table = row::case_table(groups, figures::names())?;

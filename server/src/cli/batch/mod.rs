@@ -1,5 +1,5 @@
-//! `dragtraffic batch`: a plan of scenes, situations and seeds to a folder of results, in chunks that any number of
-//! processes work on without knowing each other.
+//! `dragtraffic batch`: turns a plan of scenes, situations and seeds into a folder of results. Any number of
+//! processes work on its chunks without coordination.
 
 mod cloud;
 mod folder;
@@ -70,7 +70,7 @@ enum BatchCommand {
     Report(report::ReportArgs),
 }
 
-/// Runs a plan, or looks at its results.
+/// Runs a plan, or inspects its results.
 ///
 /// # Errors
 /// Exit 1 for results that are not reproducible, 2, 3, 7, 8 for a folder of another batch.

@@ -1,4 +1,4 @@
-//! The page of a batch: cases with their motion, maps and coverage in one file that needs no network.
+//! The page of a batch: cases with their motion, maps and coverage in one file that works offline.
 
 use batch::coverage::dimension::CoverageDimension;
 use batch::coverage::document::CoverageDocument;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
-/// The scripts in the order in which they run.
+/// The scripts, in execution order.
 const SCRIPTS: [&str; 5] = [
     include_str!("page/cases.js"),
     include_str!("page/picture.js"),
@@ -20,9 +20,9 @@ const SCRIPTS: [&str; 5] = [
     include_str!("page/coverage.js"),
     include_str!("page/main.js"),
 ];
-/// Bytes of all maps; cases of scenes beyond them are drawn without a map.
+/// Limit of the bytes of all maps; cases of further scenes are drawn without a map.
 pub const MOST_MAP_BYTES: usize = 24 << 20;
-/// A drawn line lies this near to the map's, metres.
+/// Greatest distance of a drawn line from the map's, metres.
 const TOLERANCE_M: f64 = 0.25;
 /// Longest piece of a drawn line, metres.
 const LONGEST_M: f64 = 1e4;
@@ -37,11 +37,11 @@ pub struct PageCase {
 }
 
 impl PageCase {
-    /// Of a row.
+    /// The case of a row.
     pub fn of(row: BatchRow, dimensions: &[CoverageDimension]) -> Self {
         let bucket = |of: &CoverageDimension| of.bucket(Some(&row.situation), &row.facts);
         let buckets: Vec<Option<usize>> = dimensions.iter().map(bucket).collect();
-        // A hundredth is finer than what the page shows.
+        // Two decimals are more than the page shows.
         let short = |value: f64| (value * 100.0).round() / 100.0 + 0.0;
         let number = |name: &str| row.facts.numbers.get(name).copied().map(short);
         let numbers = ["ttc_s", "pet_s", "gap_m", "actor_mps", "other_mps", "time_s"].map(number);
@@ -53,14 +53,14 @@ impl PageCase {
 
 /// A scene of the page.
 pub struct PageScene {
-    /// Its name.
+    /// Its name in the page.
     pub name: String,
-    /// Its map, JSON.
+    /// Its map as JSON.
     pub map: String,
 }
 
 impl PageScene {
-    /// Of a scene's map.
+    /// A scene with its map.
     pub fn of(name: &str, map: &LaneMap) -> Self {
         let lanes: Vec<Value> = (map.lanes.iter())
             .map(|lane| {
@@ -88,7 +88,7 @@ fn decimetres(metres: f64) -> i32 {
     (metres * 10.0).round() as i32
 }
 
-/// First point, then differences from one to the next, decimetres.
+/// First point, then differences between neighbours, decimetres.
 fn line(points: &[Vec2]) -> Value {
     let mut before = [0, 0];
     let flat = simplify(points, TOLERANCE_M, LONGEST_M).into_iter().flat_map(|point| {
@@ -100,21 +100,21 @@ fn line(points: &[Vec2]) -> Value {
     flat.collect::<Vec<i32>>().into()
 }
 
-/// All that the page shows.
+/// Everything that the page shows.
 pub struct CasePage<'a> {
-    /// Number of units that are done.
+    /// Number of completed units.
     pub units: u64,
     /// Number of kept results; the page may show fewer.
     pub kept: u64,
     /// Its cases.
     pub cases: Vec<PageCase>,
-    /// Their motions, a line of JSON each.
+    /// Their motions, one line of JSON each.
     pub motions: Vec<String>,
     /// Scenes by hash.
     pub scenes: BTreeMap<String, PageScene>,
-    /// The counts.
+    /// Coverage document.
     pub coverage: &'a CoverageDocument,
-    /// What they were counted with.
+    /// Table of the coverage counts.
     pub table: &'a CoverageTable,
 }
 
@@ -140,7 +140,7 @@ impl CasePage<'_> {
             ("{{motions}}", safe(&self.motions.join("\n"))),
             ("/* {{script}} */", SCRIPTS.concat()),
         ];
-        // In one pass: what a scene is called may look like a place to fill.
+        // In one pass, because a scene's name may look like a placeholder.
         let (mut page, mut rest) = (String::new(), PAGE);
         for (place, text) in parts {
             let (before, after) = rest.split_once(place).unwrap_or((rest, ""));
@@ -153,7 +153,7 @@ impl CasePage<'_> {
     }
 }
 
-/// JSON inside a script, where nothing may look like markup.
+/// Escapes JSON for a script element, so that nothing looks like markup.
 fn safe(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

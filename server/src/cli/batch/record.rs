@@ -1,4 +1,4 @@
-//! `plan.json`: what a folder of results is about. It is written once, before the first chunk.
+//! `plan.json`: describes a folder of results. It is written once, before the first chunk.
 
 use super::folder::{BatchFolder, RECORD};
 use crate::cli::{Exit, Failure};
@@ -9,7 +9,7 @@ use scene::ContentHash;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Word of the document.
+/// Value of the document's `format`.
 const FORMAT: &str = "dragtraffic.batch";
 
 /// The document.
@@ -22,16 +22,16 @@ pub struct BatchRecord {
     program: String,
     /// Hashes of weights and tuning.
     pub engine: BTreeMap<String, String>,
-    /// Hash of the plan with its inputs, which are not in the results.
+    /// Hash of the plan with its inputs, which the results do not contain.
     plan_sha256: String,
     /// The plan without its inputs.
     pub plan: BatchPlan,
-    /// What the inputs held when the run began.
+    /// The inputs when the run began.
     pub scenes: Vec<CatalogueScene>,
 }
 
 impl BatchRecord {
-    /// Of a plan and what its inputs hold.
+    /// The record of a plan and its inputs.
     pub fn new(plan: &BatchPlan, engine: BTreeMap<String, String>, scenes: Vec<CatalogueScene>) -> Self {
         Self {
             format: FORMAT.into(),
@@ -44,10 +44,10 @@ impl BatchRecord {
         }
     }
 
-    /// The record of a folder; `None` where none is there.
+    /// The record of a folder; `None` if there is none.
     ///
     /// # Errors
-    /// Exit 3 for a file that is none.
+    /// Exit 3 for a file that is not a record.
     pub fn read(folder: &BatchFolder) -> Result<Option<Self>, Failure> {
         let wrong = |reason: String| Failure::input(format!("{}: {reason}", folder.shown_at(RECORD)));
         let Some(bytes) = folder.find(RECORD)? else { return Ok(None) };
@@ -62,16 +62,16 @@ impl BatchRecord {
     /// The record of a folder with results.
     ///
     /// # Errors
-    /// Exit 3 where there is none.
+    /// Exit 3 if there is none.
     pub fn of(folder: &BatchFolder) -> Result<Self, Failure> {
         let missing = || Failure::input(format!("{}: no results of a batch in this folder", folder.shown()));
         Self::read(folder)?.ok_or_else(missing)
     }
 
-    /// Puts it into its folder.
+    /// Writes the record to its folder.
     ///
     /// # Errors
-    /// Exit 8 when another one is there, 1 when it cannot be written.
+    /// Exit 8 when another record exists, 1 when it cannot be written.
     pub fn write(&self, folder: &BatchFolder) -> Result<(), Failure> {
         let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
         bytes.push(b'\n');

@@ -1,4 +1,4 @@
-//! `dragtraffic replay`: results of a batch, made again from their references.
+//! `dragtraffic replay`: regenerates results of a batch from their references.
 
 use super::folder::{BatchFolder, not_reproducible};
 use super::inspect::DoneChunks;
@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Fewest digits of a unit's id that stand for it.
+/// Fewest digits that identify a unit.
 const LEAST_DIGITS: usize = 8;
 
 /// Flags of `replay`.
@@ -43,19 +43,19 @@ pub struct ReplayArgs {
     json: bool,
 }
 
-/// A unit that is made again.
+/// A unit to regenerate.
 struct Wanted {
-    /// Place of its chunk among those that are there.
+    /// Index of its chunk among the existing ones.
     chunk: usize,
     /// Number of the unit.
     number: u64,
     name: RowName,
 }
 
-/// Makes results again.
+/// Regenerates results.
 ///
 /// # Errors
-/// Exit 1 for a result that is another one now, 2, 3 for a unit that is not there or has no result, 7, 8.
+/// Exit 1 for a result that differs, 2, 3 for a unit that does not exist or has no result, 7, 8.
 pub fn replay(args: &ReplayArgs, common: &Common) -> Result<(), Failure> {
     let folder = BatchFolder::new(&args.folder)?;
     let record = BatchRecord::of(&folder)?;
@@ -75,7 +75,7 @@ pub fn replay(args: &ReplayArgs, common: &Common) -> Result<(), Failure> {
     let operations = common.operations_on(1)?;
     record.check(&folder, None, &operations.generator.hashes())?;
     let worker = UnitWorker::new(&folder, &record, &operations);
-    // Units of one chunk share the tries before it.
+    // Units of one chunk share the preceding tries.
     let searches: Vec<_> = chunks.done.iter().map(|_| OnceLock::new()).collect();
     let made = |of: &Wanted| -> Result<Vec<u8>, Failure> {
         let missing = || Failure::input(format!("{}: no unit {}", folder.shown(), of.name.unit));
@@ -111,7 +111,7 @@ pub fn replay(args: &ReplayArgs, common: &Common) -> Result<(), Failure> {
     failure.map_or(Ok(()), Err)
 }
 
-/// The units that are named, or all that are kept: each result once.
+/// The named units, or all kept ones, each result once.
 fn wanted(args: &ReplayArgs, folder: &BatchFolder, chunks: &DoneChunks) -> Result<Vec<Wanted>, Failure> {
     let mut found: BTreeMap<&str, Vec<Wanted>> = BTreeMap::new();
     let mut kept: BTreeMap<String, Wanted> = BTreeMap::new();
@@ -149,7 +149,7 @@ fn wanted(args: &ReplayArgs, folder: &BatchFolder, chunks: &DoneChunks) -> Resul
     Ok(all)
 }
 
-/// The text is the code of a row, or begins the id of its unit.
+/// Whether the text is the code of a row, or a prefix of its unit's id.
 fn is_named(name: &RowName, asked: &str) -> bool {
     let is_unit = asked.len() >= LEAST_DIGITS && name.unit.starts_with(asked);
     is_unit || name.code.as_deref().is_some_and(|code| code.eq_ignore_ascii_case(asked))

@@ -1,4 +1,4 @@
-//! `batch report`: what the results cover, as a table, `coverage.json` and a page of the cases.
+//! `batch report`: writes the coverage of the results as a table, `coverage.json` and a page of the cases.
 
 use super::folder::BatchFolder;
 use super::inspect::DoneChunks;
@@ -35,8 +35,8 @@ pub struct ReportArgs {
 /// The page of the cases.
 const PAGE: &str = "index.html";
 
-/// Order of the cases in which those beyond the limit leave the page: the bits of the time to collision, which rise with
-/// it, then the place of the row.
+/// Sort key that decides which cases beyond the limit are left out: the bits of the time to collision, which
+/// are monotonic in it, then the index of the row.
 type CaseOrder = (u64, usize, usize);
 
 /// Writes the report of a folder.
@@ -99,7 +99,7 @@ pub fn report(args: &ReportArgs, common: &Common) -> Result<(), Failure> {
     output::print(coverage.text().as_bytes())
 }
 
-/// Counts a row; one without a result counts nowhere.
+/// Counts a row; a row without a result is not counted.
 fn count(table: &mut CoverageTable, row: &BatchRow, conditions: &[FigureFilter]) {
     match row.outcome {
         UnitOutcome::Kept => table.add_kept(&row.situation, &row.facts),
@@ -113,7 +113,7 @@ fn count(table: &mut CoverageTable, row: &BatchRow, conditions: &[FigureFilter])
     }
 }
 
-/// Counts the scenes as they are recorded, and gives the maps of those with a case on the page, by their hashes.
+/// Counts the scenes as recorded, and returns the maps of those with a case on the page, by hash.
 fn recorded(
     folder: &BatchFolder,
     record: &BatchRecord,
@@ -149,7 +149,7 @@ fn recorded(
     failure.map_or(Ok(pages), Err)
 }
 
-/// The line of the motion of each case, null where it has none.
+/// The motion line of each case; null if it has none.
 fn motions(folder: &BatchFolder, chunks: &DoneChunks, cases: &[PageCase]) -> Result<Vec<String>, Failure> {
     let places: BTreeMap<&str, usize> =
         cases.iter().enumerate().map(|(i, case)| (case.unit.as_str(), i)).collect();

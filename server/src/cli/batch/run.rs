@@ -1,4 +1,4 @@
-//! A run: the chunks of a plan that are not there yet, unit after unit, each chunk written when it is whole.
+//! A run: makes the missing chunks of a plan, and writes each one when it is complete.
 
 use super::BatchRunArgs;
 use super::folder::BatchFolder;
@@ -18,11 +18,11 @@ use batch::unit::UnitList;
 use std::path::Path;
 use std::time::Duration;
 
-/// Works on the chunks of one share that are not there.
+/// Makes the missing chunks of one share.
 ///
 /// # Errors
-/// Exit 1 when a chunk is there with other bytes, 3 for a plan or an input that cannot be read, 7, and 8 for a folder of
-/// another batch.
+/// Exit 1 when a chunk exists with other bytes, 3 for a plan or an input that cannot be read, 7, and 8 for a
+/// folder of another batch.
 pub fn run(args: &BatchRunArgs, common: &Common) -> Result<(), Failure> {
     let (Some(path), Some(output)) = (&args.plan, &args.output) else {
         return Err(Failure::usage("a plan and --output expected"));
@@ -90,7 +90,7 @@ fn summary(tally: &OutcomeTally, spent: Duration, engine: Duration, workers: usi
     )
 }
 
-/// The share of this process: of the flag, else of the cluster.
+/// The share of this process: from the flag, else from the cluster.
 fn share(flag: Option<BatchShard>, common: &Common) -> Result<BatchShard, Failure> {
     if let Some(shard) = flag {
         return Ok(shard);

@@ -1,4 +1,5 @@
-//! The inputs of a batch: read once, stored by content, listed with the road users that each situation concerns.
+//! The inputs of a batch: read once, stored by content hash, and listed with the road users of each
+//! situation.
 
 use super::folder::BatchFolder;
 use crate::cli::inputs::{Inputs, Source};
@@ -12,23 +13,23 @@ use scene::{ContentHash, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The inputs of a plan, and what they are read with.
+/// The inputs of a plan, and how they are read.
 pub struct PlanInputs<'a> {
     /// The plan.
     pub plan: &'a BatchPlan,
-    /// Folder that its paths are relative to.
+    /// Folder to which its paths are relative.
     pub base: &'a Path,
-    /// Folder that the scenes go into.
+    /// Folder in which the scenes are stored.
     pub folder: &'a BatchFolder,
-    /// What fills maps.
+    /// Operations that place road users on maps.
     pub operations: &'a Operations,
 }
 
-/// A map and the number of one of its scenes.
+/// A map with the number of one of its scenes.
 type Filling = (usize, String, Arc<Scene>, u64);
 
 impl PlanInputs<'_> {
-    /// Reads all of them; each scene goes into the folder.
+    /// Reads all inputs, and stores each scene in the folder.
     ///
     /// # Errors
     /// Exit 3 for an input that does not exist, 1 when a scene cannot be written.
@@ -41,7 +42,7 @@ impl PlanInputs<'_> {
         Ok(scenes)
     }
 
-    /// Works on inputs side by side; their scenes follow in the order of the inputs.
+    /// Processes inputs in parallel; their scenes stay in the order of the inputs.
     fn all<T: Sync>(
         &self,
         inputs: &[T],
@@ -80,7 +81,7 @@ impl PlanInputs<'_> {
         Ok(found)
     }
 
-    /// The fillings of all maps, each map read once; a file that has none is an entry of its own.
+    /// The fillings of all maps, each map read once. A file without a map is a separate entry.
     fn fillings(&self, scenes: &mut Vec<CatalogueScene>) -> Result<Vec<Filling>, Failure> {
         let mut fillings = Vec::new();
         for (i, map) in self.plan.maps.iter().enumerate() {
@@ -124,7 +125,7 @@ impl PlanInputs<'_> {
         self.entry(name, read)
     }
 
-    /// A scene, or an input that gave none.
+    /// A scene, or an input that could not be read.
     fn entry(&self, name: String, read: Result<Scene, Problem>) -> Result<CatalogueScene, Failure> {
         Ok(match read {
             Ok(scene) => CatalogueScene {

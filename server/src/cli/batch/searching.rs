@@ -1,4 +1,5 @@
-//! Searches: each chunk of a group follows from the rows of those before it, which are read from the folder.
+//! Searches: each chunk of a group follows from the rows of the previous ones, which are read from the
+//! folder.
 
 use super::folder::BatchFolder;
 use super::work::{ChunkWork, OpenChunk};
@@ -7,10 +8,10 @@ use batch::chunk::BatchChunk;
 use batch::search::GroupSearch;
 use batch::unit::UnitList;
 
-/// Works on chunks of searches, those of one group after each other.
+/// Makes chunks of searches, those of one group one after the other.
 ///
 /// # Errors
-/// Exit 1 when a chunk is there with other bytes, 3 for one that cannot be read.
+/// Exit 1 when a chunk exists with other bytes, 3 for one that cannot be read.
 pub fn work(
     work: &mut ChunkWork<'_>,
     folder: &BatchFolder,
@@ -31,7 +32,7 @@ pub fn work(
     Ok(())
 }
 
-/// The searches of a chunk's group before the chunk; `None` for a plan without searches.
+/// The state of the searches of a chunk's group before the chunk; `None` for a plan without searches.
 ///
 /// # Errors
 /// Exit 3 for an earlier chunk that cannot be read.

@@ -1,4 +1,4 @@
-//! Where a batch keeps its results: a folder of this machine, or a prefix in an object store.
+//! Storage of a batch's results: a folder on disk, or a prefix in an object store.
 
 use super::cloud::{CloudStore, CloudWriter};
 use crate::cli::{Exit, Failure, output};
@@ -8,19 +8,19 @@ use std::collections::BTreeSet;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// A place of named files. Names are relative and have `/` between their parts.
+/// A store of named files. Names are relative and use `/` as separator.
 pub enum ResultStore {
-    /// A folder of this machine.
+    /// A folder on disk.
     Folder(PathBuf),
     /// A prefix in S3, Google Cloud Storage or Azure.
     Cloud(CloudStore),
 }
 
 impl ResultStore {
-    /// At a path, or at a URL such as `s3://bucket/prefix`.
+    /// The store at a path, or at a URL such as `s3://bucket/prefix`.
     ///
     /// # Errors
-    /// Exit 2 for a URL of another kind, and when a file is at the path.
+    /// Exit 2 for a URL of another kind, and when the path is a file.
     pub fn new(place: &Path) -> Result<Self, Failure> {
         if let Some(url) = place.to_str().filter(|text| text.contains("://")) {
             return CloudStore::new(url).map(Self::Cloud);
@@ -31,7 +31,7 @@ impl ResultStore {
         Ok(Self::Folder(place.to_path_buf()))
     }
 
-    /// The place as messages name it.
+    /// The store, for messages.
     pub fn shown(&self) -> String {
         match self {
             Self::Folder(path) => path.display().to_string(),
@@ -39,7 +39,7 @@ impl ResultStore {
         }
     }
 
-    /// A file as messages name it.
+    /// A file of the store, for messages.
     pub fn shown_at(&self, name: &str) -> String {
         match self {
             Self::Folder(path) => path.join(name).display().to_string(),
@@ -47,7 +47,7 @@ impl ResultStore {
         }
     }
 
-    /// The bytes of a file; `None` where none has the name.
+    /// The bytes of a file; `None` if it does not exist.
     ///
     /// # Errors
     /// Exit 3 when it cannot be read.
@@ -62,7 +62,7 @@ impl ResultStore {
         found.map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(name))))
     }
 
-    /// The bytes of a file that is there.
+    /// The bytes of an existing file.
     ///
     /// # Errors
     /// Exit 3.
@@ -71,10 +71,10 @@ impl ResultStore {
         self.find(name)?.ok_or_else(missing)
     }
 
-    /// A file of this name is there.
+    /// Whether a file exists.
     ///
     /// # Errors
-    /// Exit 3 when the store does not say.
+    /// Exit 3 when the store cannot tell.
     pub fn has(&self, name: &str) -> Result<bool, Failure> {
         match self {
             Self::Folder(path) => Ok(path.join(name).exists()),
@@ -84,7 +84,7 @@ impl ResultStore {
         }
     }
 
-    /// Names of the files in a folder of the place, without the folder.
+    /// Names of the files in a folder of the store, without the folder.
     ///
     /// # Errors
     /// Exit 3 when it cannot be listed.
@@ -100,7 +100,7 @@ impl ResultStore {
         found.map_err(|error| Failure::input(format!("{}: {error}", self.shown_at(part))))
     }
 
-    /// Creates a file, unless it is there: its bytes are kept before anybody can see its name.
+    /// Creates a file unless it exists. Its bytes are durable before its name is visible.
     ///
     /// # Errors
     /// Exit 1 when it cannot be written.
@@ -112,7 +112,7 @@ impl ResultStore {
         created.map_err(|error| self.unwritten(name, &error))
     }
 
-    /// Writes a file whole, in place of the one that may be there.
+    /// Writes a complete file, and replaces an existing one.
     ///
     /// # Errors
     /// Exit 1 when it cannot be written.
@@ -123,7 +123,7 @@ impl ResultStore {
         }
     }
 
-    /// Begins a file that is written part by part, and appears whole.
+    /// Begins a file that is written in parts and becomes visible when it is complete.
     ///
     /// # Errors
     /// Exit 1 when it cannot be written.
@@ -135,12 +135,13 @@ impl ResultStore {
         begun.map_err(|error| self.unwritten(name, &error))
     }
 
-    /// A file that could not be written.
+    /// The failure of a file that could not be written.
     pub fn unwritten(&self, name: &str, error: &io::Error) -> Failure {
         Failure::new(Exit::Failure, format!("{}: {error}", self.shown_at(name)))
     }
 
-    /// Removes what killed processes left half written in these folders. Object stores show whole files alone.
+    /// Removes incomplete files of killed processes from these folders. Object stores only show complete
+    /// files.
     ///
     /// # Errors
     /// Exit 1 when a folder cannot be read.
@@ -153,19 +154,19 @@ impl ResultStore {
     }
 }
 
-/// A file that is written part by part.
+/// A file that is written in parts.
 pub enum ResultWriter<'a> {
-    /// On this machine.
+    /// A file on disk.
     File(Whole),
-    /// In an object store.
+    /// An object in a store.
     Cloud(CloudWriter<'a>),
 }
 
 impl ResultWriter<'_> {
-    /// Puts the file in its place.
+    /// Completes the file, which then becomes visible.
     ///
     /// # Errors
-    /// When what was written cannot be kept.
+    /// When its content cannot be stored.
     pub fn finish(self) -> io::Result<()> {
         match self {
             Self::File(file) => file.finish(),

@@ -1,4 +1,4 @@
-//! Units counted by how they ended.
+//! Counts of units by outcome.
 
 use batch::row::{BatchRow, UnitOutcome};
 use serde::Serialize;
@@ -7,16 +7,16 @@ use std::collections::BTreeMap;
 /// Numbers of units.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct OutcomeTally {
-    /// By outcome.
+    /// Number of units by outcome.
     pub outcomes: BTreeMap<&'static str, u64>,
-    /// Those that failed, by the code of their problem.
+    /// Failed units by the code of their problem.
     pub problems: BTreeMap<String, u64>,
     /// Kept results by situation.
     pub kept_by_situation: BTreeMap<String, u64>,
 }
 
 impl OutcomeTally {
-    /// With one more unit.
+    /// Counts one more unit.
     pub fn add(&mut self, row: &BatchRow) {
         *self.outcomes.entry(row.outcome.name()).or_default() += 1;
         if let Some(problem) = &row.problem {
@@ -36,7 +36,7 @@ impl OutcomeTally {
         self.outcomes.get(outcome.name()).copied().unwrap_or(0)
     }
 
-    /// In words: "3 kept, 9 left out, ...".
+    /// The counts as text: "3 kept, 9 left out, ...".
     pub fn words(&self) -> String {
         let words = [
             (UnitOutcome::Kept, "kept"),

@@ -1,4 +1,4 @@
-//! The work of a run: units side by side, each chunk written when it is whole.
+//! The work of a run: units in parallel; each chunk is written when it is complete.
 
 use super::folder::BatchFolder;
 use super::tally::OutcomeTally;
@@ -18,20 +18,20 @@ pub struct OpenChunk {
     pub chunk: BatchChunk,
     /// Name of its files.
     pub name: String,
-    /// It was there when the run began.
+    /// Whether it existed when the run began.
     pub is_there: bool,
-    /// Another process has made it since.
+    /// Whether another process has made it since.
     taken: OnceLock<bool>,
 }
 
 impl OpenChunk {
-    /// A chunk with its name, and whether it is there.
+    /// A chunk with its name, and whether it exists.
     pub fn new(chunk: BatchChunk, name: String, is_there: bool) -> Self {
         Self { chunk, name, is_there, taken: OnceLock::new() }
     }
 }
 
-/// Makes chunks, and counts what came of their units.
+/// Makes chunks, and counts the outcomes of their units.
 pub struct ChunkWork<'a> {
     folder: &'a BatchFolder,
     worker: &'a UnitWorker<'a>,
@@ -41,7 +41,7 @@ pub struct ChunkWork<'a> {
 }
 
 impl<'a> ChunkWork<'a> {
-    /// With so many threads.
+    /// A worker with this number of threads.
     pub fn new(
         folder: &'a BatchFolder,
         worker: &'a UnitWorker<'a>,
@@ -51,15 +51,15 @@ impl<'a> ChunkWork<'a> {
         Self { folder, worker, workers, progress, tally: OutcomeTally::default() }
     }
 
-    /// How the units ended that were made.
+    /// The outcomes of the units that were made.
     pub fn tally(self) -> OutcomeTally {
         self.tally
     }
 
-    /// Makes these chunks, all units side by side. `unit` gives the unit of a number.
+    /// Makes these chunks, with all units in parallel. `unit` returns the unit with a number.
     ///
     /// # Errors
-    /// Exit 1 when a chunk is there with other bytes, or cannot be written; 3 when the folder lacks a scene.
+    /// Exit 1 when a chunk exists with other bytes, or cannot be written; 3 when the folder lacks a scene.
     pub fn make(
         &mut self,
         chunks: &[OpenChunk],

@@ -1,4 +1,4 @@
-//! One unit: from its number to its row, and to the line of its result where that is kept.
+//! Processes one unit: from its number to its row, and to the line of its result if it is kept.
 
 use super::folder::BatchFolder;
 use super::record::BatchRecord;
@@ -18,29 +18,29 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// Scenes in memory: units of one scene follow each other.
+/// Number of scenes in memory: the units of one scene are consecutive.
 const SCENES: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 
-/// A scene that is read by the first who needs it.
+/// A scene that the first thread that needs it reads.
 type Slot = Arc<OnceLock<Result<Arc<Scene>, Failure>>>;
 
-/// What came of a unit.
+/// The output of a unit.
 pub struct UnitLines {
     /// Its row.
     pub row: BatchRow,
-    /// The lines of its result, where it is kept.
+    /// The lines of its result, if it is kept.
     pub lines: Option<CaseLines>,
 }
 
-/// The lines of a result that is kept.
+/// The lines of a kept result.
 pub struct CaseLines {
     /// Its reference.
     pub case: String,
-    /// Its motion, for pictures; empty where nobody is seen.
+    /// Its motion, for pictures; empty if no road user is visible.
     pub motion: String,
 }
 
-/// A result that was made again.
+/// A regenerated result.
 pub struct RemadeResult {
     /// The scene with its futures.
     pub scene: Scene,
@@ -54,27 +54,27 @@ pub struct UnitWorker<'a> {
     record: &'a BatchRecord,
     engine: UnitEngine<'a>,
     scenes: Mutex<LruCache<usize, Slot>>,
-    /// Time inside the engine, microseconds of all threads.
+    /// Time in the engine, microseconds, summed over threads.
     engine_us: AtomicU64,
 }
 
 impl<'a> UnitWorker<'a> {
-    /// For the units of a folder.
+    /// A worker for the units of a folder.
     pub fn new(folder: &'a BatchFolder, record: &'a BatchRecord, operations: &'a Operations) -> Self {
         let scenes = Mutex::new(LruCache::new(SCENES));
         let engine = UnitEngine::new(&record.plan, &record.scenes, operations);
         Self { folder, record, engine, scenes, engine_us: AtomicU64::new(0) }
     }
 
-    /// Time inside the engine, the sum over all threads.
+    /// Time in the engine, summed over threads.
     pub fn engine_time(&self) -> Duration {
         Duration::from_micros(self.engine_us.load(Ordering::Relaxed))
     }
 
-    /// Works on a unit.
+    /// Processes a unit.
     ///
     /// # Errors
-    /// Exit 3 when the folder lacks the scene. All else that can go wrong is a row.
+    /// Exit 3 when the folder lacks the scene. All other errors become a row.
     pub fn end(&self, unit: &BatchUnit) -> Result<UnitLines, Failure> {
         let missing = || Failure::input(format!("{}: no unit {}", self.folder.shown(), unit.id.hex()));
         let row = self.engine.row(unit).ok_or_else(missing)?;
@@ -94,7 +94,7 @@ impl<'a> UnitWorker<'a> {
         Ok(UnitLines { row, lines })
     }
 
-    /// Makes the result of a unit again; `None` where it has none.
+    /// Regenerates the result of a unit; `None` if it has none.
     ///
     /// # Errors
     /// Exit 3 when the folder lacks the scene.

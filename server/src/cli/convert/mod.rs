@@ -1,4 +1,4 @@
-//! `dragtraffic convert`, known as `import` and `export` too: files of any format to files of any format.
+//! `dragtraffic convert`, also known as `import` and `export`: converts files between formats.
 
 mod one;
 
@@ -61,10 +61,10 @@ pub struct ConvertArgs {
     force: bool,
 }
 
-/// Id of a format that is written.
+/// Id of a format that can be written.
 ///
 /// # Errors
-/// Names of those that are.
+/// The names of these formats.
 pub(super) fn writable(text: &str) -> Result<&'static str, String> {
     format_of(text, "written", |info| info.export)
 }
@@ -79,27 +79,27 @@ fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static 
     found.map(|info| info.id).ok_or_else(|| format!("{} can be {done}", ids(can)))
 }
 
-/// Ids of the formats for which this holds.
+/// Ids of the formats that satisfy `can`.
 pub(super) fn ids(can: fn(&Info) -> bool) -> String {
     let infos = FORMATS.iter().map(|format| format.info()).filter(can);
     infos.map(|info| info.id).collect::<Vec<_>>().join(", ")
 }
 
-/// Codes of what was lost, with a sentence each.
+/// Codes of losses, with one sentence each.
 type Losses = BTreeMap<&'static str, String>;
 
-/// What became of one file.
+/// The result of one file.
 #[derive(Default)]
 struct Converted {
-    /// For the one output of all, unless they went to files of their own.
+    /// The parts for a single output file; empty if the scenes went to separate files.
     parts: Vec<Vec<u8>>,
     losses: Losses,
     lines: Vec<String>,
-    /// To be read when its turn has come: a file of many scenes on its way into one output.
+    /// Whether it is read later, in its turn: a file of many scenes for a single output.
     deferred: bool,
 }
 
-/// Turns files of any format into another.
+/// Converts files to another format.
 ///
 /// # Errors
 /// Exit 2, 3, 4, 5, 8.
@@ -108,7 +108,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         let bytes = path.as_deref().map(output::read).transpose()?;
         Ok::<_, Failure>(bytes.map(|bytes| Arc::new(bytes) as Arc<dyn formats::Source>))
     };
-    // A file of that name comes before a data set.
+    // A file of that name takes precedence over a data set.
     let named = args.columns.as_deref().filter(|path| !path.exists()).and_then(|path| path.to_str());
     let columns = match named.and_then(formats::table::preset) {
         Some(text) => Some(Arc::new(text.as_bytes()) as Arc<dyn formats::Source>),
@@ -160,7 +160,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
                 tally.add(taken, only, &progress);
                 progress.step();
             });
-            // What cannot be written whole is not written at all.
+            // An output that cannot be complete is not written at all.
             if let (Some(failure), false) = (failed, only) {
                 return Err(failure);
             }
@@ -179,7 +179,7 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
     tally.end("files")
 }
 
-/// Lists once what is not in the output: in sentences for one file, by code for many.
+/// Lists the losses once: as sentences for one file, by code for many.
 fn tell(losses: &Losses, only: bool, args: &ConvertArgs, common: &Common) {
     if only {
         let lines = losses.iter().map(|(code, detail)| format!("not in {}: {code}: {detail}", args.to));
@@ -222,7 +222,7 @@ fn sample_missing(args: &ConvertArgs, problem: api::Problem) -> Failure {
     }
 }
 
-/// A file a scene.
+/// One file per scene.
 fn to_folder(
     source: &Source,
     args: &ConvertArgs,
@@ -247,14 +247,14 @@ fn to_folder(
     Ok(converted)
 }
 
-/// The parts of one file for the output of all.
+/// The parts of one file for the single output.
 fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Converted, Failure> {
     let mut converted = Converted::default();
     let mut count = 0;
     let read = source.each(reading, &mut |item| {
         count += 1;
         if count > 1 {
-            // More than one at a time would be in memory: they follow when their turn has come.
+            // Only one file of many scenes is in memory at a time, so this one waits for its turn.
             converted = Converted { deferred: true, ..Converted::default() };
             return Err(Failure::new(Exit::Failure, ""));
         }
@@ -266,7 +266,7 @@ fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Conv
     if converted.deferred { Ok(converted) } else { read.map(|_| converted) }
 }
 
-/// For an output that is named `.xosc`, the scenario without its zip; the map that it names goes beside it.
+/// For an output named `.xosc`: the scenario without its zip, and beside it the map that it names.
 fn scenario_alone(args: &ConvertArgs, bytes: Vec<u8>) -> Result<Vec<u8>, Failure> {
     let output = args.output.as_deref();
     let named = output.filter(|path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("xosc")));
@@ -283,7 +283,7 @@ fn scenario_alone(args: &ConvertArgs, bytes: Vec<u8>) -> Result<Vec<u8>, Failure
     Ok(scenario)
 }
 
-/// A file of many scenes, one after the other into the output.
+/// Writes a file of many scenes to the output, one scene after the other.
 fn streamed(
     source: &Source,
     args: &ConvertArgs,

@@ -1,4 +1,4 @@
-//! The one output of many scenes.
+//! The single output of many scenes.
 
 use super::ConvertArgs;
 use crate::cli::{Exit, Failure, output};
@@ -7,21 +7,21 @@ use formats::registry;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The one output of all scenes: a file that appears when it is whole, or stdout.
+/// The single output of all scenes: a file that appears when it is complete, or stdout.
 pub struct One {
     file: Option<(PathBuf, Whole)>,
-    /// First bytes of the file, before any scene.
+    /// First bytes of the file, before the first scene.
     heading: Vec<u8>,
-    /// The format holds many scenes.
+    /// Whether the format holds many scenes.
     pub many: bool,
-    /// The only scene of a format that holds one.
+    /// The scene, for a format that holds only one.
     only: Option<Vec<u8>>,
-    /// Bytes that are counted instead of printed on a terminal.
+    /// Number of bytes, if they are counted instead of printed to a terminal.
     unprinted: Option<usize>,
 }
 
 impl One {
-    /// Opens it; what exists is kept unless it is to be overwritten.
+    /// Opens the output; an existing file is kept unless `--force` is given.
     ///
     /// # Errors
     /// Exit 1, 8.
@@ -29,7 +29,7 @@ impl One {
         let format = registry::by_id(args.to);
         let many = format.is_some_and(|format| format.info().many);
         let heading = format.and_then(|format| format.export(&[], &formats::ExportOptions::default()).ok());
-        // A format that is only written as a whole takes one scene here.
+        // A format without a heading can only be written as a whole, so it takes one scene here.
         let many = many && heading.is_some();
         let heading = heading.filter(|_| many).map_or_else(Vec::new, |exported| exported.bytes);
         let path = args.output.as_deref().filter(|path| *path != Path::new("-"));
@@ -44,7 +44,7 @@ impl One {
         Ok(Self { file: path.map(create).transpose()?, heading, many, only: None, unprinted })
     }
 
-    /// A scene in the format.
+    /// Adds a scene in the format.
     ///
     /// # Errors
     /// Exit 1, and 2 for a second scene of a format that holds one.
@@ -74,7 +74,7 @@ impl One {
         Ok(())
     }
 
-    /// Puts the file in its place.
+    /// Completes the file, which then appears.
     ///
     /// # Errors
     /// Exit 1.
@@ -87,14 +87,14 @@ impl One {
         }
         let Some((path, file)) = self.file else { return Ok(()) };
         match file.finish() {
-            // A reader of a pipe that has closed its end is no failure.
+            // A closed pipe is not a failure.
             Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
             done => done.map_err(|error| unwritable(&path, &error)),
         }
     }
 }
 
-/// Why several scenes do not go into one file.
+/// The failure of several scenes in a format that holds one.
 pub fn too_many() -> Failure {
     Failure::usage(
         "several scenes: pick one with --index, or give a folder, --output DIR/, for one file per scene",

@@ -1,4 +1,4 @@
-//! From flags and a scene to the equivalent request.
+//! Converts flags and a scene to the equivalent request.
 
 use super::GenerateArgs;
 use crate::cli::values::For;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The request for one scene and seed; with a casting, only for its actor. `scored`: the reply needs scores.
 ///
 /// # Errors
-/// Exit 2 for what the scene does not have, 3 for a file of conditions that cannot be read.
+/// Exit 2 for ids that the scene does not have, 3 for a file of conditions that cannot be read.
 pub fn request(
     args: &GenerateArgs,
     scene: &Scene,
@@ -25,7 +25,7 @@ pub fn request(
     let step = args.start_step();
     let agents = match casting {
         Some(casting) => Some(AgentChoice::Ids(vec![casting.actor.clone()])),
-        // Whom the flags send somewhere, else all: the request's own rule.
+        // Road users with a goal from the flags, else all: the request's own default.
         None if args.agents.is_empty() => None,
         None => {
             let ids = ids(&args.agents, scene, step, "--agents")?;
@@ -57,7 +57,7 @@ pub fn request(
     })
 }
 
-/// Conditions of road users named by a flag; all others keep those of the scene.
+/// Conditions of the road users that a flag names; all others keep the scene's.
 fn conditions(
     args: &GenerateArgs,
     scene: &Scene,
@@ -85,7 +85,7 @@ fn conditions(
     for id in logged(args, scene)? {
         let Some(agent) = scene.agent(&id) else { continue };
         let Some(goal) = goal_of_log(args, agent) else {
-            // A selector matches several road users; an id matches one.
+            // A selector matches several road users, an id one.
             if args.goal_from_log.contains(&AgentSelector::Id(id.clone())) {
                 let message =
                     format!("--goal-from-log {id}: no state is recorded 0.5 s or more after the start");
@@ -118,7 +118,7 @@ fn conditions(
     Ok(docs)
 }
 
-/// The ids that the selectors of a flag match; `None` for all.
+/// The ids that a flag's selectors match; `None` for all.
 fn ids(
     who: &[AgentSelector],
     scene: &Scene,
@@ -136,7 +136,7 @@ fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure>
     }
 }
 
-/// Whose goals come from the recording.
+/// Ids of the road users whose goals come from the recording.
 fn logged(args: &GenerateArgs, scene: &Scene) -> Result<Vec<String>, Failure> {
     if args.goal_from_log.is_empty() {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! What is asked of single road users, as values of flags: goals, starts, sizes.
+//! Values of the flags about single road users: goals, starts, sizes.
 
 use crate::cli::values::{number, within};
 use api::generate::request::more_than_a_turn;
@@ -7,11 +7,11 @@ use formats::native::{
 };
 use scene::relation::{AFTER_S, GAP_M, GAP_S, LANES_LEFT, SLOWER_MPS};
 
-/// Fastest that any road user may be asked to be, m/s.
+/// Highest speed of a condition, m/s.
 const FASTEST_MPS: f64 = 60.0;
-/// Largest angle: a turn, radians.
+/// Largest angle of a condition: a full turn, radians.
 const ANGLE_RAD: f64 = api::generate::request::MOST_ANGLE_RAD;
-/// Latest goal, seconds.
+/// Latest time of a goal, seconds.
 const LATEST_S: f64 = 80.0;
 
 /// A goal and its frame of reference.
@@ -19,7 +19,7 @@ const LATEST_S: f64 = 80.0;
 pub struct AskedGoal {
     /// The goal.
     pub goal: GoalDoc,
-    /// Scene, or from the start pose.
+    /// Its frame: the scene, or the start pose.
     pub frame: GoalFrame,
 }
 
@@ -49,7 +49,7 @@ const OFFSET: [Key; 2] = [
     key("left", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
 ];
 const TURN: Key = key("turn", -ANGLE_RAD, ANGLE_RAD, RADIANS);
-/// Of a goal that is relative to another road user.
+/// Keys of a goal relative to another road user.
 const RELATIVE: [Key; 6] = [
     key("ahead", GAP_M.0, GAP_M.1, "m"),
     key("behind", GAP_M.0, GAP_M.1, "m"),
@@ -69,7 +69,8 @@ impl Key {
     }
 }
 
-/// Values by key, as `ahead:40,speed:0`, or by place in the order of the keys, as `61,3.4,12`. An empty place is free.
+/// Parses values by key, as `ahead:40,speed:0`, or by position in the order of the keys, as `61,3.4,12`. An
+/// empty position is free.
 fn fields<'k>(text: &str, keys: &[&'k Key], by_place: usize) -> Result<Vec<(&'k str, f64)>, String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     if parts.iter().all(|part| !part.contains(':')) {
@@ -153,7 +154,7 @@ fn relative_goal(to: &str, text: &str) -> Result<AskedGoal, String> {
     Ok(AskedGoal { goal, frame: GoalFrame::Scene })
 }
 
-/// The id after `of:` and the other parts, if there is one.
+/// The id after `of:` and the remaining keys, if there is one.
 fn relative(text: &str) -> Option<(&str, String)> {
     let id = |part: &&str| part.trim().strip_prefix("of:").is_some();
     let to = text.split(',').find(id)?.trim().strip_prefix("of:")?.trim();

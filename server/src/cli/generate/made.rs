@@ -1,4 +1,4 @@
-//! One answer: a scene and a seed to a scene with its futures.
+//! One answer: from a scene and a seed to a scene with its futures.
 
 use super::{GenerateArgs, ask};
 use crate::cli::inputs::Source;
@@ -15,48 +15,48 @@ use scene::score::ScoreInput;
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
 
-/// What makes answers.
+/// Makes answers.
 pub struct Maker<'a> {
     /// Flags.
     pub args: &'a GenerateArgs,
     /// The operations.
     pub operations: &'a Operations,
-    /// Figures are wanted.
+    /// Whether figures are needed.
     pub scored: bool,
 }
 
-/// What came of a scene and a seed.
+/// The result for a scene and a seed.
 pub enum MakeOutcome {
     /// An answer.
     Made(Box<MadeScene>),
-    /// The template has no actor here.
+    /// No road user of the scene fits the template.
     NobodyFits(Template),
 }
 
 /// An answer.
 pub struct MadeScene {
-    /// With the samples that are kept.
+    /// The scene with the kept samples.
     pub scene: Scene,
-    /// The roles of a template.
+    /// The casting of a template.
     pub casting: Option<Casting>,
     /// The requested road user, if it is a single one.
     pub actor: Option<String>,
-    /// What was asked of each and whether it can be had.
+    /// Conditions of each road user, and whether they are met.
     pub resolved: BTreeMap<String, Resolved>,
-    /// Unlikely things.
+    /// Warnings.
     pub warnings: Vec<Warning>,
-    /// Number of each kept sample among all, and its figures where they are wanted.
+    /// Index of each kept sample among all, and its figures if they are needed.
     pub samples: Vec<(usize, Option<Figures>)>,
-    /// How many there were.
+    /// Number of all samples.
     pub all_samples: usize,
     /// Road users outside the call whose futures the scene keeps.
     pub kept: Vec<String>,
-    /// Names what it follows from, in six characters.
+    /// Code of the answer, six characters.
     pub code: String,
 }
 
 impl Maker<'_> {
-    /// Works out an answer.
+    /// Makes an answer.
     ///
     /// # Errors
     /// Exit 1, 2 or 3.
@@ -128,13 +128,13 @@ impl Maker<'_> {
 }
 
 impl MadeScene {
-    /// The file.
+    /// The scene document.
     pub fn bytes(&self) -> Vec<u8> {
         native::write_doc(&SceneDoc::from_scene(&self.scene, MapForm::Inline))
     }
 }
 
-/// Nothing, so that equal calls give equal files; the time that SOURCE_DATE_EPOCH names where it is set.
+/// Empty, so that equal calls give equal files; the time of SOURCE_DATE_EPOCH if it is set.
 pub fn created_at() -> String {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let time = given.and_then(|seconds| UNIX_EPOCH.checked_add(Duration::from_secs(seconds)));

@@ -1,4 +1,4 @@
-//! What is in a folder of results: a line for each sample that was kept.
+//! The manifest of a folder of results: one line per kept sample.
 
 use super::made::MadeScene;
 use crate::cli::Failure;
@@ -7,9 +7,9 @@ use batch::engine::goal_word;
 use batch::figures::Figures;
 use scene::scenarios::Template;
 
-/// Its name in the folder.
+/// Name of its file.
 pub const NAME: &str = "manifest.csv";
-/// Figures of the score that it has; the rest are a `score --csv` away.
+/// Its figures of the score; `score --csv` prints all.
 const FIGURES: [&str; 8] = [
     "actor.min_ttc_s",
     "min_ttc_s",
@@ -30,7 +30,8 @@ pub fn table() -> Table {
     table
 }
 
-/// The lines of one result. The place in the file is the sample's; among all that were made it may be another.
+/// The lines of one result. The index is that of the sample in the file, which may differ from its index
+/// among all samples.
 pub fn rows(
     made: &MadeScene,
     file: &str,

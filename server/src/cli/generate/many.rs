@@ -1,4 +1,5 @@
-//! Many scenes, templates and seeds in one call: side by side, a file each, what is kept in a table.
+//! Many scenes, templates and seeds in one call: in parallel, one file each, with a table of the kept
+//! results.
 
 use super::GenerateArgs;
 use super::made::{MadeScene, MakeOutcome, Maker};
@@ -14,10 +15,10 @@ use scene::scenarios::Template;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Parts that each worker gets of the whole work, at least: so that none is left with much at the end.
+/// Least number of parts per worker, so that no worker is left with much work at the end.
 const PARTS: usize = 4;
 
-/// A template, or none, and a seed.
+/// A template, if any, and a seed.
 type Wish = (Option<Template>, u64);
 
 /// Some of the wishes for one file.
@@ -26,7 +27,7 @@ struct WishBatch<'a> {
     wishes: &'a [Wish],
 }
 
-/// How one wish for one scene ended.
+/// Outcome of one wish for one scene.
 struct WishEnd {
     scene: String,
     wish: Wish,
@@ -34,15 +35,15 @@ struct WishEnd {
 }
 
 enum WishOutcome {
-    /// Written: one line for people, and those of the table.
+    /// Written: a line for the terminal, and lines of the table.
     Kept(String, Vec<Vec<String>>),
-    /// No sample holds the condition.
+    /// No sample satisfies the condition.
     LeftOut,
     NobodyFits,
     Failed(Failure),
 }
 
-/// What came of all of one template.
+/// Counts of one template.
 #[derive(Default)]
 struct Sum {
     all: usize,
@@ -53,14 +54,14 @@ struct Sum {
 /// Generates everything.
 ///
 /// # Errors
-/// Exit 4 when some failed, when nothing is kept, or under `--strict` when a template fits no road user; 8 when the folder has
-/// results already.
+/// Exit 4 when some failed, when nothing is kept, or under `--strict` when a template fits no road user; 8
+/// when the folder already has results.
 pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common) -> Result<(), Failure> {
     let folder = Folder::new(path, args.force)?;
     output::keep(&folder.at(manifest::NAME), args.force)?;
     let wishes = wishes(args);
     let workers = args.inputs.workers();
-    // A call about one scene has its seeds side by side.
+    // A call with one scene runs its seeds in parallel.
     let parts = (PARTS * workers).div_ceil(sources.len().max(1));
     let size = wishes.len().div_ceil(parts).max(1);
     let parts: Vec<WishBatch<'_>> = sources
@@ -83,7 +84,7 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
         output::complain(&format!("the results are listed in {}", written.display()));
     }
     tally.end("generations")?;
-    // As for one file: nothing to show for the call is no success.
+    // As for a single file: a call without any result is a failure.
     if sums.values().all(|sum| sum.kept == 0) {
         return Err(Failure::new(Exit::Partly, "no result was kept"));
     }
@@ -117,7 +118,7 @@ impl WishBatch<'_> {
                 let how = self.one(maker, folder, &item.scene, &item.name, *wish);
                 let how = how.unwrap_or_else(WishOutcome::Failed);
                 ends.push(WishEnd { scene: item.name.clone(), wish: *wish, how });
-                // How many scenes the files have is not known: the first of each counts for all.
+                // The number of scenes in the files is unknown, so only the first scene of each counts.
                 if first {
                     progress.step();
                 }
@@ -153,7 +154,7 @@ impl WishBatch<'_> {
     }
 }
 
-/// A result in one line.
+/// One line about a result.
 fn words(made: &MadeScene) -> String {
     let mut parts = Vec::new();
     parts.extend(made.casting.as_ref().map(|casting| casting.words.clone()));
@@ -181,14 +182,14 @@ fn figures_words(figures: &Figures, actor: bool) -> String {
     format!("{whose}minimum TTC {ttc}, {collisions} collision{}", if collisions == 1.0 { "" } else { "s" })
 }
 
-/// What is gathered while results come in.
+/// Collects results as they arrive.
 struct BatchReport<'a> {
     progress: &'a Progress,
     only: bool,
     table: crate::cli::score::table::Table,
     sums: BTreeMap<Option<Template>, Sum>,
     tally: Tally,
-    /// Messages printed already: unreadable files, and scenes that a template does not fit.
+    /// Messages that were printed already: unreadable files, and scenes without a fit for a template.
     told: BTreeSet<(String, Option<Template>)>,
 }
 
@@ -207,7 +208,7 @@ impl<'a> BatchReport<'a> {
     fn add(&mut self, part: &WishBatch<'_>, ends: Result<Vec<WishEnd>, Failure>) {
         match ends {
             Ok(ends) => ends.into_iter().for_each(|end| self.end(end)),
-            // Other parts of the same file fail alike: the failure is printed and counted once.
+            // Other parts of the same file fail in the same way, so the failure is printed and counted once.
             Err(failure) if self.told.insert((part.source.shown(), None)) => {
                 self.tally.add(Err(failure), self.only, self.progress);
             }

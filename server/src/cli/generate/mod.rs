@@ -1,4 +1,4 @@
-//! `dragtraffic generate`: the same work as `POST /v1/generate`, from files to files; many scenes, seeds and
+//! `dragtraffic generate`: the operation of `POST /v1/generate`, from files to files; many scenes, seeds and
 //! templates in one call.
 
 mod ask;
@@ -27,9 +27,9 @@ use scene::scenarios::Template;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// Heading of what is asked of single road users.
+/// Heading of the flags about single road users.
 const ROAD_USERS: &str = "Road users";
-/// Heading of what is drawn.
+/// Heading of the flags about drawing.
 const DRAWING: &str = "Drawing and planning";
 
 /// Flags of `generate`.

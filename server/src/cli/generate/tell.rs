@@ -9,12 +9,12 @@ use experts::{Limiting, ReachReport, Resolved, Source as From, WarningCode};
 use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
 use scene::{AgentFutures, Future};
 
-/// Faults of a future that are named.
+/// Number of faults that are named per future.
 const MOST_FAULTS: usize = 3;
 /// Goal errors below this are not printed, metres.
 const NEAR_M: f64 = 0.005;
 
-/// All lines of an answer, those of the first sample; road users with a goal come first, then those that react.
+/// All lines of an answer, for the first sample. Road users with a goal come first, then those that react.
 pub fn lines(made: &MadeScene, args: &GenerateArgs, common: &Common) -> Vec<String> {
     let mut lines: Vec<String> = made.casting.iter().map(|c| format!("template: {}", c.words)).collect();
     let sample = made.scene.generated.as_ref().and_then(|generated| generated.samples.first());
@@ -25,7 +25,7 @@ pub fn lines(made: &MadeScene, args: &GenerateArgs, common: &Common) -> Vec<Stri
     });
     let of_agents = agents.into_iter().map(|(id, f)| format!("{id}: {}", of_one(made.resolved.get(id), f)));
     lines.extend(common.listed(of_agents.collect(), "road users"));
-    // What the lines have said already is not said again.
+    // Facts of earlier lines are not repeated.
     let warnings = made.warnings.iter().filter(|warning| warning.code != WarningCode::GoalUnreachable);
     let of_warnings = warnings.map(|warning| {
         let subject = warning.agent.as_deref().unwrap_or("scene");
@@ -44,7 +44,7 @@ pub fn lines(made: &MadeScene, args: &GenerateArgs, common: &Common) -> Vec<Stri
     lines
 }
 
-/// What came of one road user, in one line.
+/// One line about a road user.
 pub fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
     let mut parts = Vec::new();
     parts.extend(resolved.and_then(goal));
@@ -64,7 +64,7 @@ pub fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
     parts.join("; ")
 }
 
-/// Is the requested goal met? `None` without a goal.
+/// Whether the requested goal is met; `None` without a goal.
 pub fn goal(resolved: &Resolved) -> Option<String> {
     let goal = &resolved.goal;
     if let ReachReport::Unreachable { limiting: Limiting::Relation, words, .. } = &resolved.reach {
@@ -153,8 +153,8 @@ fn fault(fault: &Fault) -> String {
     format!("{what}{with} at {:.1} s", fault.time_s)
 }
 
-/// Counts the road users that enter later and replay the recording, in a scene that is generated whole: the
-/// recording does not react to the generated motion.
+/// Counts the road users that enter later and replay the recording, in a scene that is generated completely:
+/// the recording does not react to the generated motion.
 fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
     let whole = args.agents.is_empty() && args.react.is_empty() && made.casting.is_none();
     let samples = made.scene.generated.iter().flat_map(|generated| &generated.samples);
@@ -168,7 +168,7 @@ fn latecomers(made: &MadeScene, args: &GenerateArgs) -> Option<String> {
     (whole && count > 0).then(|| entering(count))
 }
 
-/// Road users that enter later, by their number.
+/// Number of road users that enter later, as text.
 fn entering(count: usize) -> String {
     match count {
         1 => "1 road user enters later and replays the recording; --react lets it react".into(),

@@ -1,4 +1,4 @@
-//! Files behind the inputs of a command: those of folders and patterns, and what each is called.
+//! Resolves the inputs of a command: files of folders and patterns, and their names in results.
 
 use super::Source;
 use crate::cli::Failure;
@@ -10,20 +10,20 @@ use std::path::{Path, PathBuf};
 /// Most files of one call.
 const MOST_FILES: usize = 1_000_000;
 
-/// Names that were given.
+/// Names in use.
 #[derive(Default)]
 pub struct Known(HashMap<String, usize>);
 
 impl Known {
-    /// The name, with a number behind it where another one has it.
+    /// The name, with a number appended if it is in use.
     pub fn name(&mut self, name: String) -> String {
         let count = self.0.entry(name.clone()).and_modify(|count| *count += 1).or_insert(1);
         if *count > 1 { format!("{name}-{count}") } else { name }
     }
 }
 
-/// The files, in the order given, those of a folder or pattern by name. Of the recordings of a folder these are the
-/// tables of their tracks, by the names that a file of columns or the public data sets tell.
+/// The files in the given order; those of a folder or pattern are sorted by name. For recordings in a folder,
+/// these are the tables of tracks, by the names in a column file or of the public data sets.
 ///
 /// # Errors
 /// Exit 3 when a folder or pattern has none.
@@ -44,7 +44,8 @@ pub fn sources(inputs: &[PathBuf], columns: Option<&dyn formats::Source>) -> Res
     Ok(paths.into_iter().map(named).collect())
 }
 
-/// The files of patterns among the inputs, and all else as it is: for commands that look into folders themselves.
+/// Replaces patterns by their files and leaves other inputs unchanged, for commands that read folders
+/// themselves.
 ///
 /// # Errors
 /// Exit 3 when a pattern has none.
@@ -60,7 +61,7 @@ pub fn patterns(inputs: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// The text of a pattern that is no file's name.
+/// The text of an input that is a pattern and not an existing file.
 fn as_pattern(input: &Path) -> Option<&str> {
     input.to_str().filter(|text| text.contains(['*', '?', '[']) && !input.exists())
 }
@@ -76,7 +77,7 @@ fn of_folder(folder: &Path, columns: Option<&dyn formats::Source>) -> Result<Vec
     let names: Vec<String> = files.iter().map(name).collect();
     let list: Vec<&str> = names.iter().map(String::as_str).collect();
     let tracks: BTreeSet<usize> = table::firsts(&list, columns).into_iter().collect();
-    // The maps beside recordings lie under them.
+    // The maps of recordings lie in subfolders.
     let is_input = |at: usize, path: &Path, name: &str| {
         tracks.contains(&at) || is_scene(path) && (tracks.is_empty() || !table::is_map(name))
     };
@@ -93,16 +94,16 @@ fn of_folder(folder: &Path, columns: Option<&dyn formats::Source>) -> Result<Vec
     Ok(files)
 }
 
-/// Does the name of a file in a folder qualify it as an input?
+/// Whether the name of a file in a folder makes it an input.
 fn is_scene(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if name.starts_with('.') || name.ends_with(".tmp") {
         return false;
     }
-    // Tables that commands write lie beside scenes: manifest.csv is none.
+    // Tables that commands write, such as manifest.csv, are no inputs.
     let mut readable =
         FORMATS.iter().map(|format| format.info()).filter(|info| info.import && info.id != "csv");
-    // Shards have a number behind the ending.
+    // Names of shards have a number after the extension.
     name.contains("tfrecord") || readable.any(|info| info.extensions.iter().any(|end| has_end(&name, end)))
 }
 
@@ -122,7 +123,7 @@ fn of_pattern(pattern: &str) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// The file's name without what its endings say.
+/// The file's name without its extensions.
 fn label(path: &Path) -> String {
     if path == Path::new("-") {
         return "stdin".into();
@@ -210,7 +211,7 @@ mod tests {
         };
         assert_eq!(labels(None), ["00_tracks", "01_tracks", "a", "vehicle_tracks_003"]);
         assert_eq!(labels(Some(&"ind".as_bytes())), ["00_tracks", "01_tracks", "a"]);
-        // Of other tables nothing is known, so maps are scenes of their own.
+        // The columns of other tables are unknown, so their maps are separate scenes.
         assert_eq!(labels(Some(&"sind".as_bytes())), ["a", "here", "there"]);
     }
 }

@@ -1,4 +1,4 @@
-//! Scenes to work on: files, folders and patterns, read a few scenes at a time.
+//! Input scenes: files, folders and patterns, read a few scenes at a time.
 
 mod find;
 
@@ -18,7 +18,7 @@ use scene::Scene;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Scenes of one file that are in memory at a time.
+/// Scenes of one file in memory at a time.
 const AT_A_TIME: usize = 16;
 
 /// Which files, for commands that take many.
@@ -33,23 +33,23 @@ pub struct Inputs {
     pub jobs: Option<u16>,
 }
 
-/// A file of scenes and what it is called in results.
+/// A file of scenes, and its name in results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// Where.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its name without endings; another file of the same name has a number behind it.
+    /// Its name without extensions; a number is appended if another file has the same name.
     pub label: String,
 }
 
 /// How files are read.
 #[derive(Clone, Debug)]
 pub struct Reading {
-    /// Format; recognised when absent.
+    /// Format; detected if absent.
     pub from: Option<String>,
-    /// What comes with each file.
+    /// Inputs that accompany each file.
     pub beside: Companions,
-    /// Scenes of each file; all when absent.
+    /// Scenes of each file; all if absent.
     pub index: Option<Range<usize>>,
 }
 
@@ -63,14 +63,14 @@ impl Default for Reading {
 pub struct Item {
     /// The scene.
     pub scene: Scene,
-    /// What it is called in results.
+    /// Its name in results.
     pub name: String,
     /// What its reader changed or left out: code and sentence.
     pub notes: Vec<formats::ImportWarning>,
 }
 
 impl Inputs {
-    /// The files, in the order given, those of a folder or pattern by name.
+    /// The files in the given order; those of a folder or pattern are sorted by name.
     ///
     /// # Errors
     /// Exit 3 when a folder or pattern has none.
@@ -78,7 +78,7 @@ impl Inputs {
         self.sources_by(None)
     }
 
-    /// The same where a file of columns says how the tables of a recording are called.
+    /// The same with the names of a recording's tables from a column file.
     ///
     /// # Errors
     /// Exit 3 when a folder or pattern has none.
@@ -86,26 +86,26 @@ impl Inputs {
         find::sources(&self.scenes, columns)
     }
 
-    /// Workers.
+    /// Number of workers.
     pub fn workers(&self) -> usize {
         self.jobs.map_or_else(super::parallel::cores, usize::from)
     }
 }
 
 impl Source {
-    /// The file as messages name it.
+    /// The file, for messages.
     pub fn shown(&self) -> String {
         self.path.display().to_string()
     }
 
-    /// What comes with the file, with what is read with it of its folder.
+    /// The accompanying inputs, including those from the file's folder.
     fn with_folder(&self, beside: &Companions) -> Companions {
         let folder =
             (self.path != Path::new("-")).then(|| folder::beside(&self.path, beside.columns.as_deref()));
         Companions { folder: folder.flatten(), ..beside.clone() }
     }
 
-    /// The file's format is one that has many scenes in a file.
+    /// Whether the file's format holds many scenes.
     fn holds_many(bytes: &[u8], reading: &Reading, name: &str) -> bool {
         let format = match &reading.from {
             Some(id) => registry::by_id(known_format(id)),
@@ -114,11 +114,11 @@ impl Source {
         format.is_none_or(|format| format.info().many)
     }
 
-    /// Reads scene after scene, passes each to `take` and returns their number. Records that are no scenes are printed
-    /// and skipped.
+    /// Reads scene after scene, passes each to `take` and returns their number. Records that are not scenes
+    /// are printed and skipped.
     ///
     /// # Errors
-    /// Exit 3, and what `take` reports.
+    /// Exit 3, and the errors of `take`.
     pub fn each(
         &self,
         reading: &Reading,
@@ -167,10 +167,10 @@ impl Source {
         Ok(count)
     }
 
-    /// Reads scene after scene, and hands over what is no scene too: its name, and the problem.
+    /// The same, but `take` also gets records that are not scenes: their name and problem.
     ///
     /// # Errors
-    /// What `take` reports.
+    /// The errors of `take`.
     pub fn each_or_problem(
         &self,
         take: &mut dyn FnMut(String, Result<Item, Problem>) -> Result<(), Failure>,
@@ -209,13 +209,13 @@ impl Source {
         }
     }
 
-    /// A scene with its name: that of the file, or its own where the file has many.
+    /// A scene with its name: that of the file, or its own in a file of many.
     fn item(&self, many: bool, known: &mut Known, index: usize, read: ReadScene) -> Item {
         let name = if many { known.name(self.name_of(&read.scene, index)) } else { self.label.clone() };
         Item { scene: read.scene, name, notes: read.warnings }
     }
 
-    /// A scene of a file with many is called by its id in the source, else by its place.
+    /// Name of a scene in a file of many: its id in the source, else its index.
     fn name_of(&self, scene: &Scene, index: usize) -> String {
         let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
         let id = scene.meta.source_id.as_deref().unwrap_or_default();
@@ -223,7 +223,7 @@ impl Source {
         if id.is_empty() { format!("{}-{index:06}", self.label) } else { id }
     }
 
-    /// The first scene that is wanted.
+    /// The first selected scene.
     ///
     /// # Errors
     /// Exit 3.
@@ -239,7 +239,7 @@ impl Source {
     }
 }
 
-/// Problems of files as failures of the command.
+/// Converts a file's problem to a failure of the command.
 pub fn refused(path: &Path, problem: &Problem) -> Failure {
     let mut message = format!("{}: {}", path.display(), problem.detail);
     for error in problem.members.errors.iter().flatten().skip(1) {
@@ -248,7 +248,7 @@ pub fn refused(path: &Path, problem: &Problem) -> Failure {
     Failure::input(message)
 }
 
-/// What readers changed or left out, in lines.
+/// What readers changed or left out, one line each.
 pub fn notes(source: &Source, notes: &[formats::ImportWarning]) -> Vec<String> {
     notes.iter().map(|note| format!("{}: {}: {}", source.shown(), note.code, note.detail)).collect()
 }

@@ -1,4 +1,4 @@
-//! `dragtraffic lab bench --crowd`: many callers at once, and one drag beside the heaviest possible calls.
+//! `dragtraffic lab bench --crowd`: many concurrent clients, and one drag beside the heaviest possible calls.
 
 use super::failed;
 use super::http_bench::longest_way;
@@ -13,18 +13,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Callers of the heaviest calls.
+/// Number of clients with the heaviest calls.
 const HEAVY: usize = 4;
-/// Drags beside them, and without them.
+/// Number of drags, with and without the heavy calls.
 const DRAGS: usize = 200;
-/// How often memory is looked at.
+/// Interval of memory measurements.
 const MINUTE: Duration = Duration::from_secs(60);
 
-/// What a crowd came to.
+/// Results of one crowd.
 #[derive(Debug, Serialize)]
 pub struct Crowd {
     clients: usize,
-    /// They wait after a refusal for as long as it says.
+    /// Whether clients wait after a refusal for as long as it asks.
     obedient: bool,
     seconds: f64,
     answered_per_s: f64,
@@ -35,14 +35,14 @@ pub struct Crowd {
     memory_mb: Vec<f64>,
 }
 
-/// Latency of a client that drags, milliseconds.
+/// Latency of a dragging client, milliseconds.
 #[derive(Debug, Serialize)]
 pub struct DragLatency {
     alone: Percentiles,
     beside_heavy: Percentiles,
 }
 
-/// All of it, on one server.
+/// All results of one server.
 #[derive(Debug, Serialize)]
 pub struct Strain {
     scene: String,
@@ -51,8 +51,9 @@ pub struct Strain {
     drag: DragLatency,
 }
 
-/// Crowds of these sizes request one road user's futures repeatedly for the given time each: first without a pause after
-/// a refusal, then with the one that the refusal asks for. Then one client drags, first alone, then beside four calls for all road users in 32 samples of 100 steps.
+/// Crowds of these sizes request one road user's futures repeatedly for the given time each. They first retry
+/// at once after a refusal, then after the pause that it asks for. Then one client drags, first alone, then
+/// beside four calls for all road users in 32 samples of 100 steps.
 pub fn strain(
     scene: &Scene,
     sizes: &[usize],
@@ -83,7 +84,7 @@ pub fn strain(
     Ok(Some(Strain { scene, road_users, crowds: crowds?, drag }))
 }
 
-/// Times of answers in milliseconds and the number of refusals of one caller, until the crowd goes home.
+/// Times of one client's answers in milliseconds and its number of refusals, until the crowd ends.
 fn caller(port: u16, body: &[u8], obedient: bool, over: &AtomicBool) -> Result<(Vec<f64>, usize), Failure> {
     let (mut answers, mut refused) = (Vec::new(), 0);
     let mut kept = Connection::open(port)?;
@@ -126,7 +127,7 @@ fn crowd(
         over.store(true, Ordering::Relaxed);
         let (mut answers, mut refused) = (Vec::new(), 0);
         for caller in callers {
-            // A caller whose thread ended otherwise has said why already.
+            // A client whose thread failed has reported why already.
             let (of_one, no) = caller.join().unwrap_or_else(|_| Ok((Vec::new(), 0)))?;
             answers.extend(of_one);
             refused += no;
@@ -163,12 +164,12 @@ fn beside(server: &Served, drag: &[u8], heavy: &[u8]) -> Result<DragLatency, Fai
     let over = Arc::new(AtomicBool::new(false));
     for _ in 0..HEAVY {
         let (port, heavy, over) = (server.port, heavy.to_vec(), Arc::clone(&over));
-        // They end with the server, in the middle of their calls.
+        // These threads end with the server, in the middle of their calls.
         std::thread::spawn(move || {
             while !over.load(Ordering::Relaxed) {
                 let asked =
                     Connection::open(port).and_then(|mut own| own.send("POST", "/v1/generate", JSON, &heavy));
-                // One that is refused or takes too long asks again.
+                // A client that is refused or times out asks again.
                 if asked.map_or(true, |reply| reply.status != 200) {
                     std::thread::sleep(Duration::from_millis(200));
                 }

@@ -73,7 +73,7 @@ pub struct BenchArgs {
     seconds: f64,
 }
 
-/// A table by its number or its name.
+/// A table by its number or name.
 fn table(text: &str) -> Result<&'static TableSpec, String> {
     let number = text.parse().ok().and_then(TableSpec::numbered);
     let named = || const { &TABLES }.iter().find(|table| table.name == text);
@@ -84,7 +84,7 @@ fn table(text: &str) -> Result<&'static TableSpec, String> {
     })
 }
 
-/// Seconds as steps of the scene.
+/// Converts seconds to steps.
 fn replan_steps(text: &str) -> Result<usize, String> {
     let steps = text.parse::<f64>().map(|seconds| (seconds / scene::STEP_S).round());
     match steps {
@@ -93,7 +93,7 @@ fn replan_steps(text: &str) -> Result<usize, String> {
     }
 }
 
-/// A tuned number and its value as text, and all numbers with that one changed.
+/// Parses a tuned number and its value, and returns all numbers with that one changed.
 fn tuned(text: &str) -> Result<(String, Tuning), String> {
     let (name, value) = match text.split_once('=') {
         Some((name, value)) => {
@@ -112,17 +112,17 @@ fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
     }
 }
 
-/// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder, each table as
-/// soon as it is made.
+/// Evaluates the experts on scenes: writes the tables to stdout as Markdown, and everything to the output
+/// folder, each table as soon as it is complete.
 ///
 /// # Errors
-/// Exit 3 when nothing can be read, 7 without weights, 8 when the folder has tables already.
+/// Exit 3 when nothing can be read, 7 without weights, 8 when the folder already has tables.
 pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     if let Some(folder) = &args.output {
         output::keep(&folder.join(TABLES_FILE), args.force)?;
     }
     let scenes = scenes(&args.scenes)?;
-    // Scenes are judged side by side, each on one thread.
+    // Scenes are evaluated in parallel, each on one thread.
     let one =
         |name: String, generator: experts::Generator| Judged { name, generator: generator.with_threads(1) };
     let mut judged = vec![one(args.name.clone(), common.generator()?)];
@@ -151,7 +151,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     };
     let bar = Progress::new("tables", options.tables.len() as u64, common.quiet);
     let progress = |line: &str| bar.line(line);
-    // What is done stays when the run is stopped.
+    // Finished tables stay if the run is stopped.
     let made = |report: &EvalReport| {
         bar.step();
         args.output.as_ref().map_or(Ok(()), |folder| report.write(folder))
@@ -162,7 +162,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
 
-/// Times answers: the engine's at one thread and at two, or a server's.
+/// Measures the time of answers: the engine's with one thread and with two, or a server's.
 ///
 /// # Errors
 /// Exit 3 when nothing can be read, 7 without weights.

@@ -16,32 +16,32 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Calls of each kind on each scene; two more come first and are not counted.
+/// Calls of each kind on each scene; two warm-up calls are not counted.
 const CALLS: usize = 30;
 
-/// What calls of one kind took on one scene, milliseconds.
+/// Latency of one kind of call on one scene, milliseconds.
 #[derive(Debug, Serialize)]
 pub struct HttpLatency {
     scene: String,
     road_users: usize,
     map_points: usize,
     what: &'static str,
-    /// From the first byte sent to the last one read.
+    /// From the first byte sent to the last byte read.
     http: Percentiles,
-    /// The same request in this process, from its start to the answer with its scores where it asks for them.
+    /// The same request in this process, from its start to the answer with its requested scores.
     engine: Percentiles,
-    /// To the first futures, of calls that stream.
+    /// Time to the first futures, for streamed calls.
     #[serde(skip_serializing_if = "Option::is_none")]
     first: Option<Percentiles>,
-    /// To the first futures in this process, of the same calls.
+    /// Time to the first futures in this process, for the same calls.
     #[serde(skip_serializing_if = "Option::is_none")]
     engine_first: Option<Percentiles>,
-    /// Of the last reply.
+    /// Bytes of the last reply.
     bytes: usize,
 }
 
-/// Saves each scene on a server of its own and asks for one road user's futures there, again and again, and then
-/// in this process. A release lets the others react and is scored.
+/// Saves each scene on a separate server, requests one road user's futures there repeatedly, and then in this
+/// process. The call at the end of a drag lets the others react and is scored.
 pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Failure> {
     let server = Served::start(common)?;
     let generator = common.generator()?;
@@ -85,7 +85,7 @@ fn refused(problem: api::Problem) -> Failure {
     failed(std::io::Error::other(format!("the request is refused: {}", problem.detail)))
 }
 
-/// A request answered in this process, without a socket, a queue or text.
+/// A request answered in this process, without socket, queue or serialization.
 struct Alone<'a> {
     generator: &'a Generator,
     plan: GenerationPlan,
@@ -115,7 +115,7 @@ impl Alone<'_> {
     }
 }
 
-/// Calls over the socket and in this process by turns, so that what else the machine does meets both.
+/// Alternates calls over the socket and in this process, so that other load on the machine affects both.
 fn timed(
     kept: &mut Connection,
     port: u16,

@@ -1,4 +1,5 @@
-//! How experts are trained and evaluated: the only folder that knows the lab. One file a command, or a pair.
+//! Training and evaluation of experts: the only folder that depends on the lab. One file per command or pair
+//! of commands.
 
 mod crowd_bench;
 mod eval;
@@ -54,11 +55,13 @@ pub enum LabCommand {
 }
 
 impl LabCommand {
-    /// Training ends with a checkpoint, alone or on the way to the paper's tables.
+    /// Training ends with a checkpoint, by itself or for the paper's tables.
     pub fn ends_by_itself(&self) -> bool {
         matches!(self, Self::Train(_) | Self::Reproduce(_))
     }
 
+    /// Runs the command.
+    ///
     /// # Errors
     /// Those of the command.
     pub fn run(self, common: &Common) -> Result<(), Failure> {
@@ -78,11 +81,11 @@ impl LabCommand {
     }
 }
 
-/// Starts the threads over which the lab cuts scenes and files, one a core: the program's own setting
-/// (`RAYON_NUM_THREADS`) is meant for products of matrices. Results keep the order of their inputs.
+/// Starts the threads over which the lab splits scenes and files, one per core. The program's own setting
+/// (`RAYON_NUM_THREADS`) is for matrix products. Results keep the order of their inputs.
 fn look_at_scenes_side_by_side() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    // Fails only where there are such threads already.
+    // Fails only if such threads exist already.
     let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
 }
 
@@ -97,6 +100,8 @@ struct SceneArgs {
     scenes: usize,
 }
 
+/// Reads the scenes.
+///
 /// # Errors
 /// Exit 3 when no file holds a scene.
 fn scenes(args: &SceneArgs) -> Result<Vec<scene::Scene>, Failure> {

@@ -58,7 +58,7 @@ fn metres(text: &str) -> Result<f64, String> {
 /// Makes training records.
 ///
 /// # Errors
-/// Exit 3 when nothing can be read, 1 when the records cannot be written, 8 when they are there already.
+/// Exit 3 when nothing can be read, 1 when the records cannot be written, 8 when they exist already.
 pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
     output::keep(&args.output, args.force)?;
     let options = lab_train::prepare::PrepareOptions {

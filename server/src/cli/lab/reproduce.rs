@@ -12,9 +12,9 @@ use lab_train::scenes::Crop;
 use scene::{HORIZON_STEPS, STEP_S};
 use std::path::PathBuf;
 
-/// Files that a quick run takes of each input.
+/// Files of each input in a quick run.
 const QUICK_FILES: usize = 150;
-/// Scenes that it chooses for Table II.
+/// Scenes for Table II in a quick run.
 const QUICK_SCENES: [usize; 2] = [16, 16];
 
 /// Flags of `reproduce`.
@@ -91,7 +91,7 @@ enum Only {
     Figure,
 }
 
-/// Seconds as steps.
+/// Converts seconds to steps.
 fn interval(text: &str) -> Result<usize, String> {
     let steps = text.parse::<f64>().map(|seconds| (seconds / STEP_S).round());
     match steps {
@@ -100,7 +100,7 @@ fn interval(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Three numbers with commas between them.
+/// Parses three numbers separated by commas.
 fn epochs(text: &str) -> Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> = text
         .split(',')
@@ -110,7 +110,7 @@ fn epochs(text: &str) -> Result<[f64; 3], String> {
     numbers.ok_or_else(|| "three numbers above 0 expected, as in 100,150,40".into())
 }
 
-/// From recordings to the paper's tables and figure.
+/// Reproduces the paper's tables and figure from recordings.
 ///
 /// # Errors
 /// Exit 1 with the reason, 7 without weights, 8 when the folder holds another run, 130 on Ctrl-C.

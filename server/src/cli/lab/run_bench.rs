@@ -1,4 +1,4 @@
-//! `dragtraffic lab bench --steps`: the time of one step of a run, among few and many others.
+//! `dragtraffic lab bench --steps`: the time of one step of a run with few and with many road users.
 
 use super::failed;
 use crate::cli::{Common, Failure};
@@ -11,34 +11,34 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Others beside the ego.
+/// Numbers of road users beside the ego.
 const OTHERS: [usize; 3] = [8, 32, 128];
-/// Steps of 0.1 s.
+/// Number of steps of 0.1 s.
 const STEPS: usize = 200;
 
-/// The steps of one run.
+/// Latency of the steps of one run.
 #[derive(Debug, Serialize)]
 pub struct RunLatency {
     scene: String,
     threads: usize,
-    /// Road users beside the ego at the start; fewer than asked for where the map has no room.
+    /// Road users beside the ego at the start; fewer than requested if the map has no room.
     others: usize,
-    /// First plans of all, milliseconds.
+    /// Time of the first plans of all, milliseconds.
     begin_ms: f64,
-    /// Milliseconds.
+    /// Time of a step, milliseconds.
     step: Percentiles,
-    /// Of the same call with the next nine seconds of the ego, milliseconds.
+    /// Time of a peek with the next nine seconds of the ego, milliseconds.
     peek: Percentiles,
-    /// Of the last moment.
+    /// Bytes of the last snapshot.
     snapshot_bytes: usize,
-    /// Of the snapshot of each tenth moment, milliseconds.
+    /// Time of a snapshot, at every tenth step, milliseconds.
     save: Percentiles,
-    /// From that snapshot to a run, milliseconds.
+    /// Time of restoring that snapshot, milliseconds.
     restore: Percentiles,
     collisions: usize,
 }
 
-/// Runs of 20 s on the map of a scene, filled with placed road users, with one ego that drives what was planned for it.
+/// Runs of 20 s on the map of a scene with placed road users, and one ego that follows the plan made for it.
 ///
 /// # Errors
 /// Those of the engine.
@@ -55,7 +55,7 @@ pub fn step_times(scene: &Scene, common: &Common) -> Result<Vec<RunLatency>, Fai
     Ok(rows)
 }
 
-/// The scene's map with so many placed road users in place of its own.
+/// The scene's map with placed road users instead of its own.
 fn filled(scene: &Scene, count: usize, engine: &Engine) -> Result<Scene, Failure> {
     let shared = Arc::new(scene.clone());
     let (amount, keep) = (Amount::Count(count), Some(BTreeSet::new()));

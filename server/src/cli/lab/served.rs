@@ -1,4 +1,4 @@
-//! This program as a server to be measured, and a plain client of it that reads the clock.
+//! This program as a server under test, and a simple client that measures time.
 
 use super::failed;
 use crate::cli::{Common, Failure};
@@ -8,24 +8,24 @@ use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-/// Time to wait for a server to be ready, tries of a tenth of a second.
+/// Number of polls, 0.1 s apart, until a server must be ready.
 const TRIES: usize = 300;
 
-/// Replies in one piece.
+/// Accept header for a reply in one piece.
 pub const JSON: &str = "application/json";
-/// Replies event by event.
+/// Accept header for a reply of single events.
 pub const NDJSON: &str = "application/x-ndjson";
 
 /// This program as a server, with an empty store.
 pub struct Served {
     child: Child,
-    /// Where it listens.
+    /// Port on which it listens.
     pub port: u16,
     folder: PathBuf,
 }
 
 impl Served {
-    /// Starts it and waits until it is ready.
+    /// Starts the server and waits until it is ready.
     pub fn start(common: &Common) -> Result<Self, Failure> {
         let folder = std::env::temp_dir().join(format!("dragtraffic-bench-{}", std::process::id()));
         std::fs::create_dir_all(&folder)?;
@@ -62,7 +62,7 @@ impl Served {
 
 impl Drop for Served {
     fn drop(&mut self) {
-        // What is left of it is in the system's folder for such files.
+        // Remaining files are in the system's temporary folder.
         let _ = self.child.kill().and_then(|()| self.child.wait());
         let _ = std::fs::remove_dir_all(&self.folder);
     }
@@ -84,13 +84,13 @@ struct Unexpected {
 pub struct Timed {
     /// Status code.
     pub status: u16,
-    /// Without its transfer coding.
+    /// Body without its transfer coding.
     pub body: Vec<u8>,
-    /// From the first byte sent to the last one read.
+    /// Time from the first byte sent to the last byte read.
     pub ms: f64,
-    /// To the first line with futures.
+    /// Time to the first line with futures.
     pub first_ms: Option<f64>,
-    /// The server ends the connection with it.
+    /// Whether the server closes the connection after it.
     pub closes: bool,
 }
 
@@ -98,14 +98,14 @@ pub struct Timed {
 pub struct Connection(BufReader<TcpStream>);
 
 impl Connection {
-    /// A new one.
+    /// Opens a connection.
     pub fn open(port: u16) -> Result<Self, Failure> {
         let stream = TcpStream::connect(("127.0.0.1", port))?;
         stream.set_nodelay(true)?;
         Ok(Self(BufReader::new(stream)))
     }
 
-    /// Posts JSON; anything but success is a failure.
+    /// Posts JSON; any other status than success is a failure.
     pub fn post(&mut self, path: &str, accept: &str, body: &[u8]) -> Result<Timed, Failure> {
         let reply = self.send("POST", path, accept, body)?;
         if reply.status < 300 {
@@ -115,7 +115,7 @@ impl Connection {
         Err(failed(Unexpected { path: path.into(), status: reply.status, text }))
     }
 
-    /// Sends a request and reads its reply, whatever it is.
+    /// Sends a request and reads its reply, whatever its status.
     pub fn send(&mut self, method: &str, path: &str, accept: &str, body: &[u8]) -> Result<Timed, Failure> {
         let began = Instant::now();
         let port = self.0.get_ref().peer_addr()?.port();

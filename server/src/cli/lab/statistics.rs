@@ -20,7 +20,7 @@ pub struct StatisticsArgs {
     most: usize,
 }
 
-/// Sums up sets of scenes, one column each.
+/// Prints statistics of sets of scenes, one column each.
 ///
 /// # Errors
 /// Exit 3 when a set cannot be read.

@@ -13,9 +13,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// The part of refinement that shows the way downhill in the scene's energy.
+/// The refiner's input with the descent direction of the scene's energy.
 const PUSH: &str = "push";
-/// The part that attends to what drafts meet.
+/// The refiner's attention to encountered drafts.
 const ATTENTION: &str = "attention";
 
 /// Flags of `train`.
@@ -92,7 +92,7 @@ pub struct TrainArgs {
     trained_on: Option<String>,
 }
 
-/// The word of a type on the command line, which names its expert.
+/// The name of a type on the command line, which is the name of its expert.
 fn word(agent_type: AgentType) -> String {
     agent_type.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
@@ -147,7 +147,7 @@ pub fn train(mut args: TrainArgs, common: &Common) -> Result<(), Failure> {
 }
 
 impl TrainArgs {
-    /// Fills in what all trainings have.
+    /// Sets the options that all trainings share.
     fn set<A>(
         self,
         options: training::TrainOptions<A>,

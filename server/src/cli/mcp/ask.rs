@@ -14,12 +14,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt::Write as _;
 
-/// Members of a placement that are passed on.
+/// Members that are passed on to a placement.
 const OF_PLACE: [&str; 10] =
     ["region", "density", "types", "keep", "start_s", "seed", "min_gap_m", "speeds", "arrivals", "parked"];
 /// Members of a generation that set conditions.
 const OF_CONDITIONS: [&str; 4] = ["conditions", "add_agents", "remove_agents", "start_s"];
-/// Members of a generation that are passed on.
+/// Members that are passed on to a generation.
 pub const OF_GENERATE: [&str; 11] = [
     "conditions",
     "agents",
@@ -33,9 +33,9 @@ pub const OF_GENERATE: [&str; 11] = [
     "diversity",
     "kept_futures",
 ];
-/// Road users of an answer that have a line.
+/// Number of road users of an answer that are described.
 const MOST_LINES: usize = 24;
-/// Road users whose future is told second by second.
+/// Number of road users whose future is described second by second.
 const MOST_TRACED: usize = 4;
 
 /// What a tool about a scene has beside the request.
@@ -54,7 +54,7 @@ pub fn place_arguments() -> Members {
     schema::of::<SceneCall, PlaceBody>(&OF_PLACE)
 }
 
-/// Places road users; the scene has them from then on.
+/// Places road users and keeps them in the scene.
 pub fn place(tools: &Toolbox, arguments: Members, cancel: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, body) = schema::read::<SceneCall, PlaceBody>(arguments, &OF_PLACE)?;
     let scene = tools.desk.get(&call.scene)?;
@@ -82,10 +82,11 @@ pub fn condition_arguments() -> Members {
     schema::of::<SceneCall, GenerateRequest>(&OF_CONDITIONS)
 }
 
-/// Sets conditions, and adds and removes road users. Futures of a scene whose user's part has changed are stale.
+/// Sets conditions, and adds and removes road users. If the scene's user part changes, its futures become
+/// stale.
 pub fn set_conditions(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, mut request) = schema::read::<SceneCall, GenerateRequest>(arguments, &OF_CONDITIONS)?;
-    // The widest window: the horizon is said when futures are asked for.
+    // The longest horizon: the real one is given when futures are requested.
     request.horizon_s = MOST_HORIZON_S;
     let scene = tools.desk.get(&call.scene)?;
     let mut changed = request.apply(Scene::clone(&scene))?;
@@ -120,7 +121,7 @@ pub fn generate_arguments() -> Members {
     schema::of::<SceneCall, GenerateRequest>(&OF_GENERATE)
 }
 
-/// Generates futures; the scene keeps them.
+/// Generates futures and keeps them in the scene.
 pub fn generate(tools: &Toolbox, arguments: Members, cancel: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, request) = schema::read::<SceneCall, GenerateRequest>(arguments, &OF_GENERATE)?;
     let scene = tools.desk.get(&call.scene)?;
@@ -138,7 +139,7 @@ pub fn kept(answered: GenerationAnswer) -> Scene {
     scene
 }
 
-/// An answer in words: each road user, the first ones second by second, warnings, figures of each sample.
+/// An answer as text: each road user, the first ones second by second, warnings, figures of each sample.
 pub fn told(answered: &GenerationAnswer) -> String {
     let GenerationAnswer { answer, scores, code, .. } = answered;
     let mut agents: Vec<_> = answer.samples.first().into_iter().flat_map(|sample| &sample.agents).collect();

@@ -1,4 +1,4 @@
-//! A scene at a step in words and numbers.
+//! A scene at a step as text and numbers.
 
 use crate::cli::generate::tell;
 use scene::routes::{GraphLane, LaneGraph};
@@ -6,29 +6,29 @@ use scene::{Agent, Goal, STEP_S, Scene, State, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 
-/// Farthest lane that a road user is said to be on, metres.
+/// Greatest distance from a lane that a road user is on, metres.
 const ON_LANE_M: f64 = 3.0;
-/// Lanes in another direction than this from the heading are not the road user's own, radians.
+/// Greatest heading difference to a lane that a road user is on, radians.
 const ALONG_RAD: f64 = 1.0;
-/// Compass points from east on, counter-clockwise, an eighth of a turn each.
+/// Compass points from east, counter-clockwise, one per eighth of a turn.
 const COMPASS: [&str; 8] =
     ["east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east"];
 
-/// What a description is about.
+/// Selection of a description.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// Scene step.
     pub step: usize,
-    /// Only what lies in this circle: centre and radius, metres.
+    /// Circle to which it is limited: centre and radius, metres.
     pub near: Option<(Vec2, f64)>,
-    /// Entries of each list.
+    /// Most entries per list.
     pub most: usize,
-    /// Lanes, lights and crosswalks too.
+    /// Whether it includes lanes, lights and crosswalks.
     pub with_map: bool,
 }
 
 impl Look {
-    /// The road users at a step.
+    /// Only the road users at a step.
     pub fn brief(step: usize) -> Self {
         Self { step, near: None, most: 40, with_map: false }
     }
@@ -44,7 +44,7 @@ pub fn first_step(scene: &Scene) -> usize {
     (0..scene.time.steps).find(there).unwrap_or(0)
 }
 
-/// The description; `graph` is that of the scene's map.
+/// The description. `graph` belongs to the scene's map.
 pub fn words(scene: &Scene, graph: &LaneGraph, look: Look) -> String {
     let mut text = head(scene);
     text.push_str(&road_users(scene, graph, &look));
@@ -89,7 +89,7 @@ fn head(scene: &Scene) -> String {
     text
 }
 
-/// A list with a heading; what is beyond `most` is counted.
+/// A list with a heading; entries beyond `most` are only counted.
 fn list(heading: &str, lines: Vec<String>, most: usize) -> String {
     let mut text = format!("{heading} ({}):\n", lines.len());
     let more = lines.len().saturating_sub(most);
@@ -231,7 +231,7 @@ fn places(scene: &Scene, look: &Look) -> String {
     list("Crosswalks", lines, look.most)
 }
 
-/// The word that a value has in documents, with spaces.
+/// The name of a value in documents, with spaces.
 fn word(value: &impl serde::Serialize) -> Option<String> {
     Some(serde_json::to_value(value).ok()?.as_str()?.replace('_', " "))
 }

@@ -1,4 +1,4 @@
-//! The scenes that are open: by name, bounded in number and memory.
+//! The open scenes: by name, limited in number and memory.
 
 use crate::scenes::weight;
 use api::{Code, Problem};
@@ -8,7 +8,7 @@ use scene::Scene;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// A scene with the memory that it takes.
+/// A scene with its share of memory.
 struct OnDesk {
     scene: Arc<Scene>,
     /// Held until the scene is closed or replaced.
@@ -23,7 +23,7 @@ pub struct SceneDesk {
 }
 
 impl SceneDesk {
-    /// For so many scenes in so much memory.
+    /// A desk for this number of scenes in this memory.
     pub fn new(most: usize, memory: Arc<Memory>) -> Self {
         Self { most, memory, open: Mutex::default() }
     }
@@ -40,13 +40,13 @@ impl SceneDesk {
     /// An open scene.
     ///
     /// # Errors
-    /// `not-found` with the names that are open.
+    /// `not-found` with the names of open scenes.
     pub fn get(&self, name: &str) -> Result<Arc<Scene>, Problem> {
         let found = self.open().get(name).map(|held| Arc::clone(&held.scene));
         found.ok_or_else(|| self.unknown(name))
     }
 
-    /// Looks at all names: not under the lock.
+    /// Reads all names, so it must not be called under the lock.
     fn unknown(&self, name: &str) -> Problem {
         let shown: String = name.chars().take(64).collect();
         let names = self.names();
@@ -56,10 +56,10 @@ impl SceneDesk {
         Problem::field("/scene", Code::NotFound, detail)
     }
 
-    /// Opens a scene under a name like this one.
+    /// Opens a scene under this name, or a similar free one.
     ///
     /// # Errors
-    /// `store-full` where as many scenes or bytes are open as may be.
+    /// `store-full` at the limit of scenes or bytes.
     pub fn add(&self, like: &str, scene: Scene) -> Result<String, Problem> {
         let held = self.held(scene)?;
         let mut open = self.open();
@@ -79,10 +79,10 @@ impl SceneDesk {
         Ok(name)
     }
 
-    /// Puts a changed scene in the place of an open one.
+    /// Replaces an open scene by its changed version.
     ///
     /// # Errors
-    /// `store-full` where it does not fit; the former one then stays. `not-found`.
+    /// `store-full` if it does not fit; the former one then stays. `not-found`.
     pub fn put(&self, name: &str, scene: Scene) -> Result<Arc<Scene>, Problem> {
         let held = self.held(scene)?;
         let scene = Arc::clone(&held.scene);

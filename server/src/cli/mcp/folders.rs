@@ -1,4 +1,4 @@
-//! The folders that a client may read and write: no path leads out of them.
+//! The folders that a client may read and write; no path leads outside them.
 
 use api::{Code, Problem};
 use base::folder::{DataFolder, HeldFile};
@@ -7,30 +7,30 @@ use std::ffi::OsStr;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// Longest name that a file can have, bytes.
+/// Longest file name, bytes.
 const LONGEST_NAME: usize = 255;
-/// Files that are listed at most.
+/// Limit of listed files.
 const MOST_LISTED: usize = 300;
-/// Folders below an allowed one that are listed.
+/// Depth of listed subfolders of an allowed folder.
 const DEEPEST: usize = 4;
 
 /// An allowed folder.
 struct Allowed {
-    /// As it was given.
+    /// Path as given.
     given: PathBuf,
-    /// Without links.
+    /// Path without links.
     real: PathBuf,
     reader: DataFolder,
 }
 
-/// All of them, in the order given.
+/// All allowed folders, in the given order.
 pub struct AllowedFolders(Vec<Allowed>);
 
 impl AllowedFolders {
     /// Opens the folders.
     ///
     /// # Errors
-    /// A sentence about one that cannot be read.
+    /// A sentence about a folder that cannot be read.
     pub fn open(paths: &[PathBuf]) -> Result<Self, String> {
         let open = |path: &PathBuf| {
             let failed = |error: io::Error| format!("--folder {}: {error}", path.display());
@@ -41,20 +41,21 @@ impl AllowedFolders {
         paths.iter().map(open).collect::<Result<_, String>>().map(Self)
     }
 
-    /// A file, by its path or by its name in one of the folders, with what is read with it.
+    /// A file by its path, or by its name in one of the folders, with the files that are read with it.
     ///
     /// # Errors
-    /// `not-found` for what lies in none of them, and for what cannot be read there.
+    /// `not-found` for a file in none of the folders, or one that cannot be read.
     pub fn read(&self, path: &str) -> Result<HeldFile, Problem> {
         let mut found = self.0.iter().filter_map(|allowed| Some((allowed, allowed.below(path)?)));
         found.find_map(|(allowed, name)| allowed.reader.read(&name).ok()).ok_or_else(|| self.not_here(path))
     }
 
-    /// Writes a file whole; gives where. A link is not written through, and the folder must be there.
+    /// Writes a complete file and returns its path. It does not write through a link, and the folder must
+    /// exist.
     ///
     /// # Errors
-    /// `not-found` for a place in none of the folders, `exists` unless `overwrite`, `store-unavailable` where the disk
-    /// refuses.
+    /// `not-found` for a path in none of the folders, `exists` unless `overwrite`, `store-unavailable` for a
+    /// disk error.
     pub fn write(&self, path: &str, bytes: &[u8], overwrite: bool) -> Result<PathBuf, Problem> {
         let target = self.0.iter().find_map(|allowed| allowed.target(path));
         let target = target.ok_or_else(|| self.not_here(path))?;
@@ -84,7 +85,8 @@ impl AllowedFolders {
         Problem::field("/file", Code::NotFound, detail)
     }
 
-    /// Paths of the files in the folders, sorted, and whether there are more. Links to folders are not followed.
+    /// Sorted paths of the files in the folders, and whether there are more. Links to folders are not
+    /// followed.
     pub fn files(&self) -> (Vec<String>, bool) {
         let mut files = Vec::new();
         for allowed in &self.0 {
@@ -97,7 +99,7 @@ impl AllowedFolders {
 }
 
 impl Allowed {
-    /// The name of a path below this folder; `None` for one that leads elsewhere by its words alone.
+    /// The name of a path below this folder; `None` if its text alone leads outside.
     fn below(&self, path: &str) -> Option<PathBuf> {
         let path = Path::new(path);
         let name = match path.is_absolute() {
@@ -111,7 +113,7 @@ impl Allowed {
         (is_plain && plain.file_name().is_some()).then_some(plain)
     }
 
-    /// Where a new file would lie, with the links of its folders resolved; `None` where that is elsewhere.
+    /// The place of a new file, with the links of its folders resolved; `None` if that is outside.
     fn target(&self, path: &str) -> Option<PathBuf> {
         let name = self.below(path)?;
         let folder = self.real.join(name.parent()?).canonicalize().ok()?;
@@ -119,7 +121,7 @@ impl Allowed {
     }
 }
 
-/// Adds the files of a folder, and of those below it.
+/// Adds the files of a folder and its subfolders.
 fn listed(folder: &Path, shown: &Path, deep: usize, files: &mut Vec<String>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut entries: Vec<_> = entries.flatten().collect();

@@ -1,4 +1,4 @@
-//! Tools that show and write scenes.
+//! Tools that describe, draw and write scenes.
 
 use super::describe::{self, Look};
 use super::schema::{self, Members, NoRequest};
@@ -12,13 +12,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt::Write as _;
 
-/// Greatest file that is given as text, bytes.
+/// Largest file that is returned as text, bytes.
 const MOST_TEXT_BYTES: usize = 64 << 10;
-/// Greatest file that is written, bytes.
+/// Largest file that is written, bytes.
 const MOST_FILE_BYTES: u64 = 256 << 20;
-/// Circle around a road user that is described, metres.
+/// Radius of the described circle around a road user, metres.
 const AROUND_M: f64 = 50.0;
-/// Square around a place or road user that a picture shows, metres.
+/// Side of the square that a picture shows around a place or road user, metres.
 const SQUARE_M: f64 = 80.0;
 
 /// A circle of the scene.
@@ -147,7 +147,7 @@ pub fn picture(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAn
     Ok(ToolAnswer { text, picture: Some(png) })
 }
 
-/// Step of a time.
+/// Step at a time.
 fn step(scene: &Scene, time_s: f64) -> Result<usize, Problem> {
     let futures =
         scene.generated.iter().flat_map(|made| &made.samples).flat_map(|sample| sample.agents.values());
@@ -160,7 +160,7 @@ fn step(scene: &Scene, time_s: f64) -> Result<usize, Problem> {
     Ok((time_s / STEP_S).round() as usize)
 }
 
-/// Where a road user is shown at a step.
+/// Position of a road user's shown motion at a step.
 fn place_of(scene: &Scene, id: &str, step: usize) -> Result<Vec2, Problem> {
     let agent = scene.agent(id).ok_or_else(|| unknown_road_user(id))?;
     let place = scene.shown(agent).track.at(step).map(scene::State::position);

@@ -1,4 +1,4 @@
-//! The protocol: which tools there are, and one call after the other, each within its time.
+//! The protocol: lists the tools, and runs one call after the other, each within its time limit.
 
 use super::tools::{self, TOOLS, ToolAnswer, Toolbox};
 use api::problem::ProblemMembers;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::Semaphore;
 
-/// What a client tells its model about this server.
+/// Description of this server for a client's model.
 const INSTRUCTIONS: &str = "\
 Traffic scenes: open an example or a file, look at it, place road users, give goals, ask for futures, score, search, export. \
 Begin with list_scenes or open_scene. Positions are in metres (x east, y north), headings in radians from east, counter-clockwise, \
@@ -28,14 +28,14 @@ times in seconds of the scene. A goal is a place (x_m, y_m), or with frame agent
 #[derive(Clone)]
 pub struct SceneServer {
     toolbox: Arc<Toolbox>,
-    /// One call is worked on at a time: each may use all cores.
+    /// One call runs at a time, because each may use all cores.
     turn: Arc<Semaphore>,
-    /// Time of a call, waiting included.
+    /// Time limit of a call, including its wait.
     patience: Duration,
 }
 
 impl SceneServer {
-    /// Over these tools.
+    /// A server with these tools.
     pub fn new(toolbox: Toolbox, patience: Duration) -> Self {
         Self { toolbox: Arc::new(toolbox), turn: Arc::new(Semaphore::new(1)), patience }
     }
@@ -123,7 +123,7 @@ struct ToolProblem<'a> {
     members: &'a ProblemMembers,
 }
 
-/// A problem in words for the model, and as data.
+/// A problem as text for the model, and as data.
 fn refused(problem: &Problem) -> CallToolResult {
     let Problem { code, detail, members, .. } = problem;
     let mut text = format!("{}: {detail}", code.name());

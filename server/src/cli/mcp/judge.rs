@@ -1,4 +1,4 @@
-//! The tool that scores.
+//! The tool that scores scenes.
 
 use super::schema::{self, Members};
 use super::tools::{ToolAnswer, Toolbox};
@@ -11,9 +11,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// Members of a score that are passed on.
+/// Members that are passed on to a score.
 const OF_SCORE: [&str; 2] = ["pairs", "thresholds"];
-/// Entries of a list of the score that are told.
+/// Entries per list of the score in the answer.
 const MOST_ENTRIES: usize = 12;
 
 /// What a score has beside the request.
@@ -32,7 +32,7 @@ pub fn score_arguments() -> Members {
     schema::of::<ScoreCall, ScoreRequest>(&OF_SCORE)
 }
 
-/// Scores what the scene shows.
+/// Scores the shown motions of a scene.
 pub fn score(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, request) = schema::read::<ScoreCall, ScoreRequest>(arguments, &OF_SCORE)?;
     let scene = tools.desk.get(&call.scene)?;
@@ -47,7 +47,7 @@ pub fn score(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnsw
     Ok(ToolAnswer::words(lines.join("\n")))
 }
 
-/// The entries of the lists that are not empty, a line each.
+/// The entries of non-empty lists, one line each.
 fn entries(score: &Score) -> Vec<String> {
     let scene = serde_json::to_value(&score.scene).unwrap_or_default();
     let mut lines = Vec::new();
@@ -69,7 +69,7 @@ fn rounded(value: f64) -> Value {
     Value::from((value * 1e3).round() / 1e3)
 }
 
-/// The figures that are asked for most, in one line.
+/// The most important figures in one line.
 pub fn summary(score: &Score) -> String {
     let scene = &score.scene;
     let own = scene.collisions.iter().filter(|collision| !collision.in_log).count();

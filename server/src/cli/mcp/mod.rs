@@ -1,5 +1,5 @@
-//! `dragtraffic mcp`: the operations as tools of a language model, by the Model Context Protocol over standard input
-//! and output. Standard output has the protocol alone.
+//! `dragtraffic mcp`: the operations as tools for a language model, by the Model Context Protocol over
+//! standard input and output. Standard output carries only the protocol.
 
 mod ask;
 mod describe;
@@ -45,7 +45,7 @@ pub struct McpArgs {
     limit: Vec<String>,
 }
 
-/// Answers a client until it closes standard input.
+/// Serves a client until it closes standard input.
 ///
 /// # Errors
 /// Exit 1, 2 or 7.
@@ -72,7 +72,7 @@ async fn answer(server: SceneServer, line_bytes: u64) -> Result<(), Failure> {
     let transport = AsyncRwTransport::new(tokio::io::stdin(), tokio::io::stdout()).with_max_line_length(most);
     let running = match server.serve(transport).await {
         Ok(running) => running,
-        // The client left before it said anything.
+        // The client left before its first message.
         Err(ServerInitializeError::ConnectionClosed(_)) => return Ok(()),
         Err(error) => return Err(failed(format!("the client does not speak the protocol: {error}"))),
     };

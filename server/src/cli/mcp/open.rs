@@ -15,9 +15,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
-/// Warnings of a reader that are told.
+/// Number of reader warnings in the answer.
 const MOST_WARNINGS: usize = 10;
-/// Members of the request of a map that are passed on.
+/// Members that are passed on to a map.
 const OF_MAP: [&str; 3] = ["template", "parameters", "name"];
 
 /// Arguments of `list_scenes`.
@@ -25,7 +25,7 @@ pub fn list_arguments() -> Members {
     schema::of::<NoRequest, NoRequest>(&[])
 }
 
-/// Names what can be opened.
+/// Lists the scenes that can be opened.
 pub fn list(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswer, Problem> {
     schema::read::<NoRequest, NoRequest>(arguments, &[])?;
     let listed = |what: &str, names: Vec<String>| match names.is_empty() {
@@ -154,7 +154,7 @@ pub fn map_arguments() -> Members {
     arguments
 }
 
-/// Opens a map that is drawn from a template.
+/// Opens a map that is built from a template.
 pub fn draw_map(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, body) = schema::read::<MapCall, MapBody>(arguments, &OF_MAP)?;
     let (layout, scene, _) = body.draw()?;

@@ -1,4 +1,4 @@
-//! Arguments of tools: their own members beside members of an operation's request.
+//! Arguments of tools: their own members plus members of an operation's request.
 
 use api::{Code, Problem};
 use formats::native::from_json;
@@ -6,14 +6,14 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-/// An object of JSON.
+/// A JSON object.
 pub type Members = Map<String, Value>;
 
 /// A request with no members.
 #[derive(serde::Deserialize, JsonSchema)]
 pub struct NoRequest {}
 
-/// The schema of a tool's own members, and of those members of a request that it passes on.
+/// The schema of a tool's own members and of the request's members that it passes on.
 pub fn of<Own: JsonSchema, Passed: JsonSchema>(passed: &[&str]) -> Members {
     let (own, request) = (root::<Own>(), root::<Passed>());
     let mut properties = members(&own, "properties");
@@ -44,7 +44,7 @@ fn members(schema: &Value, name: &str) -> Members {
     schema.get(name).and_then(Value::as_object).cloned().unwrap_or_default()
 }
 
-/// Names of the definitions that members refer to, by way of other definitions too.
+/// Names of the definitions that members refer to, directly or through other definitions.
 fn used(properties: &Members, definitions: &Members) -> Vec<String> {
     let mut used = Vec::new();
     let mut waiting: Vec<&Value> = properties.values().collect();
@@ -68,10 +68,10 @@ fn used(properties: &Members, definitions: &Members) -> Vec<String> {
     used
 }
 
-/// The arguments of a call: the tool's own, and the request that it passes on.
+/// Parses the arguments of a call: the tool's own, and the request to pass on.
 ///
 /// # Errors
-/// Every member that is unknown, missing or wrong, by its pointer.
+/// Every member that is unknown, missing or invalid, by pointer.
 pub fn read<Own: DeserializeOwned, Passed: DeserializeOwned>(
     arguments: Members,
     passed: &[&str],
@@ -86,7 +86,7 @@ fn parsed<T: DeserializeOwned>(members: &Members) -> Result<T, Problem> {
     from_json(&bytes).map_err(Problem::from)
 }
 
-/// The problem of a member that is none of a few words.
+/// The problem of a member with an unknown word.
 pub fn no_word(pointer: &str, got: &str, words: &[&str]) -> Problem {
     let shown: String = got.chars().take(40).collect();
     let detail = format!("\"{shown}\"; {} expected", words.join(", "));

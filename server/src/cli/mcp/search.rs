@@ -1,4 +1,4 @@
-//! The tool that searches: seed after seed, the result that comes nearest to a condition on its figures.
+//! The tool that searches: tries seeds and keeps the result nearest to a condition on its figures.
 
 use super::ask::{self, OF_GENERATE};
 use super::schema::{self, Members};
@@ -20,9 +20,9 @@ use std::sync::Arc;
 
 /// Most seeds of a search.
 const MOST_SEEDS: u64 = 200;
-/// Share of a call's time after which no new seed is begun.
+/// Share of a call's time limit after which no new seed is tried.
 const SHARE_OF_TIME: f64 = 0.8;
-/// Results that are told.
+/// Number of results in the answer.
 const MOST_TOLD: usize = 10;
 
 /// What a search has beside the request of each seed.
@@ -64,17 +64,17 @@ pub fn arguments() -> Members {
     schema::of::<SearchCall, GenerateRequest>(&OF_GENERATE)
 }
 
-/// A sample of a seed, and how far it is from the condition.
+/// A sample of a seed, and its distance to the condition.
 struct Try {
     seed: u64,
-    /// 0 where the condition holds.
+    /// 0 if the condition holds.
     miss: f64,
     what: String,
     answered: GenerationAnswer,
     sample: Sample,
 }
 
-/// Searches; the scene keeps the best result.
+/// Runs the search and keeps the best result in the scene.
 pub fn search(tools: &Toolbox, arguments: Members, cancel: &Cancel) -> Result<ToolAnswer, Problem> {
     let (call, request) = schema::read::<SearchCall, GenerateRequest>(arguments, &OF_GENERATE)?;
     let scene = tools.desk.get(&call.scene)?;
@@ -132,7 +132,7 @@ fn template(name: &str) -> Result<Template, Problem> {
     found.ok_or_else(|| schema::no_word("/template", name, &Template::ALL.map(Template::name)))
 }
 
-/// The sample of a seed that comes nearest; `None` where no road user fits the template.
+/// The sample of a seed that is nearest to the condition; `None` if no road user fits the template.
 fn one_seed(
     tools: &Toolbox,
     scene: &Arc<Scene>,

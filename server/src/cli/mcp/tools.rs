@@ -1,4 +1,4 @@
-//! The tools by name: what each is for, its arguments, and the function that does it.
+//! The tools by name: purpose, arguments and function of each.
 
 use super::desk::SceneDesk;
 use super::folders::AllowedFolders;
@@ -12,40 +12,40 @@ use scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What the tools work with.
+/// What the tools use.
 pub struct Toolbox {
-    /// The operations of all carriers.
+    /// The operations, as for all transports.
     pub operations: Operations,
     /// Open scenes.
     pub desk: SceneDesk,
-    /// Files that may be used.
+    /// Accessible files.
     pub folders: AllowedFolders,
-    /// Time of a call.
+    /// Time limit of a call.
     pub patience: Duration,
 }
 
-/// What a call gives.
+/// The answer of a call.
 pub struct ToolAnswer {
-    /// In words and numbers.
+    /// Text.
     pub text: String,
-    /// PNG.
+    /// Picture as PNG.
     pub picture: Option<Vec<u8>>,
 }
 
 impl ToolAnswer {
-    /// Words alone.
+    /// An answer with text only.
     pub fn words(text: impl Into<String>) -> Self {
         Self { text: text.into(), picture: None }
     }
 
-    /// Words with a picture of the whole scene at a step, where one is wanted.
+    /// An answer with text and, if wanted, a picture of the whole scene at a step.
     pub fn with_picture(text: String, scene: &Scene, step: usize, wanted: bool) -> Self {
         let drawn = || picture::png(scene, SceneView::whole(scene, step), step);
         Self { text, picture: wanted.then(drawn).flatten() }
     }
 }
 
-/// Whether an answer has a picture when the call does not say.
+/// Default for whether an answer has a picture.
 pub fn yes() -> bool {
     true
 }
@@ -55,10 +55,10 @@ pub struct SceneTool {
     name: &'static str,
     title: &'static str,
     about: &'static str,
-    /// It changes no scene and no file.
+    /// Whether it changes neither scenes nor files.
     only_reads: bool,
     arguments: fn() -> Members,
-    /// What it does.
+    /// Its function.
     pub run: fn(&Toolbox, Members, &Cancel) -> Result<ToolAnswer, Problem>,
 }
 
@@ -168,7 +168,7 @@ pub fn named(name: &str) -> Option<&'static SceneTool> {
 }
 
 impl SceneTool {
-    /// As clients list it.
+    /// The tool in the form of the protocol's list.
     pub fn listed(&self) -> Tool {
         let hints = ToolAnnotations::new().read_only(self.only_reads).destructive(false).open_world(false);
         Tool::new(self.name, self.about, Arc::new((self.arguments)()))
@@ -182,7 +182,7 @@ mod tests {
     use super::TOOLS;
     use serde_json::Value;
 
-    /// Greatest schema of a tool, bytes: a model reads it before anything else.
+    /// Size limit of a tool's schema, bytes: a model reads it before anything else.
     const MOST_BYTES: usize = 15_000;
 
     #[test]
@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// Each member says what it is.
+    /// Asserts that each member has a description.
     fn described(schema: &Value, tool: &str) {
         for (name, member) in schema["properties"].as_object().unwrap() {
             assert!(member["description"].is_string() || member["$ref"].is_string(), "{tool}: {name}");

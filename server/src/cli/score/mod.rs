@@ -50,7 +50,7 @@ pub struct ScoreArgs {
     counting: Counting,
 }
 
-/// Which samples of a scene.
+/// Selection of a scene's samples.
 #[derive(Clone, Debug, PartialEq)]
 enum Which {
     Chosen,
@@ -68,7 +68,7 @@ fn which(text: &str) -> Result<Which, String> {
     }
 }
 
-/// What became of one file.
+/// The result of one file.
 struct Scored {
     text: String,
     rows: Vec<Vec<String>>,
@@ -154,10 +154,10 @@ fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result
 /// A sample with its number; the recording has neither.
 type Numbered<'a> = (Option<usize>, Option<&'a Sample>);
 
-/// The requested samples with their numbers; without futures, only the recording.
+/// The selected samples with their numbers; without futures, only the recording.
 ///
 /// # Errors
-/// A sentence when the scene does not have the first of the samples that are requested by number.
+/// A sentence if the scene lacks the first of the samples selected by number.
 fn picked<'a>(scene: &'a Scene, which: &Which) -> Result<Vec<Numbered<'a>>, String> {
     let count = scene.generated.as_ref().map_or(0, |generated| generated.samples.len());
     if let Which::These(Range { start, .. }) = which
@@ -193,7 +193,7 @@ fn object(source: &Source, item: &Item, number: Option<usize>, score: &Score) ->
     Value::Object(object)
 }
 
-/// The scene with this sample chosen.
+/// Writes the scene with this sample chosen.
 fn copy(folder: &Folder, item: &Item, number: Option<usize>) -> Result<(), Failure> {
     let mut scene = item.scene.clone();
     if let (Some(generated), Some(number)) = (&mut scene.generated, number) {

@@ -1,4 +1,4 @@
-//! Scores as a table: a line for each sample, a column for each figure.
+//! Scores as a table: one line per sample, one column per figure.
 
 use super::figures::{Figures, names};
 use crate::cli::inputs::Item;
@@ -8,7 +8,7 @@ use crate::cli::{Exit, Failure};
 pub struct Table(csv::Writer<Vec<u8>>);
 
 impl Table {
-    /// With its heading.
+    /// A table with the standard heading.
     pub fn new() -> Self {
         let mut table = Self::bare();
         let heading =
@@ -17,31 +17,31 @@ impl Table {
         table
     }
 
-    /// Without any.
+    /// A table without a heading.
     pub fn bare() -> Self {
         Self(csv::Writer::from_writer(Vec::new()))
     }
 
-    /// One more line.
+    /// Adds a line.
     pub fn add(&mut self, row: &[String]) {
         let is_number = |text: &str| text.parse::<f64>().is_ok();
         let cell = |text: &String| {
             if is_number(text) { text.clone() } else { formats::table::cell(text).into_owned() }
         };
-        // All lines are of one length, and a vector takes all bytes.
+        // All lines have the same length, and writing to a vector cannot fail.
         let _ = self.0.write_record(row.iter().map(cell));
     }
 
     /// The file.
     ///
     /// # Errors
-    /// None that can be met: a vector takes all.
+    /// None in practice: writing to a vector cannot fail.
     pub fn bytes(self) -> Result<Vec<u8>, Failure> {
         self.0.into_inner().map_err(|error| Failure::new(Exit::Failure, error.to_string()))
     }
 }
 
-/// A line of it.
+/// A line of the table.
 pub fn row(file: &str, item: &Item, sample: Option<usize>, figures: &Figures) -> Vec<String> {
     let actor = super::figures::actor_of(&item.scene).unwrap_or_default();
     let sample = sample.map_or_else(String::new, |sample| sample.to_string());
@@ -49,7 +49,7 @@ pub fn row(file: &str, item: &Item, sample: Option<usize>, figures: &Figures) ->
     [file.to_owned(), item.name.clone(), sample, actor.to_owned()].into_iter().chain(cells).collect()
 }
 
-/// A figure to six decimals, without zeros that say nothing.
+/// A figure with at most six decimals, without trailing zeros.
 pub fn figure(value: f64) -> String {
     let text = format!("{value:.6}");
     let short = text.trim_end_matches('0').trim_end_matches('.');

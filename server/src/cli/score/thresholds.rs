@@ -1,4 +1,4 @@
-//! What counts in a score, as flags.
+//! Thresholds of a score, as flags.
 
 use crate::cli::values::within;
 use clap::Args;
@@ -30,7 +30,7 @@ impl Counting {
     }
 }
 
-/// A number in the range of a threshold.
+/// Parses a number in the range of a threshold.
 fn ranged(
     of: Threshold,
     unit: &'static str,

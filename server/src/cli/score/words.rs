@@ -1,4 +1,4 @@
-//! A score in one line. The words are those of `docs/metrics.md`.
+//! A score in one line, with the terms of `docs/metrics.md`.
 
 use scene::score::Score;
 

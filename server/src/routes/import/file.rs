@@ -7,17 +7,17 @@ use base::netconvert::companions;
 use formats::Source;
 use std::sync::Arc;
 
-/// A file to be read.
+/// A file to read.
 pub(super) struct ImportFile {
     pub(super) file: Arc<dyn Source>,
-    /// Name that the file was given: a label, nothing is opened.
+    /// Name of the file: only a label, nothing is opened by it.
     pub(super) label: Option<String>,
     /// Companion files.
     pub(super) beside: Companions,
 }
 
 impl ImportFile {
-    /// Uploaded files: one, or the parts `file` of a form of this type, at most so many, each with the parts
+    /// Uploaded files: one body, or at most `most` parts `file` of a form of this type, each with the parts
     /// `net` and `columns` if the form has them.
     pub(super) fn all(upload: &Arc<Upload>, form: Option<&str>, most: usize) -> Result<Vec<Self>, Problem> {
         let Some(content_type) = form else {

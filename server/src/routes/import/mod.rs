@@ -1,4 +1,4 @@
-//! `/v1/import`: scenes out of files.
+//! `/v1/import`: reads scenes from files.
 
 mod file;
 mod order;
@@ -86,7 +86,7 @@ pub async fn import(
     let upload = Arc::new(Reading::from_ref(&app).upload(request).await?);
     let format = params.format.filter(|f| f != "auto");
     let label = known(format.as_deref().unwrap_or("auto"));
-    // Readers take about this long a byte.
+    // Readers take about this time per byte.
     let cost = Duration::from_nanos(20 * upload.expected_bytes());
     let asked = JobRequest { kind: JobKind::Import, cost, caller: connection.into() };
     let (most, most_files) = (app.limits.import_scenes as usize, app.limits.import_files as usize);

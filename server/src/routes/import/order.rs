@@ -1,4 +1,4 @@
-//! The work on an upload: reads its files and makes their scenes ready.
+//! The work on an upload: reads its files and prepares their scenes.
 
 use super::file::ImportFile;
 use super::reply::{
@@ -19,38 +19,38 @@ use formats::native::{MapForm, SceneDoc};
 use scene::licence::is_noncommercial;
 use std::sync::Arc;
 
-/// Files that were read.
+/// The result of reading all files.
 pub(super) enum Ready {
-    /// Scenes to be stored, in the order of the reply.
+    /// Scenes to store, in the order of the reply.
     Store(ImportedBody, Vec<(String, PackedScene)>),
     /// The reply of a dry run.
     Tried(PackedText),
 }
 
-/// Task of the worker for an upload.
+/// The worker's task for an upload.
 pub(super) struct ImportOrder {
     pub(super) upload: Arc<Upload>,
     /// Content-Type of a form.
     pub(super) form: Option<String>,
     pub(super) format: Option<String>,
     pub(super) name: Option<String>,
-    /// Scenes to pass over, and how many to take.
+    /// Number of scenes to skip, and the most to read.
     pub(super) window: (usize, usize),
     pub(super) most: usize,
     pub(super) most_files: usize,
-    /// The part of maps that is read.
+    /// The part of maps to read.
     pub(super) around: Option<Around>,
     pub(super) dry_run: bool,
     pub(super) refuse_nc: bool,
 }
 
 impl ImportOrder {
-    /// Reads the files and makes their scenes ready: nothing is stored unless all of them can be. Also the formats
-    /// of the files that were read.
+    /// Reads the files and prepares their scenes; nothing is stored unless all can be. Also returns the
+    /// formats of the files.
     pub(super) fn run(self, room: &Room, cancel: &Cancel) -> Result<(Ready, Vec<&'static str>), Problem> {
         let _memory = self.upload.reserve(room)?;
         let ready = self.read(room, cancel);
-        // A broken body is reported rather than the faults that follow from it.
+        // A broken body is reported instead of the faults that follow from it.
         self.upload.check()?;
         ready
     }
@@ -68,17 +68,17 @@ impl ImportOrder {
     }
 }
 
-/// Results of an upload so far. Of each scene only the stored or returned form is kept, compressed.
+/// Results of an upload so far. Only the stored or returned form of each scene is kept, compressed.
 struct ImportProgress<'o> {
     order: &'o ImportOrder,
-    /// Scenes of all files.
+    /// Number of scenes in all files.
     count: usize,
-    /// Formats of the files that were read.
+    /// Formats of the files so far.
     formats: Vec<&'static str>,
     rows: Vec<(String, PackedScene)>,
     /// The reply of a dry run.
     text: TextPacker,
-    /// Scenes of the file at hand stand at the end of the text.
+    /// Whether the text ends within the list of the current file's scenes.
     open: bool,
 }
 
@@ -118,12 +118,12 @@ impl<'o> ImportProgress<'o> {
         }
     }
 
-    /// It is the call that cannot be answered, not one of its files that cannot be read.
+    /// Whether the whole call fails, not only one of its files.
     fn ends(&self, problem: &Problem) -> bool {
         self.count > self.order.most || matches!(problem.code, Code::Cancelled | Code::Internal)
     }
 
-    /// One of several files that cannot be read.
+    /// The entry of an unreadable file among several.
     fn fault(&mut self, name: Option<String>, problem: &Problem) -> Result<ImportedFile, Problem> {
         metrics::transfer(false, known(self.order.format.as_deref().unwrap_or("auto")), "error");
         let told = ImportedFile { name, read: None, problem: Some(ProblemDoc::of(problem, None, None)) };
@@ -137,7 +137,7 @@ impl<'o> ImportProgress<'o> {
         Ok(told)
     }
 
-    /// Takes the scenes of a file. `name`: what it is called among several.
+    /// Processes the scenes of a file. `name` is its name among several.
     fn file(
         &mut self,
         file: &ImportFile,
@@ -217,7 +217,7 @@ impl<'o> ImportProgress<'o> {
     }
 }
 
-/// A name of the table, for labels.
+/// The name of a known format, for labels.
 pub(super) fn known(format: &str) -> &'static str {
     names().into_iter().find(|name| *name == format).unwrap_or("auto")
 }

@@ -94,10 +94,10 @@ impl ImportedBody {
     }
 }
 
-/// The text about a file's scenes begins behind this.
+/// The text of a file's scenes begins after this.
 const SCENES: &str = "\"scenes\":[";
 
-/// The text of a reply about a file, before its scenes and behind them. `name`: what it is called among several.
+/// The text of a file's reply before and after its scenes. `name` is the file's name among several.
 pub(super) fn around_scenes(name: Option<&str>, read: &ImportReply) -> Result<(String, String), Problem> {
     #[derive(Serialize)]
     struct NamedReply<'a> {

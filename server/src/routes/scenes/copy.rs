@@ -60,7 +60,7 @@ pub async fn duplicate(
             );
         }
         Some(name) => name,
-        // The longest names lose what the word needs.
+        // The longest names are cut to make room for the word.
         None => scene.name.chars().take(MAX_NAME_CHARS - 5).chain(" copy".chars()).collect(),
     };
     scene.meta.parent_id = Some(id);

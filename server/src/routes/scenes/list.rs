@@ -64,7 +64,7 @@ pub async fn list(
             && params.tag.as_ref().is_none_or(|tag| tags.contains(tag))
             && params.parent.as_ref().is_none_or(|parent| parent_id == Some(parent))
     };
-    // One row more than shown reveals whether there is another page.
+    // One row more than shown tells whether there is another page.
     let most = params.limit + 1;
     let order = |a: &(String, String), b: &(String, String)| {
         let keys = if sort.falls { b.0.cmp(&a.0) } else { a.0.cmp(&b.0) };
@@ -90,8 +90,8 @@ pub async fn list(
     Ok(axum::Json(SceneList { scenes: items, next }))
 }
 
-/// Key (its bytes in hexadecimal, which need no escaping in a query) and id of the last scene of a page, as
-/// `next` has them.
+/// Sort key (its bytes in hexadecimal, which need no escaping in a query) and id of the last scene of a page,
+/// as in `next`.
 fn place(cursor: &str) -> Result<(String, String), Problem> {
     let wrong = || Problem::field("/query/after", Code::InvalidField, "`next` of the page before expected");
     let (hex, id) =

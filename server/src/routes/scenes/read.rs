@@ -1,4 +1,4 @@
-//! One scene: the document, and what a small picture of it shows.
+//! One scene: the document, and the content of its small picture.
 
 use crate::app::App;
 use crate::http::coding;

@@ -61,7 +61,7 @@ pub async fn replace(
     let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
     let scene = catalog.read(doc).await?;
     let written = catalog.save(&id, expect, scene).await.map_err(|problem| match problem.code {
-        // PUT could make it: then it is the precondition that fails (RFC 9110, 13.1.1).
+        // PUT could create it, so it is the precondition that fails (RFC 9110, 13.1.1).
         Code::NotFound => Problem::new(Code::StaleEtag, "There is no scene to replace under this id."),
         _ => problem,
     })?;
@@ -145,7 +145,8 @@ pub async fn rename(
     let make = move || record::of_doc(&doc, summary.parent_id, summary.meta, summary.map_sha);
     let mut record = app.pool.document(bytes, make).await?;
     record.shared = patch.shared;
-    // Between the read above and this write the scene may have changed: the ETag read decides too.
+    // The scene may have changed between the read above and this write, so the ETag that was read is checked
+    // too.
     let held = tags.iter().any(|t| t == "*" || *t == summary.etag);
     let expect = if held { vec![summary.etag] } else { tags };
     let written = catalog.save_record(&id, Expect::Etags(expect), record).await?;

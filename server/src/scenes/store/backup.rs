@@ -1,4 +1,4 @@
-//! A copy of the store, taken while others read and write.
+//! Copies of the store, taken while others read and write.
 
 use super::reserve::make_private;
 use super::{StoreError, migrations, open_reader};
@@ -10,7 +10,7 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
-/// Number of attempts to copy a file that others hold, and the pause between them.
+/// Number of attempts to copy a file that others have locked, and the pause between them.
 const TRIES: usize = 50;
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -23,28 +23,28 @@ pub struct Copied {
     pub bytes: u64,
 }
 
-/// Copies a store as it is at one moment: it has every write answered before, and each later one wholly or
+/// Copies a store as it is at one moment: every write acknowledged before, and each later one completely or
 /// not at all. The copy is one file without a log, readable only by its owner, and appears only after an
 /// integrity check.
 ///
 /// # Errors
-/// When the file is none of ours, is damaged, or one of the two cannot be read or written.
+/// When the file is not a store, is damaged, or one of the two cannot be read or written.
 pub fn backup(from: &Path, to: &Path) -> Result<Copied, StoreError> {
     let source = open_reader(from)?;
     migrations::check(&source)?;
     copy(&source, to)
 }
 
-/// Puts a copy in the place of a store, whole or not at all. What is there must be a store, or nothing.
+/// Replaces a store by a copy, completely or not at all. An existing file must be a store.
 ///
 /// # Errors
-/// [`StoreError::InUse`] where a server works on the file, and those of [`backup`].
+/// [`StoreError::InUse`] if a server uses the file, and those of [`backup`].
 pub fn restore(from: &Path, to: &Path) -> Result<Copied, StoreError> {
     if to.exists() {
         let connection = Connection::open(to)?;
         migrations::check(&connection)?;
-        // Only the last one to have the file open may do without the log; what is in it goes into the file, so that
-        // nothing of it is taken for the log of the copy.
+        // Only the last process with the file open can leave log mode. The log's content goes into the file,
+        // so that nothing of it is taken for the log of the copy.
         let mode =
             connection.pragma_update_and_check(None, "journal_mode", "DELETE", |row| row.get::<_, String>(0));
         match mode {
@@ -58,7 +58,7 @@ pub fn restore(from: &Path, to: &Path) -> Result<Copied, StoreError> {
     backup(from, to)
 }
 
-/// Copies what a connection sees, under the same promises.
+/// Copies what a connection sees, with the same guarantees.
 ///
 /// # Errors
 /// As [`backup`].
@@ -77,10 +77,10 @@ pub(super) fn copy(source: &Connection, to: &Path) -> Result<Copied, StoreError>
     Ok(Copied { scenes, bytes })
 }
 
-/// Fills an empty file and looks through it; the number of scenes.
+/// Fills an empty file and checks it; returns the number of scenes.
 fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
     let mut target = Connection::open(partial)?;
-    // No reader sees the file before it is complete and on the disk.
+    // No reader sees the file before it is complete and durable.
     target.pragma_update(None, "journal_mode", "OFF")?;
     target.pragma_update(None, "synchronous", "OFF")?;
     all_pages(source, &mut target)?;
@@ -93,12 +93,12 @@ fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
     Ok(scenes.unsigned_abs())
 }
 
-/// Removes what the database library has left beside a copy that came to nothing.
+/// Removes what SQLite has left beside a failed copy.
 fn clear(partial: &Path) {
     for end in ["-wal", "-shm", "-journal"] {
         let mut name = partial.as_os_str().to_owned();
         name.push(end);
-        // Most of them are not there.
+        // Most of them do not exist.
         let _ = std::fs::remove_file(name);
     }
 }
@@ -116,7 +116,7 @@ fn all_pages(source: &Connection, target: &mut Connection) -> Result<(), StoreEr
     Err(StoreError::File(io::Error::other("another program holds the file")))
 }
 
-/// Puts the name of a new file on the disk; the file's size.
+/// Makes the name of a new file durable; returns the file's size.
 fn sync_name(path: &Path) -> io::Result<u64> {
     let path = path.canonicalize()?;
     #[cfg(unix)]

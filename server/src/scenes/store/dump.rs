@@ -1,4 +1,4 @@
-//! All scenes of a store's file, one after the other, as they are at one moment.
+//! All scenes of a store's file, one after the other, in one snapshot.
 
 use super::records::{SUMMARY, summary};
 use super::{SceneSummary, StoreError, migrations, open_reader};
@@ -15,17 +15,16 @@ pub struct DumpedScene {
     pub map: Vec<u8>,
 }
 
-/// Calls `take` with each scene in the order of the ids until it fails. A server may work on the file: later writes are
-/// not seen.
+/// Calls `take` with each scene, by id, until it fails. A server may use the file: later writes are not seen.
 ///
 /// # Errors
-/// When the file is none of ours, is damaged or of a later version, and those of `take`.
+/// When the file is not a store, is damaged or of a later version, and those of `take`.
 pub fn each<E: From<StoreError>>(
     path: &Path,
     take: &mut dyn FnMut(DumpedScene) -> Result<(), E>,
 ) -> Result<(), E> {
     let connection = opened(path)?;
-    // One transaction is one moment; it ends with the connection.
+    // One transaction is one snapshot; it ends with the connection.
     connection.execute_batch("BEGIN").map_err(StoreError::from)?;
     let mut last = String::new();
     while let Some(scene) = after(&connection, &last)? {
@@ -44,7 +43,7 @@ pub fn count(path: &Path) -> Result<u64, StoreError> {
     Ok(count.unsigned_abs())
 }
 
-/// A connection to a file that was found to be ours, sound and not too new.
+/// A connection to a file that was checked: it is a store, sound and not too new.
 fn opened(path: &Path) -> Result<Connection, StoreError> {
     let connection = open_reader(path)?;
     migrations::check(&connection)?;

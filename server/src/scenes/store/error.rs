@@ -8,28 +8,28 @@ use rusqlite::ErrorCode;
 /// Why the store refused or failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The database library reports this.
+    /// An error of SQLite.
     #[error("{0}")]
     Sqlite(#[from] rusqlite::Error),
     /// A stored body cannot be read.
     #[error("stored body: {0}")]
     Body(#[from] std::io::Error),
-    /// A file cannot be made or changed.
+    /// A file cannot be created or changed.
     #[error("{0}")]
     File(std::io::Error),
-    /// Nothing was ever kept in the file.
+    /// Nothing was ever stored in the file.
     #[error("the file is empty")]
     Empty,
-    /// The system gives no thread.
+    /// The system cannot start a thread.
     #[error("no thread for the store: {0}")]
     Thread(std::io::Error),
     /// Written by a later version of the program.
     #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
     Newer(i64),
-    /// The file holds something else than scenes.
+    /// The file holds something other than scenes.
     #[error("the file is another program's database; choose another one with --db")]
     Foreign,
-    /// The database library finds the file damaged.
+    /// SQLite finds the file damaged.
     #[error("the file is damaged: {0}")]
     Broken(String),
     /// The precondition names another version.
@@ -43,16 +43,16 @@ pub enum StoreError {
     /// Nothing has this id.
     #[error("no such scene")]
     MissingScene,
-    /// The map that a scene names by its hash is not kept any more.
+    /// The map that a scene references is no longer stored.
     #[error("no such map")]
     MissingMap,
-    /// The scene belongs to this user, who does not share it for this.
+    /// The scene belongs to this user, who has not shared it for this.
     #[error("the scene belongs to {0}")]
     OfAnother(String),
     /// A limit is reached.
     #[error("the store is full: {0}")]
     Full(String),
-    /// The file that was opened has no name any more.
+    /// The open file has been deleted or replaced.
     #[error("the store's file was removed or replaced")]
     Gone,
     /// Another process has the file open.
@@ -106,8 +106,8 @@ impl From<StoreError> for Refusal {
     }
 }
 
-/// A failure of what lies below the database library, or of others that hold the file: not of this program. Pages
-/// that the disk does not give are "corrupt" to that library.
+/// An error below SQLite, or a lock of another process: not a defect of this program. SQLite calls pages that
+/// the disk cannot return "corrupt".
 fn is_of_the_disk(code: ErrorCode) -> bool {
     matches!(
         code,
@@ -123,7 +123,7 @@ fn is_of_the_disk(code: ErrorCode) -> bool {
 }
 
 impl StoreError {
-    /// The disk has no room.
+    /// Whether the disk is full.
     pub(super) fn is_disk_full(&self) -> bool {
         matches!(self, Self::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull)
     }

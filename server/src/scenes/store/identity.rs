@@ -1,43 +1,43 @@
-//! The file that was opened, so that nothing is written into one that has no name any more.
+//! Identity of the open file, so that nothing is written to one that was deleted or replaced.
 
 use super::StoreError;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Endings of the files that SQLite keeps beside the store while it is open: a commit goes into the first one.
+/// Suffixes of the files that SQLite keeps beside the open store; commits go to the first one.
 const BESIDE: [&str; 2] = ["-wal", "-shm"];
 
-/// Disk and number of a file; `None` on systems without.
+/// Device and inode of a file; `None` on systems without.
 type FileNumber = Option<(u64, u64)>;
 
-/// The files of a store by their names, and by their numbers on the disk where the system has them.
+/// The files of a store by name and, if the system has them, inode.
 #[derive(Debug)]
 pub struct FileIdentity {
     path: PathBuf,
     number: FileNumber,
-    /// Those beside it, by the numbers that they had first.
+    /// The files beside it, with their first inodes.
     beside: [(PathBuf, OnceLock<FileNumber>); 2],
 }
 
 impl FileIdentity {
-    /// Of a file that exists.
+    /// The identity of an existing file.
     ///
     /// # Errors
-    /// When it cannot be looked at.
+    /// When its metadata cannot be read.
     pub fn of(path: &Path) -> io::Result<Self> {
         let beside = BESIDE.map(|end| {
             let mut name = path.as_os_str().to_owned();
             name.push(end);
             let (file, first) = (PathBuf::from(name), OnceLock::new());
-            // SQLite makes it at the first access, at the latest within the first change.
+            // SQLite creates it at the first access, at the latest within the first change.
             let _ = number(&file).map(|number| first.set(number));
             (file, first)
         });
         Ok(Self { path: path.to_owned(), number: number(path)?, beside })
     }
 
-    /// Within a change: the names still belong to the same files, and the store is not empty.
+    /// Within a change: checks that the names still refer to the same files, and that the store is not empty.
     ///
     /// # Errors
     /// [`StoreError::Gone`].

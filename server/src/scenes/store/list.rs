@@ -1,14 +1,14 @@
-//! Pages of the list: read in order from where the last page ended, never the whole store.
+//! Pages of the list, read in order from the end of the last page, never the whole store.
 
 use super::records::{SUMMARY, summary};
 use super::{SceneSummary, Store, StoreError};
 
-/// By what a list is ordered; the id decides between equals, always rising.
+/// Order of a list; equal keys are ordered by rising id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sort {
-    /// By name, not by the time of the last change.
+    /// Sort by name instead of the time of the last change.
     pub by_name: bool,
-    /// The greatest first.
+    /// Descending order.
     pub falls: bool,
 }
 
@@ -24,14 +24,14 @@ impl Sort {
 pub struct PageQuery {
     /// Order.
     pub sort: Sort,
-    /// Key and id of the last one before.
+    /// Key and id of the last scene of the previous page.
     pub after: Option<(String, String)>,
     /// Most rows.
     pub most: usize,
 }
 
 impl Store {
-    /// Scenes of a page that are seen and wanted, without their bodies.
+    /// Scenes of a page that the viewer may see and the query selects, without their bodies.
     pub async fn list(
         &self,
         page: PageQuery,

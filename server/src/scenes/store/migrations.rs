@@ -1,10 +1,10 @@
-//! The schema and its history. `user_version` says how many steps a file has taken.
+//! The schema and its history. `user_version` is the number of steps that a file has taken.
 
 use super::{StoreError, backup};
 use rusqlite::Connection;
 use std::path::Path;
 
-/// One SQL script a version; scripts that were released are never changed.
+/// One SQL script per version; released scripts never change.
 const STEPS: &[&str] = &[
     "
     CREATE TABLE maps (
@@ -44,8 +44,8 @@ const OURS: i32 = 0x4472_5472;
 /// Newest schema this program knows.
 pub const LATEST: i64 = STEPS.len() as i64;
 
-/// Makes sure that a file is ours, or new, before anything in it is changed. Files of the first schema carry no
-/// `application_id`: they are known by their tables.
+/// Checks that a file is a store, or new, before it is changed. Files of the first schema have no
+/// `application_id`: they are recognised by their tables.
 ///
 /// # Errors
 /// [`StoreError::Foreign`] for another program's database, [`StoreError::Broken`] for a damaged one.
@@ -63,10 +63,10 @@ pub fn check(connection: &Connection) -> Result<(), StoreError> {
     look_through(connection, "quick_check")
 }
 
-/// Has the database library look for damage.
+/// Runs an integrity check of SQLite.
 ///
 /// # Errors
-/// [`StoreError::Broken`] with the first that it finds, in one line.
+/// [`StoreError::Broken`] with the first finding, in one line.
 pub fn look_through(connection: &Connection, pragma: &str) -> Result<(), StoreError> {
     let found: String = connection.query_row(&format!("PRAGMA {pragma}(1)"), [], |row| row.get(0))?;
     if found == "ok" {
@@ -76,15 +76,15 @@ pub fn look_through(connection: &Connection, pragma: &str) -> Result<(), StoreEr
     Err(StoreError::Broken(lines.join(" ")))
 }
 
-/// Brings a file up to date in one transaction, after a copy beside it.
+/// Migrates a file in one transaction, after a copy beside it.
 ///
 /// # Errors
-/// When the file is newer, or a step fails; the file is then as before.
+/// When the file is newer, or a step fails; the file is then unchanged.
 pub fn run(connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
     take(STEPS, connection, path)
 }
 
-/// Takes those of these steps that a file has not taken yet.
+/// Runs the steps that a file has not taken yet.
 fn take(steps: &[&str], connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
     let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
     let latest = steps.len() as i64;

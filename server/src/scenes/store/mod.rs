@@ -1,8 +1,7 @@
 //! Saved scenes and maps in one SQLite file.
 //!
-//! Write-ahead log, `synchronous=FULL`, one writer thread, a few reading ones, each with a connection of
-//! its own: nothing else runs on them. A write is answered after its commit, so a reply of success
-//! survives a power cut.
+//! Write-ahead log, `synchronous=FULL`, one writer thread and a few reader threads, each with its own
+//! connection and no other work. A write is acknowledged after its commit, so a success survives a power cut.
 
 mod backup;
 mod dump;
@@ -44,15 +43,16 @@ pub struct Store {
     limits: Arc<Limits>,
     reserve: Arc<Reserve>,
     file: Arc<FileIdentity>,
-    /// Who asks.
+    /// User whose view this is.
     viewer: Viewer,
 }
 
 impl Store {
-    /// Opens or makes the file and brings its schema up to date.
+    /// Opens or creates the file and migrates its schema.
     ///
     /// # Errors
-    /// When the file cannot be opened, is no database, is damaged, another program's, or of a later version.
+    /// When the file cannot be opened, is not a database, is damaged, another program's, or of a later
+    /// version.
     pub fn open(path: &Path, limits: &Arc<Limits>) -> Result<Self, StoreError> {
         reserve::make_private(path).map_err(StoreError::File)?;
         let mut connection = Connection::open(path)?;
@@ -76,19 +76,19 @@ impl Store {
         Ok(Self { writer, readers, limits: Arc::clone(limits), reserve, file, viewer: Viewer::default() })
     }
 
-    /// The same for a user: scenes of others are as far away as their owners want.
+    /// The same for a user, who sees scenes of others only as their owners allow.
     pub fn of(&self, viewer: Viewer) -> Self {
         Self { viewer, ..self.clone() }
     }
 
-    /// Runs a read on one of the reading connections.
+    /// Runs a query on a reader.
     async fn read<T: Send + 'static>(
         &self,
         task: impl FnOnce(&Connection) -> Result<T, StoreError> + Send + 'static,
     ) -> Result<T, StoreError> {
         let (reply, done) = oneshot::channel();
         let query: Query = Box::new(move |connection| {
-            // A caller that left does not want the answer any more.
+            // A caller that left no longer needs the reply.
             if !reply.is_closed() {
                 let _ = reply.send(task(connection));
             }
@@ -105,7 +105,7 @@ impl Store {
         let (reply, done) = oneshot::channel();
         let file = Arc::clone(&self.file);
         let work: Work = Box::new(move |connection| {
-            // A caller that left does not want its change any more unless it began already.
+            // The change of a caller that left is dropped, unless it began already.
             if reply.is_closed() {
                 return;
             }
@@ -129,7 +129,7 @@ impl Store {
         result
     }
 
-    /// Gives the room of deleted pages, and that of the log, back to the disk.
+    /// Returns the space of deleted pages and of the log to the disk.
     async fn give_back(&self) -> Result<(), StoreError> {
         let (reply, done) = oneshot::channel();
         let work: Work = Box::new(move |connection| {
@@ -141,7 +141,7 @@ impl Store {
         done.await.unwrap_or(Err(StoreError::Closed))
     }
 
-    /// True when a change is written, and all that read are at work.
+    /// Whether a change can be written, and all readers are working.
     pub async fn is_ready(&self) -> bool {
         if self.reserve.is_full() {
             return false;
@@ -155,7 +155,7 @@ impl Store {
     }
 }
 
-/// Takes the pages of what was deleted out of the file, one with each row of the answer.
+/// Removes the pages of deleted rows from the file, one per row of the result.
 fn shrink(connection: &Connection) -> Result<(), StoreError> {
     let mut query = connection.prepare("PRAGMA incremental_vacuum")?;
     let mut rows = query.query([])?;
@@ -163,12 +163,12 @@ fn shrink(connection: &Connection) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// Puts the log's pages to their places and the log back to nothing.
+/// Writes the log's pages into the file and truncates the log.
 fn empty(connection: &Connection) -> Result<(), StoreError> {
     Ok(connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()))?)
 }
 
-/// The next query, for whichever thread comes first; `None` when the store is gone.
+/// The next query, for any thread; `None` when the store is closed.
 fn next(queries: &Mutex<mpsc::Receiver<Query>>) -> Option<Query> {
     queries.lock().unwrap_or_else(PoisonError::into_inner).recv().ok()
 }
@@ -177,14 +177,14 @@ fn spawn(name: String, run: impl FnOnce() + Send + 'static) -> Result<(), StoreE
     std::thread::Builder::new().name(name).spawn(run).map(drop).map_err(StoreError::Thread)
 }
 
-/// Pages of the log after which they are put to their places in the file, 4 kB each. A full disk must hold both.
+/// Log pages (4 kB each) after which they are written into the file. A full disk must hold both.
 const LOG_PAGES: i64 = 256;
-/// Size that the log's file keeps.
+/// Size to which the log's file is truncated.
 const LOG_BYTES: i64 = 1 << 20;
 
 fn prepare(connection: &Connection) -> Result<(), StoreError> {
     connection.busy_timeout(Duration::from_secs(5))?;
-    // Of a file without content: pages of what is deleted can be given back to the disk.
+    // Only possible for an empty file: the space of deleted rows can be returned to the disk.
     connection.pragma_update(None, "auto_vacuum", "INCREMENTAL")?;
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "FULL")?;

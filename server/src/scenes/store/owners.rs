@@ -1,4 +1,4 @@
-//! Owners of scenes: who may see and change what, and how much each may keep.
+//! Owners of scenes: who may see and change what, and how much each may store.
 
 use super::StoreError;
 use base::limits::Limits;
@@ -23,18 +23,18 @@ const SHARES: [(&str, SceneShare); 3] =
     [("nobody", SceneShare::Nobody), ("read", SceneShare::Read), ("edit", SceneShare::Edit)];
 
 impl SceneShare {
-    /// As it is stored.
+    /// Stored form.
     pub(super) fn word(self) -> &'static str {
         SHARES.iter().find(|(_, share)| *share == self).map_or("", |(word, _)| word)
     }
 
-    /// Of a stored word; an unknown one shares nothing.
+    /// From the stored form; an unknown one shares nothing.
     pub(super) fn of(word: &str) -> Self {
         SHARES.iter().find(|(known, _)| *known == word).map_or(Self::Nobody, |(_, share)| *share)
     }
 }
 
-/// Whose a scene is; one without owner is everybody's.
+/// Owner of a scene; a scene without owner belongs to everyone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ownership {
     /// Name of the user.
@@ -43,29 +43,29 @@ pub struct Ownership {
     pub shared: SceneShare,
 }
 
-/// Who asks the store.
+/// Sender of a request to the store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Viewer {
-    /// Owner of what is made.
+    /// Owner of new scenes.
     name: Option<String>,
-    /// Sees and changes everything, and has no quota.
+    /// Whether it sees and changes everything, and has no quota.
     sees_all: bool,
 }
 
 impl Default for Viewer {
-    /// The program itself, and everybody on a server without owners.
+    /// The program itself, and everyone on a server without owners.
     fn default() -> Self {
         Self { name: None, sees_all: true }
     }
 }
 
 impl Viewer {
-    /// A user, or an administrator; without a name, somebody unknown.
+    /// A user, or an administrator; without a name, an unknown user.
     pub fn user(name: Option<String>, is_admin: bool) -> Self {
         Self { name, sees_all: is_admin }
     }
 
-    /// Name and right, as they stand in queries.
+    /// Name and right, as query parameters.
     pub(super) fn parts(&self) -> (Option<&str>, bool) {
         (self.name.as_deref(), self.sees_all)
     }
@@ -87,10 +87,10 @@ impl Viewer {
         self.name.as_deref()
     }
 
-    /// Refuses a change of a scene that exists; with `as_owner`, one that only its owner may make.
+    /// Refuses a change of an existing scene; with `as_owner`, a change that only its owner may make.
     ///
     /// # Errors
-    /// [`StoreError::MissingScene`] for a scene that is not seen, [`StoreError::OfAnother`] for one that is.
+    /// [`StoreError::MissingScene`] for an invisible scene, [`StoreError::OfAnother`] for a visible one.
     pub(super) fn check(&self, of: &Ownership, as_owner: bool) -> Result<(), StoreError> {
         if !self.sees(of) {
             return Err(StoreError::MissingScene);
@@ -99,7 +99,8 @@ impl Viewer {
         may.then_some(()).ok_or_else(|| StoreError::OfAnother(of.owner.clone().unwrap_or_default()))
     }
 
-    /// Refuses to keep more of a user than the limits allow; `grows` bytes are added, and a scene where it is new.
+    /// Refuses to store more for a user than the limits allow. The change adds `grows` bytes, and a scene if
+    /// it is new.
     ///
     /// # Errors
     /// [`StoreError::Full`].

@@ -9,31 +9,31 @@ use scene::ContentHash;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Deletes the maps of no scene.
+/// Deletes maps without scenes.
 const UNUSED_MAPS: &str = "DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)";
 
-/// Compression of bodies: beyond this level size hardly falls.
+/// Compression level of bodies: higher ones hardly reduce the size.
 const LEVEL: i32 = 3;
 
-/// A map on its way in.
+/// A map to write.
 #[derive(Clone, Debug)]
 pub struct MapRecord {
     /// Content hash.
     pub sha: String,
     /// Lines and areas.
     pub polylines: usize,
-    /// Points of them all.
+    /// Number of their points.
     pub points: usize,
     /// Native JSON; `None` for a map that is stored already.
     pub json: Option<Vec<u8>>,
 }
 
-/// A scene on its way in.
+/// A scene to write.
 #[derive(Clone, Debug)]
 pub struct SceneRecord {
-    /// For people.
+    /// Display name.
     pub name: String,
-    /// Words to find it by.
+    /// Tags for searches.
     pub tags: Vec<String>,
     /// Scene it is a variant of.
     pub parent_id: Option<String>,
@@ -41,7 +41,7 @@ pub struct SceneRecord {
     pub meta: String,
     /// Native JSON with the map by reference, without id.
     pub json: Vec<u8>,
-    /// What others than its owner may do from now on; `None` leaves that as it is.
+    /// What others than its owner may do from now on; `None` does not change it.
     pub shared: Option<SceneShare>,
     /// Its map.
     pub map: MapRecord,
@@ -65,7 +65,7 @@ impl SceneRecord {
     }
 }
 
-/// A scene ready to be written; its text exists only in compressed form.
+/// A scene ready to write; its text exists only in compressed form.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
     name: String,
@@ -73,7 +73,7 @@ pub struct PackedScene {
     tags: String,
     parent_id: Option<String>,
     meta: String,
-    /// Of the text.
+    /// Hash of the text.
     hash: ContentHash,
     body: Vec<u8>,
     shared: Option<SceneShare>,
@@ -85,7 +85,7 @@ struct PackedMap {
     sha: String,
     polylines: usize,
     points: usize,
-    /// Of the text.
+    /// Bytes of the text.
     bytes: usize,
     /// `None` for a map that is stored already.
     body: Option<Vec<u8>>,
@@ -100,7 +100,7 @@ pub struct StoredMap {
     pub bytes: u64,
     /// Lines and areas.
     pub polylines: u64,
-    /// Points of them all.
+    /// Number of their points.
     pub points: u64,
 }
 
@@ -109,7 +109,7 @@ pub struct StoredMap {
 pub struct Written {
     /// New ETag, with quotes.
     pub etag: String,
-    /// Made, not replaced.
+    /// Whether it was created, not replaced.
     pub created: bool,
 }
 
@@ -118,9 +118,9 @@ pub struct Written {
 pub struct SceneSummary {
     /// Id.
     pub id: String,
-    /// For people.
+    /// Display name.
     pub name: String,
-    /// With quotes.
+    /// ETag, with quotes.
     pub etag: String,
     /// JSON array.
     pub tags: String,
@@ -130,22 +130,22 @@ pub struct SceneSummary {
     pub map_sha: String,
     /// Facts for lists, as JSON.
     pub meta: String,
-    /// Size of body as stored.
+    /// Size of the stored body.
     pub bytes: u64,
     /// RFC 3339.
     pub created_at: String,
     /// RFC 3339.
     pub updated_at: String,
-    /// Whose it is.
+    /// Owner and sharing.
     pub ownership: Ownership,
 }
 
 /// Precondition of a write.
 #[derive(Clone, Debug)]
 pub enum Expect {
-    /// Nothing has the id yet.
+    /// The id must be unused.
     Absent,
-    /// One of these is the stored scene's ETag; `*` matches any.
+    /// One of these must be the stored scene's ETag; `*` matches any.
     Etags(Vec<String>),
 }
 
@@ -168,7 +168,7 @@ pub(super) fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
     })
 }
 
-/// Whose a scene is, in two columns from this one on.
+/// The ownership in two columns of a row, from `at` on.
 fn ownership(row: &Row<'_>, at: usize) -> rusqlite::Result<Ownership> {
     Ok(Ownership { owner: row.get(at)?, shared: SceneShare::of(&row.get::<_, String>(at + 1)?) })
 }
@@ -189,7 +189,7 @@ impl Store {
         .await
     }
 
-    /// The ETag of a scene; `None` when nothing has the id.
+    /// The ETag of a scene; `None` if the id is unused.
     pub async fn etag(&self, id: &str) -> Result<Option<String>, StoreError> {
         let (id, viewer) = (id.to_owned(), self.viewer.clone());
         self.read(move |connection| {
@@ -220,7 +220,7 @@ impl Store {
         Ok(etags)
     }
 
-    /// Writes something new; on a full disk once more, after maps that no scene uses have made room.
+    /// Writes something new. On a full disk it deletes unused maps and tries again.
     async fn add<T: Send + 'static>(
         &self,
         task: impl Fn(&Transaction<'_>) -> Result<T, StoreError> + Send + Sync + 'static,
@@ -236,7 +236,7 @@ impl Store {
                 if unused.await? == 0 {
                     return Err(error);
                 }
-                // Many maps take more of the log than it has.
+                // Many maps need more of the log than the reserve holds.
                 self.reserve.give_up();
                 let dropped = self.write(|tx| Ok(tx.execute(UNUSED_MAPS, [])?)).await;
                 self.emptied().await;
@@ -248,8 +248,8 @@ impl Store {
         }
     }
 
-    /// Deletes a scene, on a full disk too: the room that is kept for that is given up then, and what is freed goes back
-    /// to the disk.
+    /// Deletes a scene, even on a full disk: then the reserve is released first, and the freed space goes
+    /// back to the disk.
     pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
         let delete = |id: String, expect: Expect, with_maps: bool| {
             let viewer = self.viewer.clone();
@@ -268,7 +268,7 @@ impl Store {
         let deleted = match delete(id.to_owned(), expect.clone(), is_short).await {
             Err(error) if error.is_disk_full() => {
                 self.reserve.give_up();
-                // What is in the log takes the room first.
+                // The content of the log takes the space first.
                 self.emptied().await;
                 delete(id.to_owned(), expect, true).await
             }
@@ -294,7 +294,7 @@ impl Store {
         .await
     }
 
-    /// All maps of scenes that are seen, without their content.
+    /// All maps of visible scenes, without their content.
     pub async fn maps(&self) -> Result<Vec<StoredMap>, StoreError> {
         let viewer = self.viewer.clone();
         self.read(move |connection| {
@@ -312,7 +312,7 @@ impl Store {
         .await
     }
 
-    /// Drops maps that no scene has used for a while.
+    /// Deletes maps that no scene has used for a while.
     pub async fn drop_unused_maps(&self) -> Result<usize, StoreError> {
         let before = seconds_now().saturating_sub_unsigned(self.limits.map_keep_s);
         self.write(move |tx| {
@@ -322,7 +322,7 @@ impl Store {
         .await
     }
 
-    /// Gives room back to the disk, where that can be done.
+    /// Returns space to the disk if possible.
     async fn emptied(&self) {
         if let Err(error) = self.give_back().await {
             tracing::warn!(%error, "the log keeps its room");
@@ -382,7 +382,7 @@ struct Stored {
     rev: i64,
     etag: String,
     updated_at: String,
-    /// Of its body as it is stored.
+    /// Bytes of the stored body.
     bytes: u64,
     ownership: Ownership,
 }
@@ -462,8 +462,7 @@ fn etag(rev: i64, text: &ContentHash) -> String {
     format!("\"{rev}-{}\"", hash.get(..16).unwrap_or_default())
 }
 
-/// Refuses to grow beyond the store's size. Maps that no scene has any more are kept for a while, but not when
-/// there is no room.
+/// Refuses to exceed the store's size. Unused maps are kept for a while, but not if there is no room.
 fn make_room(tx: &Transaction<'_>, grows: u64, most: u64) -> Result<(), StoreError> {
     let fits = |used: u64| grows == 0 || used.saturating_add(grows) <= most;
     if fits(used_bytes(tx)?) {
@@ -477,7 +476,7 @@ fn make_room(tx: &Transaction<'_>, grows: u64, most: u64) -> Result<(), StoreErr
     }
 }
 
-/// Pages of the file that hold something: those of what was deleted are free to be written again.
+/// Pages of the file in use: those of deleted rows can be written again.
 fn used_bytes(connection: &rusqlite::Connection) -> Result<u64, StoreError> {
     let number = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
     let pages = number("page_count")? - number("freelist_count")?;

@@ -1,17 +1,17 @@
-//! Room kept on the disk, so that scenes can be deleted when it is full.
+//! Reserved disk space, so that scenes can be deleted when the disk is full.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A delete writes a few pages to the log first, and what is in the log must find its place in the file: what is kept
-/// for both. The log has up to 1 MB (`LOG_PAGES`).
+/// A delete first writes a few pages to the log, whose content then needs space in the file. The reserve
+/// covers both; the log has up to 1 MB (`LOG_PAGES`).
 const RESERVE_BYTES: usize = 2 << 20;
-/// A disk with this much room takes writes again.
+/// Free bytes with which a disk takes writes again.
 const ROOM_BYTES: usize = 256 << 10;
 
-/// A file of zeros beside the store's, given up when a delete finds the disk full.
+/// A file of zeros beside the store's, released when a delete finds the disk full.
 #[derive(Debug)]
 pub struct Reserve {
     path: PathBuf,
@@ -21,7 +21,7 @@ pub struct Reserve {
 }
 
 impl Reserve {
-    /// Beside a database; made where there is room for it.
+    /// The reserve beside a database; created if there is space for it.
     pub fn beside(database: &Path) -> Self {
         let named = |end: &str| {
             let mut name = database.file_name().unwrap_or_default().to_owned();
@@ -33,7 +33,7 @@ impl Reserve {
         reserve
     }
 
-    /// Makes the file again, where it is missing and there is room.
+    /// Creates the file again if it is missing and there is space.
     pub fn restore(&self) {
         if !self.is_kept()
             && let Err(error) = fill(&self.path, RESERVE_BYTES)
@@ -43,45 +43,45 @@ impl Reserve {
         }
     }
 
-    /// Gives the room back to the disk. True when there was some.
+    /// Returns the space to the disk. True if there was some.
     pub fn give_up(&self) -> bool {
         std::fs::remove_file(&self.path).is_ok()
     }
 
-    /// True while room is kept.
+    /// Whether space is reserved.
     pub fn is_kept(&self) -> bool {
         self.path.metadata().is_ok_and(|m| m.len() == RESERVE_BYTES as u64)
     }
 
-    /// Notes whether the last write found the disk full.
+    /// Records whether the last write found the disk full.
     pub fn note(&self, full: bool) {
         self.full.store(full, Ordering::Relaxed);
     }
 
-    /// True when the disk was full at the last write and still is.
+    /// Whether the disk was full at the last write and still is.
     pub fn is_full(&self) -> bool {
         if !self.full.load(Ordering::Relaxed) {
             return false;
         }
         let full = fill(&self.probe, ROOM_BYTES).is_err();
-        // A remaining probe does no harm: the next one overwrites it.
+        // A remaining probe is harmless: the next one overwrites it.
         let _ = std::fs::remove_file(&self.probe);
         self.note(full);
         full
     }
 }
 
-/// Writes so many zeros: holes would keep no room.
+/// Writes zeros, because holes would reserve no space.
 fn fill(path: &Path, bytes: usize) -> io::Result<()> {
     let mut file = private(OpenOptions::new().write(true).create(true).truncate(true)).open(path)?;
     file.write_all(&vec![0; bytes])?;
     file.sync_all()
 }
 
-/// Creates a database file that only its owner can read; an existing one is closed to others.
+/// Creates a database file that only its owner can read; an existing one gets the same mode.
 ///
 /// # Errors
-/// When it cannot be made or changed.
+/// When it cannot be created or changed.
 pub fn make_private(path: &Path) -> io::Result<()> {
     let file: File = private(OpenOptions::new().read(true).append(true).create(true)).open(path)?;
     #[cfg(unix)]
@@ -115,7 +115,7 @@ mod tests {
         assert!(reserve.give_up() && !reserve.give_up());
         reserve.restore();
         assert!(kept() > 0);
-        // A disk that was full and has room again is not full.
+        // A disk that was full but has space again is not full.
         reserve.note(true);
         assert!(!reserve.is_full());
     }

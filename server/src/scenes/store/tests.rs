@@ -97,7 +97,7 @@ async fn pages_go_on_where_the_last_one_ended_even_when_its_scene_is_gone() {
     assert_eq!(ids(falling).await, ["b", "a"]);
 }
 
-/// A scene with a map of its own, neither of which packs well.
+/// A scene with its own map, both hard to compress.
 fn large(name: &str) -> PackedScene {
     let noise: Vec<u8> = (0..40_000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 11) as u8).collect();
     let mut scene = unpacked(name);
@@ -154,11 +154,11 @@ fn another_programs_file_and_a_damaged_one_are_left_alone() {
     let connection = rusqlite::Connection::open(&path).unwrap();
     let id: i64 = connection.pragma_query_value(None, "application_id", |row| row.get(0)).unwrap();
     assert_ne!(id, 0);
-    // A file of the first schema, which had no mark, is taken for what it is.
+    // A file of the first schema, without a mark, is recognised.
     connection.pragma_update(None, "application_id", 0).unwrap();
     drop(connection);
     drop(open("own").unwrap());
-    // Its threads close the file a moment later, and with it the log beside it.
+    // Its threads close the file a moment later, and with it the log.
     while folder.path().join("own-wal").exists() {
         std::thread::yield_now();
     }

@@ -1,4 +1,4 @@
-//! The scene that the windows of a call are cut from.
+//! The scene that a call's windows are cut from.
 
 use super::spans::Spans;
 use crate::generator::extrapolation::{Guessed, extrapolated};
@@ -31,7 +31,7 @@ pub(super) fn known_to_the_end(
     (Arc::new(bare(scene, agents)), guessed)
 }
 
-/// A scene of these road users, with what planning needs of the rest.
+/// A scene with these road users and the other parts that planning needs.
 pub(super) fn bare(scene: &Scene, agents: Vec<scene::Agent>) -> Scene {
     Scene {
         id: None,

@@ -1,5 +1,5 @@
-//! Relations of the futures of a finished sample to the shown motions of others, or to their reactions if the
-//! future is taken. Also the manoeuvre of each future.
+//! Relations and manoeuvres of the futures of a finished sample. Relations are to the shown motions of
+//! others, or to their reactions if the future is taken.
 
 use crate::maps::KnownMap;
 use crate::request::Request;
@@ -7,22 +7,22 @@ use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
 use scene::score::Actor;
 use scene::{AgentType, Future, Sample};
 
-/// Most futures of a sample that all get relations. In a larger one an agent that the call does not regenerate
-/// gets them only for its shown future.
+/// Number of futures in a sample up to which all get relations. In a larger sample, an agent that the call
+/// does not regenerate gets them only for its shown future.
 const FEW: usize = 60;
 
-/// All agents as they are shown, to compare futures with.
+/// All agents as they are shown, to relate futures to.
 pub(super) struct ShownAgents<'a> {
     request: &'a Request,
     map: &'a KnownMap,
     sample: &'a Sample,
-    /// One a road user of the scene, from the step after the start on.
+    /// One trace per road user of the scene, from the step after the start on.
     traces: Vec<Trace>,
     few: bool,
 }
 
 impl<'a> ShownAgents<'a> {
-    /// `shown` are the scene's road users in their order; the sample has so many futures in all.
+    /// `shown` holds the scene's road users in their order; the sample has `futures` futures in all.
     pub(super) fn new(
         request: &'a Request,
         map: &'a KnownMap,
@@ -42,7 +42,7 @@ impl<'a> ShownAgents<'a> {
         manoeuvre(&future.states, kind, lanes)
     }
 
-    /// The motion of an agent, to compare futures with.
+    /// The motion of an agent, to relate futures to.
     fn trace(request: &Request, agent: &scene::Agent, actor: &Actor<'_>) -> Trace {
         let at = |step: usize| actor.state(request.start_step + 1 + step).copied();
         Trace::new(&agent.id, agent.kind(), &actor.size, request.horizon_steps, at)

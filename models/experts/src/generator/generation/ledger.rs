@@ -1,4 +1,4 @@
-//! The ledger of a call: the motion of every agent so far in the present sample, and the parts of the answer.
+//! The ledger of a call: every agent's motion so far in the present sample, and the parts of the answer.
 
 use super::related::Related;
 use super::targets::due;
@@ -20,20 +20,20 @@ use std::ops::Range;
 
 /// The motion of an agent so far in the present sample.
 pub(super) struct AgentProgress {
-    /// Of the window in which it first got any.
+    /// Its futures in the first window that gave it any.
     futures: AgentFutures,
-    /// To where the next window begins, from the step after the call's start or, for one that came in
-    /// later, after its first.
+    /// Executed states up to the start of the next window: from the step after the call's start or, for an
+    /// agent that entered later, after its first step.
     pub(super) executed: Vec<State>,
     /// Steps of the call that passed before `executed`.
     absent: usize,
-    /// Was parked at the start and has not moved.
+    /// The agent was parked at the start and has not moved.
     parked: bool,
     reach: ReachReport,
     intermediate: Vec<Intermediate>,
-    /// It keeps its path and changes its timing to yield to another agent.
+    /// The agent keeps its path and changes its timing to yield to another agent.
     reacts: bool,
-    /// Its plan of the last window after the executed steps.
+    /// The rest of its plan in the last window, after the executed steps.
     ahead: Vec<State>,
 }
 
@@ -45,7 +45,7 @@ impl AgentProgress {
         Self { futures, executed, absent, parked, reach, intermediate, reacts, ahead }
     }
 
-    /// Adds the states of a known motion that it followed up to `steps` after the call's start.
+    /// Adds the states of a known motion that the agent followed up to `steps` after the call's start.
     fn catch_up(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
         let track = &base.agents[agent].track;
         let from = self.absent + self.executed.len() + 1;
@@ -53,20 +53,20 @@ impl AgentProgress {
     }
 }
 
-/// All that a call writes down on its way to the answer.
+/// Everything that a call records on its way to the answer.
 #[derive(Default)]
 pub(super) struct Ledger {
     progress: BTreeMap<usize, AgentProgress>,
     pub(super) samples: Vec<Sample>,
     resolved: BTreeMap<AgentId, Resolved>,
-    /// Of the present sample.
+    /// Reactions to unshown futures in the present sample.
     instead: Instead,
     pub(super) warnings: Vec<Warning>,
     pub(super) timings: Timings,
 }
 
-/// The reactions of others if a future of an agent were taken that is not shown, by agent and future; `None` is that of
-/// an agent that has no other in its way.
+/// The reactions of others if an unshown future of an agent were taken, by agent and future. `None` stands
+/// for an agent that nobody is in the way of.
 pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<AgentFutures>)>>;
 
 impl Ledger {
@@ -75,30 +75,30 @@ impl Ledger {
         self.progress.get(&agent)
     }
 
-    /// The agents that got futures in the present sample.
+    /// Agents that got futures in the present sample.
     pub(super) fn acted(&self) -> BTreeSet<usize> {
         self.progress.keys().copied().collect()
     }
 
-    /// The agents that react on their own path: their reached states, and their plans from there.
+    /// Agents that react on their own path: their reached states and the plans from there.
     pub(super) fn reacting(&self) -> BTreeMap<usize, Vec<State>> {
         let reacting = self.progress.iter().filter(|(_, p)| p.reacts);
         let ahead = |p: &AgentProgress| p.executed.last().into_iter().chain(&p.ahead).copied().collect();
         reacting.map(|(i, p)| (*i, ahead(p))).collect()
     }
 
-    /// The agents among them that were parked at the start and have not moved.
+    /// Agents of the sample that were parked at the start and have not moved.
     pub(super) fn parked(&self) -> BTreeSet<usize> {
         self.progress.iter().filter(|(_, p)| p.parked).map(|(i, _)| *i).collect()
     }
 
-    /// The present sample, from 0.
+    /// Number of the present sample, from 0.
     pub(super) fn sample(&self) -> usize {
         self.samples.len()
     }
 
-    /// Writes down where a road user goes in the steps `span` after the call's start that a window executes.
-    /// `base` has what it did before the window in which it first gives up the motion that it had.
+    /// Records the motion of a road user in the steps `span` after the call's start, which a window executes.
+    /// `base` has its motion before the window in which it first leaves its kept motion.
     pub(super) fn follow(
         &mut self,
         request: &Request,
@@ -118,7 +118,7 @@ impl Ledger {
         };
         progress.catch_up(request, base, agent, span.start);
         progress.executed.extend(decided.motion().states.iter().skip(1).take(span.len()).map(State::from));
-        // After the goal its verdict stays.
+        // After the goal's time its verdict does not change.
         if due(request, agent) > span.start as isize {
             if let Some(sent) = window.subgoals.get(&agent) {
                 let reached = decided.motion().reach.is_reached();
@@ -129,7 +129,7 @@ impl Ledger {
         self.progress.insert(agent, progress);
     }
 
-    /// Writes down where a reacting agent goes in these steps.
+    /// Records the motion of a reacting agent in these steps.
     pub(super) fn react(
         &mut self,
         request: &Request,
@@ -138,7 +138,7 @@ impl Ledger {
         reacted: &Reacted,
         span: Range<usize>,
     ) {
-        // It comes in, or leaves what it did, after these steps: a later window sees to that.
+        // The agent enters, or departs from its kept motion, after these steps: a later window records that.
         let there = span.len().saturating_sub(reacted.enters);
         let agent = reacted.index;
         if there > 0 && reacted.stays_out() {
@@ -160,7 +160,7 @@ impl Ledger {
         self.progress.insert(agent, progress);
     }
 
-    /// Writes down the reactions of the others to futures that are not shown.
+    /// Records the reactions of the others to unshown futures.
     pub(super) fn would_react(&mut self, window: &PlanningWindow<'_>, decisions: &Decisions) {
         let shown = || decisions.reacted.iter().map(|a| a.index);
         for decided in &decisions.actors {
@@ -177,12 +177,12 @@ impl Ledger {
         }
     }
 
-    /// The motions that were written down by [`Ledger::would_react`].
+    /// Takes the motions that [`Ledger::would_react`] recorded.
     pub(super) fn take_instead(&mut self) -> Instead {
         std::mem::take(&mut self.instead)
     }
 
-    /// Writes down that an agent followed a picked future up to `steps` after the call's start.
+    /// Records that an agent followed a picked future up to `steps` after the call's start.
     pub(super) fn followed(&mut self, request: &Request, base: &Scene, agent: usize, steps: usize) {
         if let Some(progress) = self.progress.get_mut(&agent) {
             progress.catch_up(request, base, agent, steps);
@@ -245,7 +245,7 @@ impl Ledger {
         }
     }
 
-    /// Writes down the ways out of goals that are reached off the road.
+    /// Records the remedies for goals that are reached off the road.
     pub(super) fn remedy(&mut self, ways: BTreeMap<AgentId, ByRoad>) {
         for (id, way) in ways {
             if let Some(resolved) = self.resolved.get_mut(&id) {
@@ -293,8 +293,8 @@ impl Ledger {
     }
 }
 
-/// A road user's first window: its alternatives are those of the answer. An agent that joins in a later
-/// window has only its shown future.
+/// The part of the answer from a road user's first window, with its alternatives. An agent that joins in a
+/// later window has only its shown future.
 fn first_of(
     window: &PlanningWindow<'_>,
     actor: &PlannedActor,
@@ -314,8 +314,8 @@ fn first_of(
     AgentProgress { parked, reach: reach.clone(), ..AgentProgress::new(futures, executed, absent) }
 }
 
-/// The states of an agent that keeps its motion before the window in which it first changes it. The first
-/// state of one that came in later is its start and left out like any other's.
+/// States of an agent before the window in which it first leaves its kept motion. The start is left out, as
+/// for any agent; for an agent that entered later it is the first state.
 fn before(base: &Scene, request: &Request, agent: usize, steps: usize) -> Vec<State> {
     let track = &base.agents[agent].track;
     let start = request.start_step;

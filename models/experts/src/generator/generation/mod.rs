@@ -1,7 +1,7 @@
-//! One call: planning windows one after the other, each from the states that the last one reached, and
-//! the answer made of what was executed.
+//! One call: planning windows one after the other, each from the states that the previous one reached, and
+//! the answer from what was executed.
 //!
-//! A window plans 9 s ahead; its first seconds, up to the next re-planning, are executed. The next window
+//! A window plans 9 s ahead. Its first seconds, up to the next replanning, are executed. The next window
 //! starts every agent from its state at that time: at the end of the executed future, else on the log, else
 //! extrapolated straight on. Motion of an earlier window is not planned again.
 
@@ -41,9 +41,9 @@ use window::PlanningWindow;
 #[derive(Clone, Copy)]
 enum CallStage {
     Accept,
-    /// First drafts of a window.
+    /// First drafts of the window with this number.
     Initial(usize),
-    /// A window's refinement step, from 1.
+    /// A window's number and its refinement step, from 1.
     Step(usize, usize),
     Finish,
     Done,
@@ -52,9 +52,10 @@ enum CallStage {
 /// The windows of a call that are planned at present.
 struct CallWindows<'g> {
     spans: Spans,
-    /// The scene that they are cut from: the call's, with kept motions known to the last window's end.
+    /// The scene that windows are cut from: the call's scene, with kept motions known to the last window's
+    /// end.
     base: Arc<Scene>,
-    /// The moment at which the first begins, until it is planned.
+    /// The world at the start of the first window, until that window is planned.
     start: Option<World<'g>>,
     /// `first` serves all samples; `later` serves only the present sample.
     first: Option<PlanningWindow<'g>>,
@@ -71,7 +72,7 @@ impl<'g> CallWindows<'g> {
     }
 }
 
-/// A call under way: yields events until the final one.
+/// A call in progress: an iterator of events that ends with the final one.
 pub struct Generation<'g> {
     resources: &'g Resources,
     request: Arc<Request>,
@@ -109,7 +110,7 @@ impl<'g> Generation<'g> {
         Ok(Self { resources, request, cancel, map, stage, roster, windows, ledger, related })
     }
 
-    /// Runs to the answer.
+    /// Runs the call to its answer.
     pub(super) fn finished(self) -> Result<Answer, GenerateError> {
         for event in self {
             if let Event::Final(answer) = event? {
@@ -184,7 +185,7 @@ impl<'g> Generation<'g> {
         })
     }
 
-    /// Milliseconds since the clock showed this.
+    /// Milliseconds since the clock read `started`.
     fn since(&self, started: Duration) -> f64 {
         milliseconds(self.resources.clock, started)
     }
@@ -205,7 +206,7 @@ impl<'g> Generation<'g> {
         Ok(())
     }
 
-    /// Chooses one future each and goes along them to where the next window starts.
+    /// Chooses one future per actor and executes it up to the start of the next window.
     fn execute(&mut self, number: usize) -> Result<(), GenerateError> {
         let started = (self.resources.clock)();
         let span = self.windows.spans.window(number);
@@ -279,7 +280,7 @@ impl<'g> Generation<'g> {
         if self.cancel.is_cancelled() { Err(GenerateError::Cancelled) } else { Ok(()) }
     }
 
-    /// The part after the last draft of a window.
+    /// The stage after the last draft of a window.
     fn after(&self, number: usize) -> CallStage {
         if number + 1 < self.windows.spans.count() {
             CallStage::Initial(number + 1)
@@ -333,7 +334,7 @@ impl Iterator for Generation<'_> {
     }
 }
 
-/// A scene at one step, to be planned as the request says.
+/// A scene at one step, with what the request says about planning.
 fn world<'g>(
     resources: &'g Resources,
     map: &KnownMap,

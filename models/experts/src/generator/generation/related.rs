@@ -1,7 +1,9 @@
-//! Goals that are relative to another agent, before a call plans anything: each becomes an ordinary goal.
+//! Resolves goals that are relative to another agent before a call plans anything: each becomes an ordinary
+//! goal.
 //!
-//! An agent that keeps its motion is followed in that motion. One that the call regenerates is planned first, by a call
-//! of its own in which goals that depend on it are free, and keeps the future that is shown there.
+//! If the other agent keeps its motion, the goal follows that motion. If the call regenerates the other
+//! agent, a call of its own plans that agent first, with the goals that depend on it left free. The agent
+//! then keeps the future that this first call shows.
 
 use crate::generator::extrapolation::extrapolated;
 use crate::maps::KnownMap;
@@ -13,20 +15,21 @@ use scene::{AgentFutures, AgentId, AgentType, Goal, STEP_S, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// What a call has to know of the relations of its goals.
+/// What a call needs to know about relative goals.
 #[derive(Default)]
 pub(super) struct Related {
-    /// Why the goal of an agent could not be worked out, by index into the scene's agents.
+    /// Why the goal of an agent could not be resolved, by index into the scene's agents.
     pub(super) unrelated: BTreeMap<usize, Message>,
-    /// The agents that were planned first: their futures and the report on them.
+    /// The agents that were planned first: their futures and their reports.
     first: BTreeMap<AgentId, (AgentFutures, Option<Resolved>)>,
 }
 
 impl Related {
-    /// The call with ordinary goals, and what it has to know of the relations. `plan` runs a call without relations.
+    /// The call with ordinary goals, and what it needs to know about the relations. `plan` runs a call
+    /// without relations.
     ///
     /// # Errors
-    /// Those of the calls that plan the agents that others are relative to.
+    /// Those of the calls that plan the reference agents first.
     pub(super) fn of(
         map: &KnownMap,
         request: Request,
@@ -73,12 +76,13 @@ impl Related {
         Ok((request, related))
     }
 
-    /// The futures of the agents that were planned first. A kept future is not part of an answer otherwise.
+    /// Puts the futures of the agents that were planned first into the answer, which otherwise omits kept
+    /// futures.
     pub(super) fn restore(&self, futures: &mut BTreeMap<AgentId, AgentFutures>) {
         futures.extend(self.first.iter().map(|(id, (first, _))| (id.clone(), first.clone())));
     }
 
-    /// The reports on the agents that were planned first.
+    /// Reports on the agents that were planned first.
     pub(super) fn reports(&self) -> impl Iterator<Item = (&AgentId, &Resolved)> {
         self.first.iter().filter_map(|(id, (_, resolved))| Some((id, resolved.as_ref()?)))
     }
@@ -105,7 +109,8 @@ fn leader(request: &Request, agent: usize) -> Option<&AgentId> {
     request.scene.agents[agent].conditions.relation.as_ref().map(|relation| &relation.to)
 }
 
-/// The call with the agents that may react and whose goal is relative to a regenerated one: they keep the relation.
+/// Adds to the call the agents that may react and whose goal is relative to a regenerated one: they keep the
+/// relation.
 fn with_dependent(mut request: Request) -> Request {
     loop {
         let agents = 0..request.scene.agents.len();
@@ -120,7 +125,7 @@ fn with_dependent(mut request: Request) -> Request {
     }
 }
 
-/// The call plans this agent anew. One that comes in later, or cannot move, keeps its motion.
+/// Whether the call plans this agent anew. An agent that enters later, or cannot move, keeps its motion.
 fn is_planned(request: &Request, id: &AgentId) -> bool {
     let agents = &request.scene.agents;
     let there = agents.iter().position(|agent| agent.id == *id).is_some_and(|i| {
@@ -131,12 +136,12 @@ fn is_planned(request: &Request, id: &AgentId) -> bool {
     there && is_asked(request, id) && !request.pinned.contains_key(id)
 }
 
-/// The motion of the agent that a goal is relative to does not depend on what the call plans.
+/// Whether the motion of the agent's reference does not depend on this call.
 fn has_known_leader(request: &Request, agent: usize) -> bool {
     leader(request, agent).is_none_or(|to| !is_planned(request, to))
 }
 
-/// The agents that come first: others are relative to them, and they are relative to no open one.
+/// The agents to plan first: others are relative to them, and they are not relative to an open one.
 fn leaders(request: &Request, open: &BTreeSet<usize>) -> BTreeSet<AgentId> {
     let is_open = |id: &AgentId| open.iter().any(|i| request.scene.agents[*i].id == *id);
     open.iter().filter_map(|i| leader(request, *i)).filter(|to| !is_open(to)).cloned().collect()

@@ -1,5 +1,5 @@
-//! The remedy for a goal that is reached only off the road or against the traffic: the nearest place that the
-//! road leads to in the same time.
+//! Remedy for a goal that is reached only off the road or against the traffic: the nearest place that the
+//! road reaches in the same time.
 
 use super::targets::due;
 use crate::maps::KnownMap;
@@ -33,7 +33,7 @@ pub(super) fn by_road(
         let goal = agent.conditions.goal.position?;
         let seconds = due(request, who.index).max(1) as f64 * STEP_S;
         let v0 = who.start.speed_mps();
-        // No route gets farther.
+        // No route is longer.
         let longest_m =
             (v0 * seconds + 0.5 * SPEEDING_UP_MPS2 * seconds * seconds).min(PACE_MPS.max(v0) * seconds);
         let nearest_m = v0 * v0 / (2.0 * STOPPING_MPS2);
@@ -47,7 +47,7 @@ pub(super) fn by_road(
         };
         let places = routes_ahead(&map.graph, who.pose(), who.agent_type, longest_m).into_iter().map(place);
         let nearest = places.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))?;
-        // The goal itself lies on the road: another place is no way out.
+        // The goal itself lies on the road, so another place is no remedy.
         (nearest.distance_m >= LEAST_MOVE_M).then_some(())?;
         Some((agent.id.clone(), nearest))
     };

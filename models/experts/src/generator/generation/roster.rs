@@ -1,4 +1,4 @@
-//! The roster of a call: one part for each road user of the scene, and the cast of each window.
+//! The roster of a call: one part per road user of the scene, and the cast of each window.
 
 use super::base_scene::known_to_the_end;
 use super::ledger::Ledger;
@@ -17,35 +17,35 @@ use std::sync::Arc;
 pub(super) enum CallPart {
     /// The call regenerates it.
     Asked,
-    /// The call regenerates it, and the user picked its future. It is fixed in the first window, background
-    /// after it, and plans on from the end of the picked future.
+    /// The call regenerates it, but the user picked its future. It is fixed in the first window and
+    /// background afterwards. At the end of the picked future it is planned again.
     Picked,
     /// It may react to the regenerated agents.
     MayReact,
-    /// It keeps a future which ends before the call does, and plans on from its end.
+    /// It keeps a future that ends before the call does, and is planned from there.
     Continues,
-    /// It enters after the start of a call that covers all agents or lets all react, and plans on where its
-    /// log ends.
+    /// It enters after the start of a call that covers all agents or lets all react. It is planned from the
+    /// end of its log.
     Arrives,
-    /// It keeps the motion it has.
+    /// It keeps its motion.
     Kept,
-    /// It is not there at the start.
+    /// It is not present at the start.
     Absent,
 }
 
 impl CallPart {
-    /// It may get new futures although the call does not regenerate it.
+    /// Whether it may get new futures although the call does not regenerate it.
     pub(super) fn answers(self) -> bool {
         matches!(self, Self::MayReact | Self::Continues | Self::Arrives)
     }
 
-    /// The call regenerates it.
+    /// Whether the call regenerates it.
     pub(super) fn is_asked(self) -> bool {
         matches!(self, Self::Asked | Self::Picked)
     }
 }
 
-/// The parts in a call, one entry an agent of the scene.
+/// The parts in a call, one per agent of the scene.
 pub(super) struct Roster {
     /// The scene that windows are cut from.
     base: Arc<Scene>,
@@ -122,12 +122,12 @@ impl Roster {
         Ok((Self { base: base.clone(), parts, guessed }, base))
     }
 
-    /// A road user's part.
+    /// The part of a road user.
     pub(super) fn part(&self, agent: usize) -> CallPart {
         self.parts[agent]
     }
 
-    /// Road users with a part like this.
+    /// Road users whose part satisfies `is`.
     pub(super) fn with(&self, is: impl Fn(CallPart) -> bool) -> impl Iterator<Item = usize> {
         self.parts.iter().enumerate().filter(move |(_, part)| is(**part)).map(|(i, _)| i)
     }
@@ -137,17 +137,18 @@ impl Roster {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
-    /// The kept motion of a road user is extrapolated from scene step `step` on.
+    /// Whether the kept motion of a road user is extrapolated from scene step `step` on.
     fn known_until(&self, agent: usize, step: usize) -> bool {
         self.guessed[agent].is_some_and(|g| g.step <= step)
     }
 
-    /// A road user still follows the future that was picked for it when a window begins at scene step `step`.
+    /// Whether a road user still follows its picked future when a window begins at scene step `step`.
     pub(super) fn follows_its_pick(&self, agent: usize, step: usize) -> bool {
         self.part(agent) == CallPart::Picked && !self.known_until(agent, step + 1)
     }
 
-    /// Scene steps of which a picked future speaks; `None` of anybody else, and where nothing comes after it.
+    /// Number of scene steps that a picked future covers; `None` for all others, and if nothing comes after
+    /// it.
     pub(super) fn pick_ends(&self, agent: usize) -> Option<usize> {
         self.guessed[agent].filter(|_| self.part(agent) == CallPart::Picked).map(|g| g.step)
     }
@@ -164,16 +165,16 @@ impl Roster {
     ) -> WindowCast {
         let first = number == 0;
         let acted = &ledger.acted();
-        // A picked future is background after the first window, like any other motion that is kept, up to its end.
+        // After the first window, a picked future is background to its end, like any other kept motion.
         let asked = self.with(CallPart::is_asked).filter(|i| first || !self.follows_its_pick(*i, world.step));
         let mut acting: BTreeSet<usize> = asked.collect();
-        // An agent that drives its own path at another pace does so as long as the path is known.
+        // An agent that changed only its pace stays on its path as long as that path is known.
         let mut resumed = ledger.reacting();
         resumed.retain(|i, _| !self.known_until(*i, end));
         for (i, ahead) in &mut resumed {
             let agent = &self.base.agents[*i];
             let agent_type = world.conditions[*i].kind_of(agent);
-            // A guessed motion goes straight on, whatever the road does.
+            // An extrapolated motion goes straight on, whatever the road does.
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];
@@ -220,7 +221,7 @@ mod tests {
     use scene::routes::LaneGraph;
     use scene::{Agent, LaneMap, State, Subtype};
 
-    /// Known at so many steps from `first` on, standing apart from each other.
+    /// Known at this many steps from `first` on, away from the others.
     fn agent(id: &str, agent_type: AgentType, first: usize, steps: usize) -> Agent {
         let mut agent = Agent::bare(id, agent_type, Subtype::Unknown, Vec::new());
         let x_m = 10.0 * id.len() as f64;

@@ -14,7 +14,7 @@ impl Spans {
         Self((0..horizon).step_by(interval).map(|from| from..horizon.min(from + interval)).collect())
     }
 
-    /// Windows; at least one.
+    /// Number of windows; at least one.
     pub(super) fn count(&self) -> usize {
         self.0.len()
     }
@@ -23,7 +23,7 @@ impl Spans {
         self.0[number].clone()
     }
 
-    /// Where the last one begins.
+    /// Steps after the call's start at which the last window begins.
     pub(super) fn last_start(&self) -> usize {
         self.0.last().map_or(0, |span| span.start)
     }

@@ -7,18 +7,19 @@ use scene::via::passings;
 use scene::{Conditions, Goal, HORIZON_STEPS, STEP_S, State, Via};
 use std::collections::BTreeMap;
 
-/// Goals of one window.
+/// Goals and via points of one window.
 #[derive(Default)]
 pub(super) struct Targets {
-    /// The goals in place of the fixed ones, by agent of the scene.
+    /// Goals that replace the fixed ones, by agent of the scene.
     pub(super) goals: Vec<(usize, Goal)>,
-    /// The via points that are left, or that lie on the way to a state on the way, by agent of the scene.
+    /// Via points that are left, or that lie before a subgoal, by agent of the scene.
     pub(super) vias: Vec<(usize, Vec<Via>)>,
-    /// The state on the way that a window is sent to, where the goal is due after its end.
+    /// Subgoals of goals that are due after the window's end, by agent of the scene.
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
 }
 
-/// Steps after the call's start at which a road user's goal is due; the end of the call without a fixed time.
+/// Steps after the call's start at which a road user's goal is due; the end of the call if the goal has no
+/// time.
 pub(super) fn due(request: &Request, agent: usize) -> isize {
     let goal = &request.scene.agents[agent].conditions.goal;
     match goal.time_s {
@@ -27,7 +28,8 @@ pub(super) fn due(request: &Request, agent: usize) -> isize {
     }
 }
 
-/// The via points that are not passed yet when a window begins at a scene step; what was due before is behind.
+/// Via points that are still to be passed when a window begins at a scene step. Those whose time is over are
+/// dropped.
 fn left_of<'v>(asked: &'v Conditions, start_step: usize, step: usize, executed: &[State]) -> &'v [Via] {
     let passed = passings(&asked.via, (start_step + 1) as f64 * STEP_S, executed);
     let done = asked.via.iter().zip(&passed).rposition(|(via, passing)| via.is_passed(passing));
@@ -37,8 +39,8 @@ fn left_of<'v>(asked: &'v Conditions, start_step: usize, step: usize, executed: 
     &asked.via[first..]
 }
 
-/// The goal of a road user and the step after the call's start at which it is due. Where no goal fixes a place, a via
-/// point with a time after the window is the next thing to be in time for.
+/// The goal of a road user and the step after the call's start at which it is due. If the goal has no
+/// position, the last via point that is due after the window stands in for it.
 fn aim(request: &Request, agent: usize, vias: &[Via], step: usize) -> (Goal, isize) {
     let goal = request.scene.agents[agent].conditions.goal;
     let later = |via: &&Via| via.time_s.is_some_and(|t| t > (step + HORIZON_STEPS) as f64 * STEP_S);
@@ -53,8 +55,8 @@ fn aim(request: &Request, agent: usize, vias: &[Via], step: usize) -> (Goal, isi
 }
 
 impl Targets {
-    /// The targets of window `number`: goals that are past are dropped, those due after its end become the state on
-    /// the way. `executed` has what a road user did since the call's start.
+    /// The targets of window `number`. Goals in the past are dropped; goals that are due after the window
+    /// become subgoals. `executed` returns a road user's motion since the call's start.
     pub(super) fn of<'e>(
         request: &Request,
         world: &World<'_>,

@@ -1,5 +1,5 @@
-//! The faults, relations and manoeuvres of the futures of a finished sample. Each future is judged by the rules of a
-//! scene's score, against the shown motions of the others, or their reactions if it were taken.
+//! Faults, relations and manoeuvres of the futures of a finished sample. Each future is judged by the rules
+//! of a scene's score, against the shown motions of the others or their reactions to it.
 
 use super::future_relations::ShownAgents;
 use super::ledger::Instead;
@@ -13,11 +13,11 @@ use scene::judge::{About, Change, Judge, Other, by_weight};
 use scene::score::Actor;
 use scene::{Agent, AgentFutures, Future, STEP_S, Sample};
 
-/// So many futures are judged by several threads: more than one road user has.
+/// From this many futures on, several threads judge them: more than one road user has.
 const MANY: usize = MODES + 1;
 
-/// Sets the faults, the relations and the manoeuvre of each future of a sample. A future that is not shown is judged
-/// against the reactions of the others if it were taken.
+/// Sets the faults, relations and manoeuvre of each future of a sample. A future that is not shown is judged
+/// against the reactions of the others to it.
 pub(super) fn judge(
     request: &Request,
     map: &KnownMap,
@@ -86,8 +86,7 @@ pub(super) fn judge(
     }
 }
 
-/// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
-/// its log.
+/// A road user with its shown motion: its future in the sample, the one that the scene keeps, or its log.
 fn as_shown<'a>(request: &'a Request, sample: &'a Sample, agent: &'a Agent) -> Actor<'a> {
     as_taken(request, agent, sample.agents.get(&agent.id).and_then(shown_future))
 }

@@ -1,4 +1,5 @@
-//! One planning window: the stages from its cast to its decisions, each a function of what the stage before made.
+//! One planning window: the stages from its cast to its decisions, each a function of the previous stage's
+//! result.
 
 use crate::generator::actor::PlannedActor;
 use crate::generator::calibration::calibrated;
@@ -22,16 +23,16 @@ use scene::judge::{About, Trace};
 use scene::{AgentFutures, AgentType, Future, Sample};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// With fewer actors a draft shows every mode while it is refined, else only the likeliest.
+/// With fewer actors than this, a draft shows every mode during refinement; otherwise only the likeliest.
 const SHOW_ALL_BELOW: usize = 5;
 
 /// One planning window of one call.
 pub(super) struct PlanningWindow<'g> {
     pub(super) setting: WindowSetting<'g>,
-    /// The states on the way to goals that are due after the window's end, by agent of the scene.
+    /// Subgoals of goals that are due after the window's end, by agent of the scene.
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
     plan: WindowActors,
-    /// The agents that do not act; none where they do not count.
+    /// The agents that do not act; none if the request ignores them.
     others: Others<'g>,
     drafted: SampleDrafts,
 }
@@ -39,20 +40,20 @@ pub(super) struct PlanningWindow<'g> {
 /// The actors of a window.
 struct WindowActors {
     actors: Vec<PlannedActor>,
-    /// The actors of one network call each.
+    /// Actors grouped into network calls.
     batches: Vec<Batch>,
-    /// The changes that make the modes of an actor six different futures, one entry an actor.
+    /// The changes that make the modes of an actor six different futures, one entry per actor.
     diverse: Vec<Option<DiverseModes>>,
 }
 
 /// The drafts of the present sample.
 #[derive(Default)]
 struct SampleDrafts {
-    /// The sample, from 0.
+    /// Number of the sample, from 0.
     sample: usize,
     /// One entry an actor.
     drafts: Vec<Drafts>,
-    /// Of the drafts that were shown first.
+    /// Relations of the drafts that were shown first.
     relations: Option<DraftRelations>,
 }
 
@@ -92,7 +93,7 @@ impl<'g> PlanningWindow<'g> {
         Ok(())
     }
 
-    /// One future for each actor, and the reactions of the others.
+    /// One future per actor, and the reactions of the others.
     pub(super) fn decide(&self) -> Decisions {
         decide(self.joint())
     }
@@ -186,12 +187,12 @@ impl WindowActors {
         });
         let mut batches = encode(setting, &mut actors, 0)?;
         decide_departures(setting, &mut actors);
-        // In a later window an actor has come to the end of its picked future.
+        // In a later window, an actor is at the end of its picked future.
         for actor in actors.iter_mut().filter(|_| !later) {
             actor.pinned = setting.request.pinned.get(&actor.id).cloned();
         }
         let tuning = setting.tuning();
-        // In a run all others may react, so that to be named says nothing.
+        // In a run all others may react, so being named means nothing.
         let named = matches!(setting.request.react, React::Only(_)) && !setting.request.under_way;
         let found = replanned(world, workers, &actors, &cast.may_react, named, tuning.reacting.near_m);
         let room = MOST_ACTORS.saturating_sub(actors.len());
@@ -205,12 +206,12 @@ impl WindowActors {
         Ok(Self { actors, batches, diverse })
     }
 
-    /// Makes six different futures of the modes of the actors that the call regenerates.
+    /// Makes the modes of the actors that the call regenerates six different futures.
     fn diversify(&mut self, setting: &WindowSetting<'_>, others: &Others<'_>) {
         let (tuning, workers) = (setting.tuning(), setting.workers());
         let leading: Vec<Trace> =
             workers.map(&self.actors, |actor| trace_of_mode(actor, actor.likeliest(), &actor.modes));
-        // Motions that are withheld must not show in how others avoid them.
+        // Withheld motions must not show in how others avoid them.
         let known = setting.request.stages.background_in_the_way;
         let traces: Vec<&Trace> = others.traces().chain(leading.iter().filter(|_| known)).collect();
         let diverse = workers.map(&self.actors, |actor| {

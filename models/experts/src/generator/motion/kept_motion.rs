@@ -10,12 +10,12 @@ pub(in crate::generator) struct KeptMotion<'a> {
     agent: &'a Agent,
     future: Option<&'a Future>,
     start_step: usize,
-    /// Step and state, where no other state is known.
+    /// Step and state, if only one state is known.
     single: Option<(usize, State)>,
 }
 
 impl<'a> KeptMotion<'a> {
-    /// Of an agent in a window that starts at a scene step.
+    /// The kept motion of an agent in a window that starts at a scene step.
     pub(in crate::generator) fn of(scene: &'a Scene, agent: &'a Agent, start_step: usize) -> Self {
         let future = scene.generated.as_ref().and_then(|generated| generated.chosen_future(&agent.id));
         let mut known = agent.track.valid_steps();
@@ -43,7 +43,7 @@ impl<'a> KeptMotion<'a> {
         Some(straight_on(&state, at.saturating_sub(first)))
     }
 
-    /// The motion goes on from where an agent with these conditions starts.
+    /// Whether the motion continues from where an agent with these conditions starts.
     pub(in crate::generator) fn begins_at(&self, start: &State, conditions: &Conditions) -> bool {
         conditions.start == Start::default()
             || self.at(1).is_some_and(|next| {
@@ -52,14 +52,15 @@ impl<'a> KeptMotion<'a> {
             })
     }
 
-    /// States of an agent that is present at the start, one a step from the step after the start to the first gap.
+    /// States of an agent that is present at the start, one per step from the step after the start to the
+    /// first gap.
     pub(in crate::generator) fn states(world: &World<'_>, present: &AgentAtStart) -> Vec<State> {
         let kept = KeptMotion::of(&world.scene, world.agent(present), world.step);
         (1..=HORIZON_STEPS).map_while(|step| kept.at(step)).collect()
     }
 }
 
-/// A state so many steps later at constant velocity; an agent that stands stays.
+/// The state `steps` later at constant velocity; an agent that stands stays.
 fn straight_on(state: &State, steps: usize) -> State {
     if state.speed_mps() < STANDING_MPS {
         return State { vx_mps: 0.0, vy_mps: 0.0, ..*state };

@@ -1,4 +1,4 @@
-//! Motions as values: what a motion is at each step of a window, and what is known of motions that are kept.
+//! Motions as values: a motion at each step of a window, and what is known of kept motions.
 
 mod kept_motion;
 mod sweep;

@@ -1,4 +1,4 @@
-//! One motion at the steps of a window, with the forms that the stages compare it in.
+//! One motion at the steps of a window, in the forms in which the stages compare it.
 
 use crate::planning::{INSTANTS, PER_INSTANT, STAYS_WITHIN_M};
 use scene::geometry::Extent;
@@ -9,13 +9,13 @@ use scene::score::{CLOSE_M, SweptBoxes, dangerous_moments, overlap};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 use std::sync::OnceLock;
 
-/// The choice compares every third step. It leaves the start out: an overlap there cannot be helped.
+/// The choice compares every third step. It omits the start: an overlap there cannot be avoided.
 const STRIDE: usize = 3;
 
 /// Box centre and heading at each instant; `None` at an instant at which the agent is absent.
 pub(in crate::generator) type Places = [Option<(Vec2, f64)>; INSTANTS];
 
-/// The states of an agent, one a step from the window's start on, and its box. Boxes, swept boxes and trace
+/// The states of an agent, one per step from the window's start on, and its box. Boxes, swept boxes and trace
 /// are computed on first use.
 #[derive(Clone, Debug)]
 pub(in crate::generator) struct Sweep {
@@ -27,18 +27,19 @@ pub(in crate::generator) struct Sweep {
 }
 
 impl Sweep {
-    /// From a state a step; `None` at a step at which the agent is absent.
+    /// From one state per step; `None` at a step at which the agent is absent.
     pub(in crate::generator) fn new(states: Vec<Option<State>>, size: &Size) -> Self {
         let (boxes, swept, trace) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         Self { states, size: *size, boxes, swept, trace }
     }
 
-    /// From a rollout, which begins at the window's start.
+    /// From a rollout that begins at the window's start.
     pub(in crate::generator) fn of_rollout(states: &Trajectory, size: &Size) -> Self {
         Self::new(states.iter().map(|state| Some(State::from(state))).collect(), size)
     }
 
-    /// From states that begin `first` steps after the window's start; those after the window's end are left out.
+    /// From states that begin `first` steps after the window's start. States after the window's end are
+    /// dropped.
     pub(in crate::generator) fn entering<'a>(
         first: usize,
         states: impl IntoIterator<Item = &'a State>,
@@ -54,7 +55,7 @@ impl Sweep {
         &self.size
     }
 
-    /// One a step; `None` at a step at which the agent is absent.
+    /// One state per step; `None` at a step at which the agent is absent.
     pub(in crate::generator) fn states(&self) -> &[Option<State>] {
         &self.states
     }
@@ -64,7 +65,7 @@ impl Sweep {
         self.states.get(step)?.as_ref()
     }
 
-    /// One box a step.
+    /// One box per step.
     pub(in crate::generator) fn boxes(&self) -> &[Option<OrientedBox>] {
         self.boxes.get_or_init(|| {
             let outline = |state: &State| OrientedBox::of_state(state, &self.size);
@@ -77,13 +78,13 @@ impl Sweep {
         self.boxes().get(step)?.as_ref()
     }
 
-    /// Box so many seconds after the last step, if the agent is there then and goes on straight.
+    /// Box at `time_s` after the last step, if the agent is present then and continues straight on.
     pub(in crate::generator) fn beyond(&self, time_s: f64) -> Option<OrientedBox> {
         let last = self.at(HORIZON_STEPS)?;
         Some(last.about(last.center() + self.velocity(HORIZON_STEPS) * time_s))
     }
 
-    /// About the places at all steps, and so many seconds after the last one.
+    /// Rectangle around the places at all steps, and `beyond_s` after the last one.
     pub(in crate::generator) fn extent(&self, beyond_s: f64) -> Extent {
         let last = self.state(HORIZON_STEPS);
         let beyond = last.map(|last| last.position() + self.velocity(HORIZON_STEPS) * beyond_s);
@@ -98,7 +99,7 @@ impl Sweep {
         })
     }
 
-    /// The motion from the step after the start on, as relations and manoeuvres are read from it.
+    /// The motion from the step after the start on, in the form from which relations and manoeuvres are read.
     pub(in crate::generator) fn trace(&self, id: &AgentId, agent_type: AgentType) -> &Trace {
         self.trace.get_or_init(|| {
             Trace::new(id, agent_type, &self.size, HORIZON_STEPS, |step| self.state(step + 1).copied())
@@ -111,7 +112,7 @@ impl Sweep {
         std::array::from_fn(|i| self.state((i + 1) * PER_INSTANT).map(place))
     }
 
-    /// The boxes of two motions do not overlap at the start.
+    /// Whether the boxes of two motions do not overlap at the start.
     pub(in crate::generator) fn starts_apart(&self, other: &Self) -> bool {
         match (self.at(0), other.at(0)) {
             (Some(a), Some(b)) => !overlaps(a, b, 0.0),
@@ -119,7 +120,7 @@ impl Sweep {
         }
     }
 
-    /// The boxes of two motions overlap at some step.
+    /// Whether the boxes of two motions overlap at some step.
     pub(in crate::generator) fn meets(&self, other: &Self) -> bool {
         let touch = |(a, b): (&Option<OrientedBox>, &Option<OrientedBox>)| match (a, b) {
             (Some(a), Some(b)) => overlaps(a, b, 0.0),
@@ -143,7 +144,7 @@ impl Sweep {
         Some(STRIDE * (moment + 1))
     }
 
-    /// The first step at which two motions touch, or would soon if both went on as they do then.
+    /// The first step at which two motions touch, or would soon touch at their present velocities.
     pub(in crate::generator) fn first_danger(&self, other: &Self) -> Option<usize> {
         let touch =
             |step: &usize| self.at(*step).zip(other.at(*step)).is_some_and(|(a, b)| overlaps(a, b, 0.0));
@@ -152,7 +153,7 @@ impl Sweep {
         touched.into_iter().chain(danger.map(|moment| STRIDE * (moment + 1))).min()
     }
 
-    /// The agent is present and stays within [`STAYS_WITHIN_M`] of its first place.
+    /// Whether the agent is present and stays within [`STAYS_WITHIN_M`] of its first place.
     pub(in crate::generator) fn stands(&self) -> bool {
         let mut places = self.states.iter().flatten().map(State::position);
         let first = places.next();

@@ -1,4 +1,4 @@
-//! The boxes in the way along a path, and when they are there.
+//! Blocks: the stretches of a path that other agents occupy, and when.
 
 use super::path_progress::{BEYOND_M, PathProgress};
 use crate::generator::motion::Sweep;
@@ -11,28 +11,28 @@ use scene::routes::Pose;
 use scene::{HORIZON_STEPS, STEP_S, Size, Vec2};
 use std::f64::consts::FRAC_PI_6;
 
-/// Distance between the places at which a path is sampled, metres.
+/// Distance between samples of a path, metres.
 const SPACING_M: f64 = 0.5;
-/// Places between two bounding circles.
+/// Samples per bounding circle.
 const CHUNK: usize = 8;
 /// Steps between two looks at others after the window.
 const BEYOND_STRIDE: usize = 3;
-/// An agent that is out of the way for fewer steps has not left.
+/// An agent that leaves the path for fewer steps than this has not left.
 const FLICKER: usize = 3;
-/// Rounding of distances, metres.
+/// Tolerance for rounding of distances, metres.
 const HAIR_M: f64 = 1e-6;
 
-/// An agent or a closed line in the way for a while. Progress is that of the path's box centre.
+/// An agent or a closed line that blocks a path for a while. Progress is that of the path's box centre.
 #[derive(Clone, Debug)]
 pub(super) struct PathBlock {
-    /// Step of the window at which it begins.
+    /// Step of the window at which the block begins.
     pub(super) from: usize,
-    /// First and last progress that is taken, one entry a step.
+    /// First and last blocked progress, one entry per step.
     pub(super) taken: Vec<(f64, f64)>,
 }
 
 impl PathBlock {
-    /// An agent at this progress is past it when it begins.
+    /// Whether an agent at this progress is already past the block when it begins.
     pub(super) fn comes_behind(&self, along_m: f64) -> bool {
         self.taken.first().is_some_and(|(_, last)| along_m > *last)
     }
@@ -42,9 +42,9 @@ impl PathBlock {
 pub(super) struct Corridor {
     enters: usize,
     outlines: Vec<OrientedBox>,
-    /// Circles about the centres of each eight of them.
+    /// Bounding circles of the centres of every eight boxes.
     chunks: Vec<(Vec2, f64)>,
-    /// Of all centres.
+    /// Rectangle around all centres.
     extent: Extent,
 }
 
@@ -62,7 +62,8 @@ impl Corridor {
         Self { enters: path.enters, outlines, chunks, extent }
     }
 
-    /// First and last progress, of the places in a row that this box takes first; what crosses on its way takes more.
+    /// First and last progress of the first contiguous stretch that this box blocks. A crossing box blocks a
+    /// wider stretch.
     fn taken(&self, other: &OrientedBox, velocity: Vec2) -> Option<(f64, f64)> {
         let moves = velocity.norm() > CROSSING_MPS;
         let clear_m = |outline: &OrientedBox| {
@@ -71,7 +72,7 @@ impl Corridor {
             if moves && crosses { CROSSING_M } else { CLEAR_M }
         };
         let own = self.outlines.first()?.radius_m();
-        // Most others are nowhere near the path.
+        // Most other agents are nowhere near the path.
         let (center, reach_m) = (other.center(), own + other.radius_m() + CROSSING_M);
         if self.extent.outside_m(center) > reach_m {
             return None;
@@ -105,7 +106,7 @@ impl Corridor {
         (first as f64 * SPACING_M, last as f64 * SPACING_M)
     }
 
-    /// When and where another agent is in the way.
+    /// When and where another agent blocks the path.
     pub(super) fn blocks(&self, other: &Sweep) -> Vec<PathBlock> {
         let mut out: Vec<PathBlock> = Vec::new();
         if self.is_away_from(other) {
@@ -133,7 +134,7 @@ impl Corridor {
         out
     }
 
-    /// No box of the other agent is near the path, not even soon after the window.
+    /// Whether no box of the other agent is near the path in the window or soon after it.
     fn is_away_from(&self, other: &Sweep) -> bool {
         let Some(own) = self.outlines.first() else { return true };
         let Size { length_m, width_m, .. } = *other.size();
@@ -141,7 +142,7 @@ impl Corridor {
         !self.extent.is_near(&other.extent(BEYOND_S), reach_m)
     }
 
-    /// Where another agent comes into the way soon after the window, if it goes on as it does at its end.
+    /// Block by another agent soon after the window, if it continues as at the window's end.
     fn block_beyond(&self, other: &Sweep) -> Option<PathBlock> {
         let steps = 1..=(BEYOND_S / STEP_S) as usize;
         steps.step_by(BEYOND_STRIDE).find_map(|later| {
@@ -150,13 +151,13 @@ impl Corridor {
         })
     }
 
-    /// Where the path passes a stop line of a lane: progress at which its front is there.
+    /// Where the path passes a stop line of a lane: the progress at which the front is at the line.
     pub(super) fn line(&self, at: Pose) -> Option<f64> {
         let distance = |b: &OrientedBox| (b.center() - at.position).norm();
         let nearest = (0..self.outlines.len())
             .min_by(|a, b| distance(&self.outlines[*a]).total_cmp(&distance(&self.outlines[*b])))?;
         let outline = &self.outlines[nearest];
-        // Not passed at all, only come near to.
+        // The path only comes near the line and does not pass it.
         if nearest + 1 == self.outlines.len() {
             return None;
         }
@@ -167,7 +168,7 @@ impl Corridor {
     }
 }
 
-/// Stretches of time in which a line is closed, as blocks.
+/// The times at which a line is closed, as blocks.
 pub(super) fn closed(line_m: f64, is_closed: impl Fn(usize) -> bool) -> Vec<PathBlock> {
     let mut out: Vec<PathBlock> = Vec::new();
     let mut open = true;
@@ -219,7 +220,7 @@ mod tests {
     #[test]
     fn what_crosses_soon_after_the_window_is_in_the_way() {
         let corridor = Corridor::of(&path(8.0), &CAR);
-        // At the window's end 8 m beside the path at 80 m, with 5 m/s towards it.
+        // At the window's end: 8 m beside the path at 80 m, moving towards it at 5 m/s.
         let north = |i: usize| State {
             x_m: 80.0,
             y_m: -53.0 + 0.5 * i as f64,

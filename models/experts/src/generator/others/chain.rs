@@ -1,5 +1,5 @@
-//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and on from
-//! there.
+//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and onwards
+//! from those.
 
 use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
@@ -11,14 +11,14 @@ use scene::{AgentId, Future, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// How often one agent decides again in a window.
+/// Number of times that one agent decides in a window.
 const MOST_DECISIONS: usize = 4;
 
 /// A motion of this answer that other agents may have to yield to.
 pub(in crate::generator) struct ChangedMotion {
     pub(in crate::generator) id: AgentId,
     pub(in crate::generator) sweep: Arc<Sweep>,
-    /// The agent had it before: agents that keep an earlier answer too do not yield to it.
+    /// The agent had this motion before, so other agents that keep an earlier answer do not yield to it.
     pub(in crate::generator) kept: bool,
 }
 
@@ -27,23 +27,23 @@ pub(in crate::generator) struct ChangedMotion {
 pub(in crate::generator) struct Reacted {
     /// Index into the scene's agents.
     pub(in crate::generator) index: usize,
-    /// Steps after the window's start at which the agent is present first.
+    /// Step after the window's start at which the agent is first present.
     pub(in crate::generator) enters: usize,
-    /// From the step after that on.
+    /// States from the step after `enters` on.
     pub(in crate::generator) states: Vec<State>,
-    /// So many of them belong to the kept motion.
+    /// Number of leading states that belong to the kept motion.
     pub(in crate::generator) own: usize,
-    /// `None` for an agent that goes on with its reaction of an earlier window.
+    /// `None` for an agent that continues its reaction of an earlier window.
     pub(in crate::generator) reaction: Option<Reaction>,
 }
 
 impl Reacted {
-    /// It does not come in at all.
+    /// Whether the agent does not enter at all.
     pub(in crate::generator) fn stays_out(&self) -> bool {
         self.reaction.as_ref().is_some_and(|reaction| reaction.kind == ReactionKind::StaysOut)
     }
 
-    /// Its motion as a future, as far as the call goes. Without a state where it stays out: it is absent from the
+    /// Its motion as a future, up to the end of the call. Empty if it stays out: the agent is absent from the
     /// window's start on.
     pub(in crate::generator) fn future(&self, setting: &WindowSetting<'_>) -> Future {
         if self.stays_out() {
@@ -68,8 +68,8 @@ impl Others<'_> {
         self.reactors().into_iter().filter_map(cost).sum()
     }
 
-    /// The agents that change their motion because of these changed ones. An agent that is left out keeps its motion to
-    /// the last byte.
+    /// The agents that change their motion because of these changed ones. An agent that is left out keeps its
+    /// motion bit for bit.
     pub(in crate::generator) fn reactions(&self, changed: &[&ChangedMotion]) -> Vec<Reacted> {
         let reactors = self.reactors();
         let moved = changed.iter().filter(|c| !c.kept).map(|c| (&c.id, &*c.sweep));
@@ -79,7 +79,7 @@ impl Others<'_> {
         let yielding =
             reactors.iter().zip(&ways).filter_map(|(who, way)| Some((&who.other.id, &way.as_ref()?.sweep)));
         self.keep_out(&mut out, yielding);
-        // Some can neither come in as they are nor brake in time.
+        // Some agents can neither enter as they are nor brake in time.
         for (who, way) in reactors.iter().zip(&ways) {
             let own = way.as_ref().map_or(&who.other.sweep, |way| &way.sweep);
             let met = || moved.clone().find(|(_, motion)| who.other.comes_in_before(own, motion));
@@ -100,7 +100,7 @@ impl Others<'_> {
         let each = reactors.into_iter().zip(ways).zip(causes).filter(|((who, _), _)| out[who.at].is_none());
         let reacted = each.filter_map(|((ReactingAgent { own, .. }, way), cause)| {
             let path = &own.path;
-            // The first state is known, unless the agent enters in another way.
+            // The first state is known, unless the agent enters at another speed.
             let of = |states: &[State], own_states: usize, reaction: Option<Reaction>| {
                 let known = own_states.min(1);
                 Reacted {
@@ -122,7 +122,8 @@ impl Others<'_> {
         reacted.chain(stay_out).collect()
     }
 
-    /// Notes of each agent that would come in where one of these motions is then which agent keeps it out.
+    /// For each agent that cannot enter because one of these motions is in its place, records which agent
+    /// keeps it out.
     fn keep_out<'a, 'm>(
         &self,
         out: &mut [Option<&'a AgentId>],
@@ -144,7 +145,8 @@ impl Others<'_> {
                 return Some(Sweep::new(Vec::new(), other.sweep.size()));
             }
             let Response::Reacts(own) = &other.response else { return None };
-            // A reaction begins at the step after the agent is first present, unless it enters in another way.
+            // A reaction begins at the step after the agent is first present, unless it enters at another
+            // speed.
             let known = own.path.states.first().filter(|_| new.enters >= own.path.enters);
             let states = known.into_iter().chain(&new.states);
             Some(Sweep::entering(own.path.enters, states, &own.size))
@@ -153,7 +155,7 @@ impl Others<'_> {
         self.each.iter().map(|other| (&other.id, motion(other))).collect()
     }
 
-    /// Resolves the earliest conflict until no agent can improve on one.
+    /// Resolves the earliest conflict until no agent can lower its cost.
     fn ways(
         &self,
         reactors: &[ReactingAgent<'_>],
@@ -161,7 +163,7 @@ impl Others<'_> {
         out: &[Option<&AgentId>],
     ) -> Vec<Option<YieldOption>> {
         let mut ways: Vec<Option<YieldOption>> = vec![None; reactors.len()];
-        // Who stays out decides nothing.
+        // An agent that stays out decides nothing.
         let decisions = |who: &ReactingAgent<'_>| if out[who.at].is_some() { MOST_DECISIONS } else { 0 };
         let mut decisions: Vec<usize> = reactors.iter().map(decisions).collect();
         loop {
@@ -179,13 +181,13 @@ impl Others<'_> {
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
             match self.way(reactors[at], &others, stays - 1e-9) {
                 Some(way) => ways[at] = Some(way),
-                // Nothing helps now; the change of another agent may.
+                // Nothing helps now; a change of another agent may.
                 None => decisions[at] = MOST_DECISIONS,
             }
         }
     }
 
-    /// All changed motions as they are by now.
+    /// All motions that have changed so far.
     fn seen<'a>(
         &'a self,
         reactors: &[ReactingAgent<'a>],
@@ -203,8 +205,8 @@ impl Others<'_> {
         asked.chain(reacting).chain(keeping).collect()
     }
 
-    /// For each agent, the changed motion that its kept motion meets; `None` without a cause or without a
-    /// change.
+    /// For each agent, the changed motion that its kept motion meets; `None` if there is none or the agent
+    /// did not change.
     fn causes(
         &self,
         reactors: &[ReactingAgent<'_>],
@@ -231,14 +233,14 @@ fn first_conflict(
     seen: &[SeenMotion<'_>],
 ) -> Option<usize> {
     let own = way.map_or(&who.other.sweep, |w| &w.sweep);
-    // Two earlier answers do not avoid each other as long as both are kept.
+    // Two motions kept from earlier answers do not avoid each other.
     let avoids = |s: &SeenMotion<'_>| way.is_some() || !s.kept || who.other.kept_from == KeptFrom::Log;
     let others = seen.iter().filter(|s| s.reactor != Some(who.at) && avoids(s));
     others.filter_map(|s| own.first_meeting(s.sweep)).min()
 }
 
-/// The direct cause of each change, if it has one: the motion that the kept motion meets first, among the sources and
-/// the changes that have a cause themselves.
+/// The direct cause of each change, if it has one. It is the first motion that the kept motion meets, among
+/// the sources and the changes that have a cause themselves.
 pub(in crate::generator) fn caused<'a>(
     mut sources: Vec<(&'a AgentId, &'a Sweep)>,
     kept: &[&Sweep],

@@ -1,4 +1,4 @@
-//! An actor that stays on its path and in its place: behind those ahead, after those that cross first.
+//! An actor that stays on its path and in its order: behind its leaders, and after agents that cross first.
 
 use super::blocks::{Corridor, PathBlock};
 use super::giving_way::behind;
@@ -9,14 +9,14 @@ use crate::planning::STAYS_WITHIN_M;
 use crate::tuning::fixed::following::{ACCELERATES_MPS2, GAP_M, HEADWAY_S};
 use scene::State;
 
-/// A motion and what is in the way on its path.
+/// A motion and the blocks on its path.
 pub(in crate::generator) struct Following {
     path: PathProgress,
     blocks: Vec<PathBlock>,
 }
 
 impl Following {
-    /// Of a motion among others; `None` where it hardly goes anywhere.
+    /// For a motion among others; `None` if it hardly moves.
     pub(in crate::generator) fn of(own: &Sweep, others: &[&Sweep]) -> Option<Self> {
         let path = PathProgress::of(own.states(), STAYS_WITHIN_M)?;
         let corridor = Corridor::of(&path, own.size());
@@ -24,8 +24,8 @@ impl Following {
         Some(Self { path, blocks })
     }
 
-    /// States, one a step from the window's start on, driven behind the others with at most this braking, m/s2; `None`
-    /// where the motion stays as it is.
+    /// States behind the others, one per step from the window's start on, with at most this braking, m/s2.
+    /// `None` if the motion does not change.
     pub(in crate::generator) fn braking(&self, brake_mps2: f64) -> Option<Vec<State>> {
         let manner = YieldManner {
             brake_mps2,

@@ -1,4 +1,4 @@
-//! The motions with which an agent could give way, and their costs.
+//! The motions with which an agent can give way, and their costs.
 
 use super::blocks::PathBlock;
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Reactor};
@@ -13,7 +13,7 @@ use crate::tuning::fixed::giving_way::{
 };
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// Rounds in which the order of the agents is determined again.
+/// Rounds in which the order of the agents is recomputed.
 const MOST_TURNS: usize = 3;
 
 /// A motion that gives way, with its cost.
@@ -25,24 +25,24 @@ pub(super) struct YieldOption {
     pub(super) cost: f64,
 }
 
-/// A changed motion, as other agents see it.
+/// A changed motion as other agents see it.
 #[derive(Clone, Copy)]
 pub(super) struct SeenMotion<'a> {
-    /// Its place among the agents that may react, for one of them.
+    /// For a reactor: its index among the agents that may react.
     pub(super) reactor: Option<usize>,
-    /// It is an earlier answer that is kept.
+    /// The motion is kept from an earlier answer.
     pub(super) kept: bool,
     pub(super) sweep: &'a Sweep,
 }
 
 impl Others<'_> {
-    /// Cost of a meeting of two motions.
+    /// Cost of an encounter of two motions.
     pub(super) fn price(&self, a: &Sweep, b: &Sweep) -> f64 {
         price(a.swept(), b.swept(), &self.tuning.choice)
     }
 
-    /// The least costly thing that an agent could do in place of its kept motion, the changed ones being where they
-    /// are; `None` where that costs `most` or more.
+    /// The cheapest alternative to an agent's kept motion, given the changed motions. `None` if it costs
+    /// `most` or more.
     pub(super) fn way(
         &self,
         who: ReactingAgent<'_>,
@@ -61,7 +61,7 @@ impl Others<'_> {
         let mut all = kept.clone();
         all.extend(ahead.iter().flatten());
         let mut best: Option<YieldOption> = None;
-        // An agent that was out of sight may have seen the others all the same.
+        // An agent that was out of sight may have seen the others and braked already.
         let entries = if own.path.enters > 0 { &ENTRIES[..] } else { &[] };
         let slower = entries.iter().map(|entry| YieldManner { entry: *entry, ..manners(own)[0] });
         for manner in manners(own).into_iter().chain(slower) {
@@ -90,8 +90,8 @@ impl Others<'_> {
         best
     }
 
-    /// A pace with its cost, and the part of the cost for meetings; `None` for the kept motion itself, and for one that
-    /// meets somebody and costs `most` or more.
+    /// A paced motion with its cost, and the part of the cost for encounters. `None` for the kept motion
+    /// itself, and for a motion that meets someone and costs `most` or more.
     fn weighed(
         &self,
         who: ReactingAgent<'_>,
@@ -125,7 +125,7 @@ impl Others<'_> {
         Some((YieldOption { paced, states, sweep, cost: alone + meets }, meets))
     }
 
-    /// The price of a meeting, less for an agent that is slower than it would be without giving way.
+    /// Cost of an encounter, reduced as giving way lowers the closing speed.
     fn mitigated(&self, who: ReactingAgent<'_>, sweep: &Sweep, other: &Sweep) -> f64 {
         let price = self.price(sweep, other);
         if price <= self.tuning.choice.close {
@@ -143,12 +143,12 @@ impl Others<'_> {
         }
     }
 
-    /// Two motions kept from one source that come near each other: their distance is as it was.
+    /// Whether two motions kept from one source come near each other; their distance has not changed.
     fn were_near(&self, who: ReactingAgent<'_>, other: &Sweep, kept_from: KeptFrom) -> bool {
         who.other.kept_from == kept_from && self.price(&who.other.sweep, other) > 0.0
     }
 
-    /// Where the kept motion of every other agent is in the way.
+    /// Blocks by the kept motions of all other agents.
     fn around(&self, who: ReactingAgent<'_>) -> Vec<Vec<PathBlock>> {
         let road = self.road(who.own);
         let blocks = |(at, other): (usize, &OtherAgent)| {
@@ -160,7 +160,7 @@ impl Others<'_> {
 }
 
 impl Reactor {
-    /// How much later the agent is at its last place than on its own timing, seconds; negative for earlier.
+    /// Delay at the last place against the agent's own timing, seconds; negative if it is early.
     pub(super) fn late_s(&self, paced: &Paced) -> f64 {
         let last = paced.along_m.len() - 1;
         let (end, own_end) = (paced.along_m[last], self.path.length_m());
@@ -173,7 +173,7 @@ impl Reactor {
         steps(self.path.states.len() - 1, there)
     }
 
-    /// Going faster than it does breaks no limit in its bends.
+    /// Whether going faster than on its own timing breaks no limit in its bends.
     fn hurries_safely(&self, path: &PathProgress, paced: &Paced) -> bool {
         let states = paced.states(path);
         states.windows(2).all(|w| {
@@ -184,9 +184,9 @@ impl Reactor {
     }
 }
 
-/// The path driven behind those of these blocks that the agent is behind by now, or comes to be by waiting.
+/// The path driven behind those of these blocks that the agent is behind now, or will be after waiting.
 pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Paced {
-    // An agent that comes up from behind does not count.
+    // An agent that approaches from behind does not count.
     let counts = |b: &PathBlock| b.taken.first().is_some_and(|(first, _)| *first > 0.0);
     let mut yields: Vec<bool> =
         blocks.iter().map(|b| counts(b) && !b.comes_behind(path.along_at(b.from))).collect();
@@ -208,7 +208,7 @@ pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldMa
     Paced::behind(path, &waited.collect::<Vec<_>>(), manner)
 }
 
-/// The manners of giving way, from easy to hard braking.
+/// Manners of giving way, from easy to hard braking.
 fn manners(own: &Reactor) -> Vec<YieldManner> {
     let manner = |share: &f64, gap_m: &f64, headway_s: &f64, accelerate_mps2: f64| YieldManner {
         brake_mps2: share * own.limits.brake_mps2,

@@ -1,4 +1,4 @@
-//! Every agent that does not act in a window, once: its motion, and whether it may change it.
+//! Every agent that does not act in a window: its motion, and whether it may change.
 
 use super::blocks::{Corridor, PathBlock, closed};
 use super::path_progress::PathProgress;
@@ -20,10 +20,11 @@ use scene::{AgentId, AgentType, HORIZON_STEPS, Size, State};
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
-/// From so many agents on several threads work them out.
+/// From this many agents on, several threads prepare them.
 const MANY: usize = 96;
 
-/// The source of a kept motion. Two motions of one source do not avoid each other: their distance is as it was.
+/// The source of a kept motion. Two motions of one source do not avoid each other: their distance has not
+/// changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KeptFrom {
     /// The recording.
@@ -37,15 +38,15 @@ pub(in crate::generator) struct OtherAgent {
     /// Index into the scene's agents.
     pub(super) index: usize,
     pub(in crate::generator) id: AgentId,
-    /// The motion that it keeps.
+    /// Its kept motion.
     pub(in crate::generator) sweep: Sweep,
     pub(super) kept_from: KeptFrom,
     agent_type: AgentType,
-    /// Its motion may be used to name the relations of drafts.
+    /// Whether its motion may be used to name the relations of drafts.
     visible: bool,
-    /// Names relations in place of `sweep`.
+    /// Recorded motion that names relations in place of `sweep`.
     recorded: Option<Sweep>,
-    /// The step at which it comes in, for one that stays out where its place is taken then.
+    /// Step at which it enters, for an agent that stays out if its place is taken then.
     comes_in: Option<usize>,
     pub(super) response: Response,
 }
@@ -58,7 +59,7 @@ pub(super) enum Response {
     Reacts(Box<Reactor>),
 }
 
-/// The means of an agent to yield on its own path.
+/// What an agent needs to yield on its own path.
 pub(super) struct Reactor {
     /// Index into the scene's agents.
     pub(super) index: usize,
@@ -66,24 +67,24 @@ pub(super) struct Reactor {
     pub(super) size: Size,
     pub(super) limits: Limits,
     pub(super) path: PathProgress,
-    /// It changed its motion in an earlier window and goes on with that.
+    /// It changed its motion in an earlier window and continues that motion.
     pub(super) resumed: bool,
-    /// Computed on first use, since few agents ever meet another.
+    /// Computed on first use, because few agents ever meet another.
     road: OnceLock<ReactorRoad>,
-    /// Where and when each other agent is in its way by the motion that it keeps.
+    /// The blocks on its path by the kept motion of each other agent.
     pub(super) around: OnceLock<Vec<Vec<PathBlock>>>,
 }
 
 /// The road along an agent's path.
 pub(super) struct ReactorRoad {
-    /// Its path, and how the road goes on from there.
+    /// Its path, extended along the road.
     pub(super) path: PathProgress,
     pub(super) corridor: Corridor,
     /// Red lights on its way.
     pub(super) lights: Vec<PathBlock>,
 }
 
-/// An agent that may react, with its place among [`Others`].
+/// An agent that may react, with its index in [`Others`].
 #[derive(Clone, Copy)]
 pub(super) struct ReactingAgent<'a> {
     pub(super) at: usize,
@@ -91,11 +92,11 @@ pub(super) struct ReactingAgent<'a> {
     pub(super) own: &'a Reactor,
 }
 
-/// All agents that are present in a window, or enter in it, and do not act.
+/// All agents that are present in a window, or enter during it, and do not act.
 pub(in crate::generator) struct Others<'g> {
-    /// The agents that may react first, both parts by id: sums over them run in this order.
+    /// Agents that may react first; both parts sorted by id, because sums over them run in this order.
     pub(super) each: Vec<OtherAgent>,
-    /// How many of them may react.
+    /// Number of agents that may react.
     pub(super) reacting: usize,
     stop_lines: Vec<StopLine>,
     graph: Option<Arc<LaneGraph>>,
@@ -111,7 +112,7 @@ impl<'g> Others<'g> {
         Self { each, reacting: 0, stop_lines, graph: None, tuning, start_step: 0 }
     }
 
-    /// All agents but those in `acting`, by index into the scene's agents.
+    /// All agents except those in `acting`, by index into the scene's agents.
     pub(in crate::generator) fn of(
         world: &World<'_>,
         workers: &WorkerPool,
@@ -121,7 +122,7 @@ impl<'g> Others<'g> {
         tuning: &'g Tuning,
     ) -> Self {
         let mut order: Vec<usize> = (0..world.scene.agents.len()).filter(|i| !acting.contains(i)).collect();
-        // The order of the agents in the scene must not change the answer.
+        // The answer must not depend on the order of the agents in the scene.
         order.sort_by(|a, b| world.scene.agents[*a].id.cmp(&world.scene.agents[*b].id));
         let all = workers.map_many(MANY, &order, |&index| OtherAgent::of(world, request, cast, index));
         let may_react = |other: &OtherAgent| matches!(other.response, Response::Reacts(_));
@@ -138,18 +139,18 @@ impl<'g> Others<'g> {
         self.each.iter().map(|other| &other.sweep)
     }
 
-    /// The motions that stay as they are whatever the actors do.
+    /// The motions that do not change whatever the actors do.
     pub(in crate::generator) fn kept(&self) -> impl Iterator<Item = FixedMotion<'_>> {
         self.each[self.reacting..].iter().map(OtherAgent::fixed)
     }
 
-    /// The motions that drafts are compared with by name.
+    /// The motions to which drafts are related by name.
     pub(in crate::generator) fn traces(&self) -> impl Iterator<Item = &Trace> {
         let named = self.each.iter().filter(|other| other.visible);
         named.map(|other| other.recorded.as_ref().unwrap_or(&other.sweep).trace(&other.id, other.agent_type))
     }
 
-    /// An agent that may react would meet this motion, or stay out because of it.
+    /// Whether an agent that may react would meet this motion, or would stay out because of it.
     pub(in crate::generator) fn would_react_to(&self, motion: &Sweep) -> bool {
         self.each[..self.reacting].iter().any(|other| overlap(other.sweep.swept(), motion.swept()).close)
             || self.each.iter().any(|other| other.is_kept_out_by(motion))
@@ -185,29 +186,30 @@ impl<'g> Others<'g> {
 }
 
 impl OtherAgent {
-    /// It would come in where this motion is then.
+    /// Whether it would enter where this motion is.
     pub(super) fn is_kept_out_by(&self, motion: &Sweep) -> bool {
         self.fixed().is_kept_out_by(motion)
     }
 
-    /// The motion that it keeps. One that may slow down meets nobody as long as there is room for it to come in.
+    /// Its kept motion. An agent that may slow down conflicts with nothing if it has room at the step of its
+    /// entry.
     fn fixed(&self) -> FixedMotion<'_> {
         let steps = if matches!(self.response, Response::Keeps) { COMES_IN_STEPS } else { 0 };
         FixedMotion { sweep: &self.sweep, comes_in: self.comes_in.map(|step| (step, step + steps)) }
     }
 
-    /// It would meet this motion soon after it comes in with `own`.
+    /// Whether it would meet this motion soon after it enters with `own`.
     pub(super) fn comes_in_before(&self, own: &Sweep, motion: &Sweep) -> bool {
         let comes_in = self.comes_in.map(|step| (step, step + COMES_IN_STEPS));
         FixedMotion { sweep: own, comes_in }.is_kept_out_by(motion)
     }
 
-    /// Step and state with which it comes in, for one that may stay out.
+    /// Step and state of its entry, for an agent that may stay out.
     pub(super) fn entry(&self) -> Option<(usize, &State)> {
         self.comes_in.and_then(|step| Some((step, self.sweep.state(step)?)))
     }
 
-    /// An agent of the scene; `None` where it is absent in the whole window.
+    /// An agent of the scene; `None` if it is absent in the whole window.
     fn of(world: &World<'_>, request: &Request, cast: &WindowCast, index: usize) -> Option<Self> {
         let agent = &world.scene.agents[index];
         let conditions = &world.conditions[index];
@@ -219,7 +221,7 @@ impl OtherAgent {
         let (mut states, recorded) = match resumed {
             Some(states) => {
                 let states = (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect();
-                // Relations are named by what the scene knows, also where the agent goes on with a reaction.
+                // Relations use the scene's own motion, even if the agent continues a reaction.
                 (states, Some(Sweep::new(recorded, &size)))
             }
             None => (recorded, None),
@@ -238,7 +240,7 @@ impl OtherAgent {
         let may_react = (resumed.is_some() || cast.may_react.contains(&index) && goes_on())
             && agent_type != AgentType::Other;
         let comes_in = states.iter().position(Option::is_some).filter(|step| may_react && *step > 0);
-        // An agent that stands all the time stays; one that changed its motion goes on, even standing.
+        // An agent that stands all the time stays; one that changed its motion continues, even if it stands.
         let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
         let path = may_react.then(|| PathProgress::of(&states, shortest_m)).flatten();
         let response = path.map_or(Response::Keeps, |path| {

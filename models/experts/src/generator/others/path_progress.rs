@@ -7,9 +7,9 @@ use scene::geometry::{direction, wrap_angle};
 use scene::routes::{LaneGraph, Pose, base_path, best_route_ahead};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 
-/// States nearer to each other than this are one place of the path, metres: what stands and trembles stays.
+/// States closer than this are one place of the path, metres, so that jitter at rest does not lengthen it.
 const GRAIN_M: f64 = 0.3;
-/// A gap in a recording that is bridged, steps.
+/// Longest gap in a recording that is bridged, steps.
 const MOST_BRIDGED: usize = 10;
 /// A place of the path.
 #[derive(Clone, Copy, Debug)]
@@ -24,20 +24,20 @@ struct PathPlace {
 /// A motion as a path with a progress.
 #[derive(Clone, Debug)]
 pub(super) struct PathProgress {
-    /// Steps after the window's start at which it is there first: 0 unless it comes in later.
+    /// Step after the window's start at which the agent is first present: 0 unless it enters later.
     pub(super) enters: usize,
-    /// From then on, one a step.
+    /// States from `enters` on, one per step.
     pub(super) states: Vec<State>,
-    /// Metres along the path, one a state.
+    /// Metres along the path, one per state.
     pub(super) along_m: Vec<f64>,
-    /// The places of the motion, and how the road goes on from them where that is known.
+    /// Places of the motion, and the road beyond them where it is known.
     places: Vec<PathPlace>,
-    /// How many of them are the motion's own.
+    /// Number of places that belong to the motion.
     own: usize,
 }
 
 impl PathProgress {
-    /// From the known states of an agent at each step of a window, its start included; `None` for an agent that never
+    /// From the known states of an agent at each step of a window, start included. `None` if the agent never
     /// enters or hardly moves.
     pub(super) fn of(known: &[Option<State>], shortest_m: f64) -> Option<Self> {
         let enters = known.iter().position(Option::is_some)?;
@@ -71,7 +71,8 @@ impl PathProgress {
         (last.along_m >= shortest_m).then_some(Self { enters, states, along_m, places, own })
     }
 
-    /// The same, with the likeliest way that the road goes on beyond it: an agent that hurries gets there.
+    /// The same with the likeliest continuation of the road, because an agent that speeds up gets beyond its
+    /// own path.
     pub(super) fn extended(mut self, graph: &LaneGraph, agent_type: AgentType) -> Self {
         let (Some(end), Some(last)) = (self.states.last().copied(), self.places.last().copied()) else {
             return self;
@@ -94,12 +95,13 @@ impl PathProgress {
         self
     }
 
-    /// Steps after the window's start at which it is there last.
+    /// Last step after the window's start at which the agent is present.
     pub(super) fn last_step(&self) -> usize {
         self.enters + self.states.len() - 1
     }
 
-    /// Progress at a step of the window, that of the ends outside them; after the window it goes on as it does then.
+    /// Progress at a step of the window, clamped outside its own steps. After the window it continues at the
+    /// last speed.
     pub(super) fn along_at(&self, step: usize) -> f64 {
         let last = self.along_m.len() - 1;
         let i = step.saturating_sub(self.enters).min(last);
@@ -112,7 +114,7 @@ impl PathProgress {
         self.own.checked_sub(1).map_or(0.0, |last| self.places[last].along_m)
     }
 
-    /// It goes away before the window ends.
+    /// Whether the agent leaves before the window ends.
     pub(super) fn leaves(&self) -> bool {
         self.last_step() < HORIZON_STEPS
     }
@@ -153,7 +155,8 @@ impl PathProgress {
         }
     }
 
-    /// Speed that it has at a place of its path; where it stood, that with which it went on from there.
+    /// Speed at a place of its path. At a place where the agent stood: the speed with which it continued from
+    /// there.
     pub(super) fn speed_at_mps(&self, along_m: f64) -> f64 {
         let i = self.places.partition_point(|p| p.along_m <= along_m).saturating_sub(1);
         let own = self.places[i].speed_mps;
@@ -164,15 +167,15 @@ impl PathProgress {
         near.map(|p| p.speed_mps).fold(own, f64::max)
     }
 
-    /// The first step at which it is as far as this.
+    /// The first step at which it has reached this progress.
     pub(super) fn step_at(&self, along_m: f64) -> Option<usize> {
         let i = self.along_m.iter().position(|a| *a >= along_m - 1e-6)?;
         Some(self.enters + i)
     }
 }
 
-/// Carries a plan on until it has so many states: along the way that these states have and the road goes on, as fast as
-/// they are at each place.
+/// Extends a plan to `count` states, along the path of `way` and the road beyond it. Its speed approaches
+/// that of the path at each place.
 pub(crate) fn extend_along_road(
     plan: &mut Vec<State>,
     way: &[Option<State>],
@@ -195,7 +198,7 @@ pub(crate) fn extend_along_road(
     }
 }
 
-/// States up to the first long gap, short ones bridged.
+/// States up to the first long gap, with short gaps bridged.
 fn bridged(known: &[Option<State>]) -> Vec<State> {
     let mut out: Vec<State> = Vec::with_capacity(known.len());
     let mut gap = 0;
@@ -218,7 +221,7 @@ fn bridged(known: &[Option<State>]) -> Vec<State> {
     out
 }
 
-/// The state between two.
+/// The state between two others at a share of the way.
 pub(crate) fn state_between(a: &State, b: &State, share: f64) -> State {
     let mix = |p: f64, q: f64| p + share * (q - p);
     State {
@@ -274,7 +277,7 @@ mod tests {
 
     #[test]
     fn beyond_a_path_the_road_goes_on() {
-        // Along x up to 72 m, then to the left about a circle of 20 m.
+        // Along x up to 72 m, then left around a circle of 20 m radius.
         let bend = |i: i32| (f64::from(i) * 0.05 - 0.05).max(0.0);
         let point = |i: i32| Vec2::new(72.0 + 20.0 * bend(i).sin(), 20.0 * (1.0 - bend(i).cos()));
         let points: Vec<Vec2> = std::iter::once(Vec2::new(-10.0, 0.0)).chain((0..32).map(point)).collect();

@@ -1,4 +1,4 @@
-//! The reaction of one agent to another, in the figures that words are made of.
+//! The reaction of one agent to another, as figures for its description.
 
 use super::giving_way::YieldOption;
 use super::other::Reactor;
@@ -7,7 +7,7 @@ use scene::judge::{Reaction, ReactionKind};
 use scene::motion::Trajectory;
 use scene::{AgentId, STANDING_MPS, STEP_S, State};
 
-/// Standing so many steps longer than it does anyway is waiting.
+/// Standing this many steps longer than in the kept motion counts as waiting.
 pub const WAITS_STEPS: usize = 5;
 
 /// The reaction of an agent to `cause`; the window begins at `start_step`.
@@ -28,7 +28,7 @@ pub(super) fn reaction(own: &Reactor, way: &YieldOption, cause: AgentId, start_s
     let waits = standing.clone().count() >= stood.len() + WAITS_STEPS
         || standing.clone().filter(elsewhere).count() >= WAITS_STEPS;
     let delay_s = own.late_s(paced);
-    // By how much it is slower than it would be at the same place.
+    // How much slower it is than its kept motion at the same place.
     let less = |i: usize| own.path.speed_at_mps(along[i]) - speed[i];
     let greatest = |sign: f64| {
         (from..along.len()).max_by(|a, b| (sign * less(*a)).total_cmp(&(sign * less(*b)))).unwrap_or(from)
@@ -54,7 +54,8 @@ pub(super) fn reaction(own: &Reactor, way: &YieldOption, cause: AgentId, start_s
     .rounded()
 }
 
-/// The reaction of an agent that does not come in at a scene step, in this state, because `cause` is there.
+/// The reaction of an agent that does not enter at a scene step, in this state, because `cause` is in its
+/// place.
 pub(super) fn stays_out(entry: &State, cause: AgentId, step: usize) -> Reaction {
     Reaction {
         kind: ReactionKind::StaysOut,
@@ -68,7 +69,7 @@ pub(super) fn stays_out(entry: &State, cause: AgentId, step: usize) -> Reaction 
     .rounded()
 }
 
-/// The reaction to `cause` of an agent that planned again: `kept` is its motion from the first step after
+/// The reaction to `cause` of an agent that was planned again. `kept` is its motion from the first step after
 /// `start_s` on.
 pub(in crate::generator) fn reaction_of(
     kept: &[State],
@@ -123,7 +124,7 @@ mod tests {
     use scene::Vec2;
     use scene::motion::MotionState;
 
-    /// Walks east: the way after each step at the speed of that step.
+    /// Walks east: the position after each step at that step's speed.
     fn walk(speed_mps: impl Fn(usize) -> f64) -> Trajectory {
         let mut x_m = 0.0;
         let at = |i: usize| {
@@ -146,7 +147,7 @@ mod tests {
 
     #[test]
     fn who_is_due_somewhere_and_hurries_first_speeds_up() {
-        // 4 m ahead half the way, and there when it was.
+        // 4 m ahead of the kept motion at half time, level with it at the end.
         let hurries = answer(|i| if i <= 45 { 2.0 } else { 0.8 });
         assert_eq!(hurries.kind, ReactionKind::SpeedsUp);
         assert!((hurries.time_s - 4.5).abs() < 1.5, "{}", hurries.time_s);

@@ -1,4 +1,4 @@
-//! The agents that react by planning again, as the regenerated agents do.
+//! The agents that react by being planned again, like regenerated agents.
 
 use crate::generator::actor::PlannedActor;
 use crate::generator::motion::KeptMotion;
@@ -9,9 +9,9 @@ use crate::planning::world::{AgentAtStart, World};
 use scene::{State, Vec2};
 use std::collections::BTreeSet;
 
-/// The agents of `may_react` that an earlier call gave a goal or a via point, or whose motion does not go on from their
-/// start: they plan again and keep their motion unless a changed one is in the way. Unless the call `named` them, only
-/// those near an actor do.
+/// The agents of `may_react` with a goal or via point from an earlier call, or whose motion does not continue
+/// from their start. They are planned again and keep their motion unless a changed one is in the way. Unless
+/// the call `named` them, only agents near an actor are included.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
     workers: &WorkerPool,
@@ -42,13 +42,13 @@ pub(in crate::generator) fn replanned(
     found.into_iter().flatten().collect()
 }
 
-/// Its motion is of no use, since it starts elsewhere or at another speed now.
+/// Whether its motion is useless because it now starts elsewhere or at another speed.
 fn is_moved(world: &World<'_>, who: &AgentAtStart) -> bool {
     let kept = KeptMotion::of(&world.scene, world.agent(who), world.step);
     !kept.begins_at(&who.start, &world.conditions[who.index])
 }
 
-/// Places of an actor's likeliest draft, one a step.
+/// Places of an actor's likeliest draft, one per step.
 fn path(actor: &PlannedActor) -> Vec<Vec2> {
     let slot = actor.likeliest();
     let motion =
@@ -56,7 +56,7 @@ fn path(actor: &PlannedActor) -> Vec<Vec2> {
     motion.states.iter().skip(1).map(|s| s.position).collect()
 }
 
-/// Two motions come within this of each other within three seconds. One state a step each.
+/// Whether two motions, with one state per step each, come within this distance within three seconds.
 fn come_near(a: &[Vec2], b: &[State], reach_m: f64) -> bool {
     (4..a.len()).step_by(5).any(|i| {
         let from = i.saturating_sub(30);
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn near_is_near_in_time_too() {
         let east: Vec<Vec2> = (1..=90).map(|i| Vec2::new(i as f64, 0.0)).collect();
-        // Northwards through x = 60, there after so many steps.
+        // Northwards, crossing x = 60 after this many steps.
         let north = |passes: f64| -> Vec<State> {
             (1..=90).map(|i| State { x_m: 60.0, y_m: i as f64 - passes, ..State::default() }).collect()
         };

@@ -1,5 +1,5 @@
-//! A path driven so that others go first: as it is as long as possible, then no harder on the brakes than need
-//! be, and on again once the way is free.
+//! A path driven so that others go first: unchanged for as long as possible, then with no harder braking than
+//! needed, and on again once the way is free.
 
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
@@ -8,51 +8,52 @@ use crate::tuning::fixed::yielding::{
 };
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
-/// Time ahead in which room to go is looked for, steps.
+/// Time ahead in which the agent looks for room to go, steps.
 const GOING_STEPS: usize = 15;
-/// Others are given this much time before and after, steps.
+/// Margin in time before and after others, steps.
 const TIME_GAP: usize = 3;
-/// Steps of a second.
+/// Steps per second.
 const SECOND: usize = 10;
-/// Rounding of distances, metres.
+/// Tolerance for rounding of distances, metres.
 const HAIR_M: f64 = 0.02;
-/// Steps by which braking begins earlier than it must.
+/// Steps by which braking begins earlier than necessary.
 const EARLIER: usize = 6;
-/// Halvings of the span of accelerations.
+/// Bisections of the range of accelerations.
 const HALVINGS: usize = 7;
 
-/// The manner in which an agent gives way.
+/// How an agent gives way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct YieldManner {
     /// Braking, m/s2.
     pub(super) brake_mps2: f64,
     /// Speeding up again, m/s2.
     pub(super) accelerate_mps2: f64,
-    /// Distance kept from what is in the way, metres.
+    /// Distance kept from an obstacle, metres.
     pub(super) gap_m: f64,
-    /// And time at its own speed, seconds.
+    /// Time headway kept in addition, at the agent's own speed, seconds.
     pub(super) headway_s: f64,
-    /// Share of the speed that the path has at a place.
+    /// Factor of the path's speed at each place.
     pub(super) pace: f64,
-    /// Share of its first speed with which an agent enters that has braked before anybody could see it.
+    /// Factor of the first speed of an agent that enters: less than one if it braked before anyone could see
+    /// it.
     pub(super) entry: f64,
 }
 
-/// A path at another pace: one entry a state of it, to the window's end or until it leaves.
+/// A path at another pace: one entry per state, to the window's end or until the agent leaves.
 #[derive(Clone, Debug)]
 pub(super) struct Paced {
     pub(super) along_m: Vec<f64>,
     pub(super) speed_mps: Vec<f64>,
-    /// So many states are the path's own.
+    /// Number of leading states that are the path's own.
     pub(super) own: usize,
 }
 
-/// ProgressBounds of progress at each step of the window.
+/// Bounds of progress at each step of the window.
 struct ProgressBounds {
     at_m: Vec<f64>,
-    /// The least of this and all later ones.
+    /// The least bound of this and all later steps.
     from_m: Vec<f64>,
-    /// ProgressBounds at the window's end that go on after it, and how fast they move on then, m/s.
+    /// Bounds at the window's end that persist after it, and the speeds at which they move on, m/s.
     after: Vec<(f64, f64)>,
 }
 
@@ -65,8 +66,8 @@ impl ProgressBounds {
         Self { at_m, from_m, after }
     }
 
-    /// Braking at this rate from here on stays below the bounds, also behind agents that move on beyond the
-    /// window and brake at the same rate.
+    /// Whether braking at this rate from here on stays below the bounds. This includes agents that move on
+    /// beyond the window and brake at the same rate.
     fn hold(&self, step: usize, along_m: f64, speed_mps: f64, manner: YieldManner) -> bool {
         let brake_mps2 = manner.brake_mps2;
         let along_m = along_m + manner.headway_s * speed_mps;
@@ -89,8 +90,8 @@ impl ProgressBounds {
     }
 }
 
-/// For blocks that are still there when the window ends, or come after it: their bound, and the speed at which they move
-/// on.
+/// Bounds by blocks that are still there when the window ends, or come after it, and the speeds at which they
+/// move on.
 fn after(blocks: &[&PathBlock], gap_m: f64) -> Vec<(f64, f64)> {
     let there = blocks.iter().filter(|b| b.from + b.taken.len() > HORIZON_STEPS);
     let bound = |b: &&PathBlock| {
@@ -122,11 +123,13 @@ fn behind(blocks: &[&PathBlock], gap_m: f64) -> Vec<f64> {
 }
 
 impl Paced {
-    /// A path behind these blocks. What cannot be helped is braked for as hard as the manner allows.
+    /// A path behind these blocks. For a block that cannot be avoided, it brakes as hard as the manner
+    /// allows.
     pub(super) fn behind(path: &PathProgress, blocks: &[&PathBlock], manner: YieldManner) -> Self {
         let mut after_end = after(blocks, manner.gap_m);
         let bounds = ProgressBounds::new(behind(blocks, manner.gap_m), after_end.clone());
-        // An agent that has left its own timing does not pass where it stood while it stood: there was a reason.
+        // On another timing, the agent does not pass a place while its own motion stands there: it had a
+        // reason to stand.
         let mut waiting = bounds.at_m.clone();
         for (i, state) in path.states.iter().enumerate() {
             if state.speed_mps() < STANDING_MPS {
@@ -221,7 +224,8 @@ impl Paced {
         self.speed_mps.push(speed_mps);
     }
 
-    /// Progress at a step of the window; infinite once the agent has left. After the window it goes on as it does then.
+    /// Progress at a step of the window; infinite once the agent has left. After the window it continues at
+    /// the last speed.
     pub(super) fn along_at(&self, path: &PathProgress, step: usize) -> f64 {
         let at = |step: usize| step.saturating_sub(path.enters);
         let beyond_s = step.saturating_sub(HORIZON_STEPS) as f64 * STEP_S;
@@ -230,12 +234,12 @@ impl Paced {
         there.map_or(f64::INFINITY, |(along_m, speed_mps)| along_m + beyond_s * speed_mps)
     }
 
-    /// The agent keeps its own timing to the end.
+    /// Whether the agent keeps its own timing to the end.
     pub(super) fn is_own(&self, path: &PathProgress) -> bool {
         self.own == path.states.len()
     }
 
-    /// Its states, one a step from where it comes in: the path's own as long as it keeps to it.
+    /// Its states, one per step from its entry on: the path's own for as long as it keeps to them.
     pub(super) fn states(&self, path: &PathProgress) -> Vec<State> {
         let own = path.states.iter().take(self.own).copied();
         let paced = self.along_m.iter().zip(&self.speed_mps).skip(self.own);
@@ -248,7 +252,7 @@ fn least_soon(at_m: &[f64], step: usize) -> f64 {
     at_m[step..].iter().take(GOING_STEPS).copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The greatest rate in a span that holds; the least where none does.
+/// The greatest rate in a range that holds; the least if none does.
 fn greatest(least: f64, most: f64, holds: impl Fn(f64) -> bool) -> f64 {
     if holds(most) {
         return most;
@@ -309,7 +313,7 @@ mod tests {
             let rate = (w[1] - w[0]) / STEP_S;
             assert!((-2.01..=1.51).contains(&rate), "{rate}");
         }
-        // Its own motion as long as that does.
+        // It keeps its own motion for as long as that is safe.
         assert!(paced.own > 20, "{}", paced.own);
     }
 

@@ -4,9 +4,9 @@ use candle_core::{CpuStorage, CustomOp3, D, Layout, Result, Shape, Tensor};
 
 use super::raw::{add_scaled, dot, floats, numbers, own_loops, tensor};
 
-/// Softmax attention. `q` is [batch, queries, n]; `kv` [batch, tokens, 2 n] has the keys before the
-/// values; `mask` [batch, tokens] is added to the scores (0, or -1e4 at padding) and gets no gradient.
-/// Gives [batch, queries, n].
+/// Softmax attention. `q` is [batch, queries, n]. `kv` [batch, tokens, 2 n] has the keys before the values.
+/// `mask` [batch, tokens] is added to the scores (0, or -1e4 at padding) and gets no gradient. Returns
+/// [batch, queries, n].
 ///
 /// # Errors
 /// When the shapes do not fit.

@@ -1,4 +1,4 @@
-//! Holds an operation against its stock form and against differences, for tests.
+//! Compares an operation with its stock form and with finite differences, for tests.
 
 use std::cell::Cell;
 
@@ -9,7 +9,7 @@ thread_local! {
     static STOCK: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs something with the stock forms in place of our own loops, as on a graphics card.
+/// Runs a closure with the stock forms instead of our own loops, as on a GPU.
 pub(crate) fn with_stock_forms<T>(run: impl FnOnce() -> T) -> T {
     STOCK.set(true);
     let result = run();
@@ -22,7 +22,7 @@ pub(super) fn stock_forms_wanted() -> bool {
     STOCK.get()
 }
 
-/// Seeded numbers in -1..1, no two alike.
+/// Seeded distinct numbers in -1..1.
 pub(crate) fn random(shape: &[usize], seed: u64) -> Tensor {
     let mut stream = Key::default().number(seed).stream();
     let values: Vec<f32> =
@@ -30,7 +30,7 @@ pub(crate) fn random(shape: &[usize], seed: u64) -> Tensor {
     Tensor::from_vec(values, shape, &Device::Cpu).unwrap()
 }
 
-/// A weighted sum of an output, so that each element has another gradient.
+/// A weighted sum of an output, so that each element has a different gradient.
 fn weighted(output: &Tensor) -> f64 {
     weighted_tensor(output).to_dtype(DType::F64).unwrap().to_scalar::<f64>().unwrap()
 }

@@ -6,7 +6,7 @@ use candle_core::{CpuStorage, CustomOp3, Layout, Result, Shape, Tensor};
 use super::raw::{add_scaled, floats, numbers, own_loops, tensor};
 
 /// `x W + b` and, with `relu`, its positive part. `x` is [.., in], `weight` a contiguous [in, out]
-/// (transposed views cost twice to five times as much at few rows), `bias` [out]; gives [.., out].
+/// (transposed views cost two to five times as much for few rows), `bias` [out]. Returns [.., out].
 ///
 /// # Errors
 /// When the shapes do not fit.
@@ -27,7 +27,8 @@ pub fn linear(x: &Tensor, weight: &Tensor, bias: &Tensor, relu: bool) -> Result<
     y.reshape(shape)
 }
 
-/// The positive part; nothing flows back where it is 0, as in our own loops. candle's own lets everything.
+/// The positive part, with gradient zero at 0 as in our own loops; candle's own passes the full gradient
+/// there.
 fn rectified(x: &Tensor) -> Result<Tensor> {
     x * x.gt(0.0)?.to_dtype(x.dtype())?
 }

@@ -1,9 +1,9 @@
-//! Tensor operations with a backward pass of our own, for f32 on the CPU.
+//! Tensor operations with our own backward pass, for f32 on the CPU.
 //!
 //! candle's own fused norm and softmax have no gradient, its broadcasts are slow backwards, and its maximum
-//! gives tied elements the full gradient each. On another device or type each function here uses stock
-//! operations, limited to those with a correct gradient. Tests compare both forms on the CPU, so that
-//! training on a graphics card rests on arithmetic that is tested without one.
+//! gives tied elements the full gradient each. On another device or type, each function here uses stock
+//! operations, limited to those with a correct gradient. Tests compare both forms on the CPU, so arithmetic
+//! for training on a GPU is tested without one.
 
 mod attention;
 mod gate;

@@ -4,12 +4,12 @@ use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Tensor};
 
 use super::raw::{floats, numbers, own_loops, tensor};
 
-/// Below this a token's mask says that it is padding.
+/// Mask value below which a token is padding.
 const PADDING: f32 = -1e3;
 
 /// Maximum over each segment of the tokens. `x` is [batch, tokens, n]; `mask` [batch, tokens] is 0 or, at
-/// padding, -1e4; `segments` are lengths that sum to `tokens`. Gives [batch, segments * n]; a segment that is
-/// all padding gives 0. One of several tied tokens gets the gradient, on the CPU the first.
+/// padding, -1e4; `segments` are lengths that sum to `tokens`. Returns [batch, segments * n]; a segment of
+/// only padding gives 0. One of several tied tokens gets the gradient, on the CPU the first.
 ///
 /// # Errors
 /// When the shapes do not fit.
@@ -21,7 +21,8 @@ pub fn segment_max(x: &Tensor, mask: &Tensor, segments: &[usize]) -> Result<Tens
     let (masked, mut start, mut parts) = (x.broadcast_add(&mask.unsqueeze(2)?)?, 0, Vec::new());
     for &length in segments {
         let any = mask.narrow(1, start, length)?.max_keepdim(1)?.ge(f64::from(PADDING))?;
-        // Gathered, so that one of tied tokens gets the gradient; the maximum's would go to each.
+        // Gathered, so that only one of several tied tokens gets the gradient; the maximum would give it to
+        // each.
         let set = masked.narrow(1, start, length)?.contiguous()?;
         let best = set.gather(&set.argmax_keepdim(1)?, 1)?.squeeze(1)?;
         parts.push(best.broadcast_mul(&any.to_dtype(x.dtype())?)?);

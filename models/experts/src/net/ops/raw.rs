@@ -1,4 +1,4 @@
-//! Slices of tensors' numbers.
+//! Access to the numbers of tensors as slices.
 
 use std::ops::Deref;
 
@@ -19,7 +19,7 @@ pub(super) fn numbers<'a, G: Deref<Target = Storage>>(guard: &'a (G, &Layout)) -
     }
 }
 
-/// Whether our own loops can serve this tensor; otherwise, on a graphics card above all, stock operations do.
+/// Whether our own loops support this tensor; otherwise, mainly on a GPU, stock operations are used.
 pub(super) fn own_loops(tensor: &Tensor) -> bool {
     #[cfg(test)]
     if super::check::stock_forms_wanted() {
@@ -33,7 +33,7 @@ pub(super) fn tensor(values: Vec<f32>, like: &Tensor) -> Result<Tensor> {
     Tensor::from_vec(values, like.shape(), &Device::Cpu)
 }
 
-/// Inner product in eight fixed lanes, so that it is fast and always the same sum.
+/// Inner product in eight fixed lanes, so that it is fast and the order of the sum is fixed.
 #[inline]
 pub(super) fn dot(a: &[f32], b: &[f32]) -> f32 {
     let mut lanes = [0.0f32; 8];

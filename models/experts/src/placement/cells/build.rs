@@ -1,4 +1,4 @@
-//! Cuts a map into cells and reads off their features.
+//! Cuts a map into cells and computes their features.
 
 use super::{CellKind, Cells, FEATURES, LaneCells, MapCell, class};
 use crate::placement::region::Region;
@@ -106,8 +106,8 @@ impl Cells<'_> {
         }
     }
 
-    /// Strips between lanes and kerbs. Junctions and freeways have none, nor have maps without road edges:
-    /// nothing says there where the road ends.
+    /// Strips between lanes and kerbs. Junctions and freeways have none. Maps without road edges have none
+    /// either, because nothing in them tells where the road ends.
     pub(super) fn kerbs(&mut self, region: &Region) {
         if self.edges.is_empty() {
             return;
@@ -152,10 +152,11 @@ impl Cells<'_> {
         self.all.extend(found);
     }
 
-    /// The point lies on the band of a lane other than `but` that traffic uses.
+    /// Whether the point lies on the band of a used lane other than `but`.
     fn on_other_lane(&self, point: Vec2, but: usize) -> bool {
         let hits = self.graph.nearest_lanes(point, LANE_REACH_M, |i, lane| i != but && drives(lane));
-        // The lane's own continuation lies along it, not beside it: its foot is its end.
+        // A point on the lane's own continuation projects to the continuation's end: it lies along it, not
+        // beside it.
         hits.iter().any(|h| {
             let lane = &self.graph.lanes()[h.lane];
             let inside = h.s_m > 0.01 && h.s_m < lane.path.length_m() - 0.01;
@@ -167,7 +168,7 @@ impl Cells<'_> {
         let mut seen = HashSet::new();
         for (index, lane) in self.graph.lanes().iter().enumerate() {
             let LaneSource::Crosswalk(area) = lane.source else { continue };
-            // Each crosswalk is there twice, once for each way.
+            // Each crosswalk occurs twice, once per direction.
             if !seen.insert(area) {
                 continue;
             }
@@ -198,7 +199,7 @@ impl Cells<'_> {
                 let walk = WalkStretch { kind: CellKind::Pavement, line: index, on_lane: true, from_m, to_m };
                 self.push_walk(walk, region, |graph, center| {
                     let hit = graph.nearest_for(center, EDGE_REACH_M, AgentType::Vehicle).into_iter().next();
-                    // The kerb lies some two metres nearer to the road than a sidewalk's middle.
+                    // The kerb is about 2 m nearer to the road than the middle of a sidewalk.
                     Some((1.0, pavement_features(graph, center, hit.as_ref(), 2.0, false)))
                 });
             }
@@ -299,7 +300,7 @@ fn pavement_features(
     [class(crossing_m, &CROSSWALKS_M), class(lane_m, &LANES_M), limit_class(limit), u8::from(median), 0, 0]
 }
 
-/// Even pieces of a line of at most `cell_m`; none of a line without length.
+/// Equal pieces of a line of at most `cell_m`; none for a line without length.
 fn cuts(length_m: f64, cell_m: f64) -> impl Iterator<Item = (f64, f64)> {
     let count = if length_m < 0.5 { 0 } else { (length_m / cell_m).ceil() as usize };
     let size = length_m / count.max(1) as f64;

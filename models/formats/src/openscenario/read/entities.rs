@@ -1,4 +1,5 @@
-//! Road users of a scenario: what they are, how large, and where their box lies about their reference point.
+//! Road users of a scenario: their kind, their size, and the position of their box relative to their
+//! reference point.
 
 use super::parameters::{Scope, attribute, number};
 use crate::format::EGO;
@@ -46,7 +47,7 @@ pub(super) struct Entity {
     pub subtype: Subtype,
     pub role: Option<String>,
     pub size_m: [Option<f64>; 3],
-    /// Middle of the box from the reference point: ahead and to the left, metres.
+    /// Offset of the box's centre from the reference point: ahead and to the left, metres.
     pub middle: Vec2,
 }
 
@@ -68,7 +69,7 @@ impl Entity {
             "Pedestrian" => match category("pedestrianCategory").as_str() {
                 "wheelchair" => (AgentType::Pedestrian, Subtype::Wheelchair),
                 "animal" => (AgentType::Other, Subtype::Unknown),
-                // What this program writes.
+                // A name that this program writes.
                 _ if attribute(node, "name") == "child" => (AgentType::Pedestrian, Subtype::Child),
                 _ if attribute(node, "name") == "adult" => (AgentType::Pedestrian, Subtype::Adult),
                 _ => (AgentType::Pedestrian, Subtype::Unknown),
@@ -89,7 +90,7 @@ impl Entity {
         };
         let is_ego = said("type").is_some_and(|kind| kind == "ego_vehicle")
             || EGO_NAMES.contains(&name.to_ascii_lowercase().as_str());
-        // What this program writes comes before a name.
+        // A role that this program writes takes precedence over a name.
         let role = said("role").or(is_ego.then_some(EGO));
         Ok(Some(Self {
             name: name.to_owned(),

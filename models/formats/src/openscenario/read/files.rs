@@ -1,4 +1,4 @@
-//! Files of a scenario: the scenario, its map and its catalogs, alone or in one zip.
+//! Files of a scenario: the scenario, its map and its catalogs, separately or in one zip.
 
 use crate::limits::{MAX_DECODED_BYTES, memory_for};
 use crate::problem::ReadError;

@@ -1,4 +1,4 @@
-//! From the files of a scenario to a scene.
+//! Reads the files of a scenario as a scene.
 
 use super::entities::{Catalogs, Entity, entry};
 use super::files::ScenarioFiles;
@@ -28,14 +28,14 @@ const MAX_TAG: usize = 64 << 10;
 /// Most road users, and entries of catalogs.
 const MAX_ENTITIES: usize = 4_096;
 const MAX_ENTRIES: usize = 4_096;
-/// Elements whose content is read one by one.
+/// Elements whose children are read one by one.
 const CONTAINERS: [&str; 8] =
     ["OpenSCENARIO", "OpenScenario", "Entities", "Storyboard", "Init", "Actions", "Story", "Act"];
-/// What files of this program say of their units, after the name.
+/// Text about units in files of this program, after the name.
 const OWN_WORDS: &str = ". Metres, radians";
-/// Longest time between two poses that is filled, seconds.
+/// Longest time between two poses that is interpolated, seconds.
 const LONGEST_S: f64 = 60.0;
-/// A pose this near to a sample is that sample, seconds.
+/// A pose within this time of a sample is that sample, seconds.
 const SAME_S: f64 = 1e-3;
 
 /// The scenes of a scenario.
@@ -63,7 +63,7 @@ fn read(file: &dyn Source, options: &ImportOptions) -> Result<Recording, ReadErr
     reader.finish()
 }
 
-/// Takes the entries of a file of catalogs. False for another file.
+/// Adds the entries of a file of catalogs. False for another file.
 fn catalog(text: &[u8], to: &mut Catalogs) -> Result<bool, ReadError> {
     let mut scanner = Scanner::new(text, MAX_TAG).with_texts();
     let (mut depth, mut name) = (0, None);
@@ -102,7 +102,7 @@ struct OpenScenarioReader<'a> {
     catalogs: Catalogs,
     unread: Unread,
     said: Said,
-    /// Parameters of the scenario, and those of the open story.
+    /// Parameters of the scenario and of the open story.
     scope: Scope,
     story: Scope,
     places: ScenarioPlaces,
@@ -110,13 +110,13 @@ struct OpenScenarioReader<'a> {
     controllers: LightControllers,
     controllers_at: String,
     entities: Vec<Entity>,
-    /// Positions at the start that wait for another road user's.
+    /// Initial positions that depend on another road user's.
     waiting: Vec<(String, XmlNode, String)>,
     speeds_mps: HashMap<String, f64>,
     follows: BTreeMap<String, Vec<TracePose>>,
     leaves: HashMap<String, f64>,
     poses: usize,
-    /// Poses of actions, with those of acts that have not ended.
+    /// Poses of actions, including those of acts that have not ended.
     told: usize,
     act: ActMoves,
     act_start: Option<When>,
@@ -154,7 +154,7 @@ impl<'a> OpenScenarioReader<'a> {
 
     fn read(&mut self, text: &[u8]) -> Result<(), ReadError> {
         let mut scanner = Scanner::new(text, MAX_TAG).with_texts();
-        // Elements that are open, by name and as their place is written.
+        // Open elements, by name and by place.
         let mut open: Vec<(String, String)> = Vec::new();
         while let Some(event) = scanner.next()? {
             match event {
@@ -235,7 +235,7 @@ impl<'a> OpenScenarioReader<'a> {
         Ok(())
     }
 
-    /// What reads motion, with the moves so far.
+    /// A reader of motion, with the moves so far.
     fn motion(&mut self, moves: ActMoves) -> MotionReader<'_> {
         MotionReader {
             places: &self.places,
@@ -274,7 +274,7 @@ impl<'a> OpenScenarioReader<'a> {
                 self.controllers.read(child)?;
                 self.controllers_at = way;
             } else if !child.children.is_empty() {
-                // An empty list says nothing; models of the ground are pictures of it.
+                // An empty list means nothing; models of the ground are only its appearance.
                 self.unread.push(&way);
             }
         }
@@ -291,7 +291,7 @@ impl<'a> OpenScenarioReader<'a> {
         };
         let (MapRead { map, origin, warnings, .. }, roads) = read?;
         self.said.map = map;
-        // Made times of lights would contradict the motion: those of the scenario count.
+        // Default light timings would contradict the motion: those of the scenario apply.
         self.said.warnings.extend(warnings.into_iter().filter(|warning| warning.code != "signals-made"));
         self.frame = Some(Frame::of(&origin));
         self.said.origin = Some(origin);
@@ -317,7 +317,7 @@ impl<'a> OpenScenarioReader<'a> {
                 None if child.name() == "CatalogReference" => {
                     let entry = attribute(child, "entryName");
                     self.unread.push(&format!("{place}/CatalogReference[{entry}]"));
-                    // A road user whose catalog is elsewhere is there all the same, as a usual vehicle.
+                    // A road user whose catalog is missing is read as a default vehicle.
                     let mut vehicle = XmlNode::default();
                     vehicle.element.name = "Vehicle".into();
                     found = found.or(Entity::of(&name, &vehicle)?);
@@ -333,7 +333,7 @@ impl<'a> OpenScenarioReader<'a> {
         Ok(())
     }
 
-    /// Takes the initial actions of a road user.
+    /// Adds the initial actions of a road user.
     fn initial(&mut self, private: &XmlNode, place: &str) -> Result<(), ReadError> {
         let place = named(place, private);
         let name = attribute(private, "entityRef").to_owned();
@@ -365,7 +365,7 @@ impl<'a> OpenScenarioReader<'a> {
         Ok(())
     }
 
-    /// Resolves positions at the start, those that refer to other road users after theirs.
+    /// Resolves initial positions, those relative to other road users last.
     fn settle_places(&mut self) -> Result<(), ReadError> {
         loop {
             let before = self.waiting.len();
@@ -386,7 +386,7 @@ impl<'a> OpenScenarioReader<'a> {
         Ok(())
     }
 
-    /// Gives the moves of an act their times, or passes over all of it.
+    /// Gives the moves of an act their times, or skips the whole act.
     fn end_act(&mut self, place: &str) -> Result<(), ReadError> {
         let moves = std::mem::take(&mut self.act);
         let start_s = match self.act_start.take() {
@@ -425,7 +425,7 @@ impl<'a> OpenScenarioReader<'a> {
         Ok(())
     }
 
-    /// The recording of all that is stated.
+    /// The recording of all stated motion.
     fn finish(mut self) -> Result<Recording, ReadError> {
         if self.entities.is_empty() {
             return Err(ReadError::other_content(refusals::file_has_no(what::ROAD_USER)));
@@ -441,7 +441,8 @@ impl<'a> OpenScenarioReader<'a> {
         }
         self.said.start_s = Some(0.0);
         self.said.spacing_s = (last_s <= 0.0).then_some(STEP_S);
-        // A scenario of initial states alone begins at its present; with motion it is a recording of its length.
+        // A scenario with initial states only begins at its present; with motion it is a recording of its
+        // length.
         self.said.timing = match (last_s > 0.0, self.end_s) {
             (false, _) => Some(Timing { now_step: 0, ..MAP_TIMING }),
             (true, Some(end_s)) => {
@@ -495,7 +496,7 @@ impl<'a> OpenScenarioReader<'a> {
     }
 }
 
-/// Poses with those at the steps between them: a polyline leads straight and evenly from one to the next.
+/// Poses with those at the steps between them: a polyline is straight, with constant speed between two poses.
 fn at_steps(poses: &[TracePose]) -> Vec<TracePose> {
     let mut filled = Vec::with_capacity(poses.len());
     for pair in poses.windows(2) {
@@ -523,7 +524,7 @@ fn at_steps(poses: &[TracePose]) -> Vec<TracePose> {
     filled
 }
 
-/// Headings of poses; one that is not stated is that of the way to the next pose, else from the one before.
+/// Headings of poses; a missing one is the direction to the next pose, or from the previous one at the end.
 fn headings(poses: &[TracePose]) -> Vec<f64> {
     let way = |a: &Pose, b: &Pose| {
         let way = b.at - a.at;

@@ -1,4 +1,4 @@
-//! Lights of a scenario: controllers whose phases follow each other, again and again.
+//! Lights of a scenario: controllers whose phases repeat in a cycle.
 
 use super::parameters::{attribute, number};
 use super::unread::Unread;
@@ -10,14 +10,14 @@ use crate::tree::XmlNode;
 use scene::{STEP_S, SignalState};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Lights are told for so long at most, seconds.
+/// Greatest time over which lights are computed, seconds.
 const LONGEST_S: f64 = 3600.0;
 /// Most references that are followed from one controller.
 const MOST_REFERENCES: usize = 100;
-/// Most changes of all lights together.
+/// Most changes of all lights.
 const MAX_CHANGES: usize = 1_000_000;
 
-/// What each light shows in a phase, by the id of the light.
+/// State of each light in a phase, by the id of the light.
 #[derive(Debug)]
 struct LightPhase {
     /// End of the phase after the beginning of the cycle, seconds.
@@ -29,7 +29,7 @@ struct LightPhase {
 #[derive(Debug)]
 struct LightController {
     name: String,
-    /// The cycle begins so long after that of the controller referred to, seconds.
+    /// Delay of the cycle relative to that of the referenced controller, seconds.
     delay_s: f64,
     reference: String,
     phases: Vec<LightPhase>,
@@ -42,7 +42,7 @@ pub(super) struct LightControllers {
 }
 
 impl LightControllers {
-    /// Takes the controllers of `<TrafficSignals>`.
+    /// Adds the controllers of `<TrafficSignals>`.
     ///
     /// # Errors
     /// `invalid-field` for what is no number.
@@ -73,8 +73,8 @@ impl LightControllers {
         Ok(())
     }
 
-    /// Lights of lanes over a time from zero on, seconds, and how many are beyond the bound of a scene. Controllers of
-    /// nothing on the roads are listed at their place.
+    /// Lights of lanes over a time from zero, seconds, and the number of those beyond the limit of a scene.
+    /// Controllers without a light on the roads are listed at their place.
     pub fn lights(
         &self,
         heads: &[RoadLight],
@@ -113,7 +113,7 @@ impl LightControllers {
 }
 
 impl LightController {
-    /// When its cycle begins, seconds: delays add up along the references, which may lead in a circle.
+    /// Beginning of its cycle, seconds: delays add up along the references, which may form a circle.
     fn begins_s(&self, by_name: &HashMap<&str, &Self>) -> f64 {
         let (mut begins_s, mut at) = (0.0, self);
         for _ in 0..MOST_REFERENCES {
@@ -127,13 +127,13 @@ impl LightController {
         begins_s
     }
 
-    /// What a light shows over a time from zero on, where it changes.
+    /// Changes of a light's state over a time from zero.
     fn states(&self, id: &str, begins_s: f64, span_s: f64, most: usize) -> Vec<(f64, SignalState)> {
         let cycle_s = self.phases.last().map_or(0.0, |phase| phase.end_s);
         let mut states: Vec<(f64, SignalState)> = Vec::new();
         for step in 0..=(span_s.min(LONGEST_S) / STEP_S) as usize {
             let time_s = step as f64 * STEP_S;
-            // In the middle of a step, so that no sum of tenths decides.
+            // In the middle of a step, so that no rounding of sums decides.
             let since_s = time_s + 0.5 * STEP_S - begins_s;
             let in_cycle_s = if cycle_s > 0.0 { since_s.rem_euclid(cycle_s) } else { 0.0 };
             let index = self.phases.partition_point(|phase| phase.end_s <= in_cycle_s);
@@ -147,14 +147,14 @@ impl LightController {
     }
 }
 
-/// A state in the words of lamps from top to bottom, such as `off;off;on`, or in one word.
+/// A state as the words of lamps from top to bottom, such as `off;off;on`, or as one word.
 fn state_of(words: &str) -> Option<SignalState> {
     let words = words.trim().to_ascii_lowercase();
     let lamps: Vec<&str> = words.split(';').map(str::trim).collect();
     let is = |lamp: usize, word: &str| lamps.get(lamp).is_some_and(|lamp| lamp.starts_with(word));
     let lit = |lamp: usize| is(lamp, "on") || is(lamp, "blink") || is(lamp, "flash");
     if lamps.len() > 1 {
-        // Two lamps have no amber.
+        // A light with two lamps has no amber.
         let green = lamps.len().min(3) - 1;
         let amber = |lit: bool| lit && green > 1;
         return Some(match () {

@@ -1,5 +1,5 @@
-//! Reads OpenSCENARIO XML 1.x: road users with their initial states, catalogs, parameters, and trajectories with
-//! times. What needs a simulation is listed by its place in the file.
+//! Reads OpenSCENARIO XML 1.x: road users with their initial states, catalogs, parameters, and trajectories
+//! with times. Elements that need a simulation are listed by their place in the file.
 
 mod entities;
 mod files;
@@ -12,7 +12,8 @@ mod unread;
 
 pub(super) use import::scenes;
 
-/// Whether a file that begins so is a scenario: by its element, or as a zip with a scenario in it.
+/// Whether a file with this beginning is a scenario: by its root element, or as a zip that contains a
+/// scenario.
 pub(super) fn begins(head: &[u8]) -> bool {
     let ends = |end: &[u8]| head.windows(end.len()).any(|part| part.eq_ignore_ascii_case(end));
     if head.starts_with(files::ZIP) {

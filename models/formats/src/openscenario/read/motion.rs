@@ -1,8 +1,8 @@
-//! Motion that a scenario states without a simulation: poses at the start, trajectories with times, who comes and
-//! who leaves.
+//! Motion that a scenario defines without a simulation: initial poses, trajectories with times, and the times
+//! at which road users appear and disappear.
 //!
-//! Manoeuvres (changes of speed or lane, conditions on the traffic) are passed over by their place in the file. An
-//! interpreter of the storyboard would take them here, as further sources of samples.
+//! Manoeuvres (changes of speed or lane, conditions on the traffic) are skipped, with their place in the
+//! file. An interpreter of the storyboard would handle them here, as further sources of samples.
 
 use super::entities::{Catalogs, entry};
 use super::parameters::{Scope, attribute, number};
@@ -13,10 +13,10 @@ use crate::refusals::{self, what};
 use crate::tree::XmlNode;
 use std::collections::HashMap;
 
-/// Most poses of all road users together.
+/// Most poses of all road users.
 pub(super) const MAX_POSES: usize = 1_000_000;
 
-/// A way of an action from a start to an end, as the place of an element is written.
+/// Path of an element in the file.
 pub(super) type Place<'a> = &'a str;
 
 /// A pose at a time, seconds.
@@ -26,14 +26,14 @@ pub(super) struct TracePose {
     pub pose: Pose,
 }
 
-/// What an action does to a road user.
+/// Effect of an action on a road user.
 #[derive(Debug)]
 pub(super) enum Move {
     /// Follows poses.
     Follow(Vec<TracePose>),
-    /// Is there from a time on.
+    /// Appears at a time.
     Comes(TracePose),
-    /// Is gone from a time on, seconds.
+    /// Disappears at a time, seconds.
     Leaves(f64),
 }
 
@@ -46,7 +46,7 @@ pub(super) enum When {
     Unknown,
 }
 
-/// The time of a `<StartTrigger>` or `<StopTrigger>` that looks at the clock alone.
+/// The time of a `<StartTrigger>` or `<StopTrigger>` that depends only on the clock.
 ///
 /// # Errors
 /// `invalid-field` for what is no number.
@@ -68,19 +68,19 @@ pub(super) fn when(trigger: &XmlNode) -> Result<When, ReadError> {
     Ok(first.map_or(When::Unknown, When::At))
 }
 
-/// What actions refer to, and what of them is not read.
+/// References of actions, and a list of what is not read.
 pub(super) struct MotionReader<'a> {
     pub places: &'a ScenarioPlaces,
     pub catalogs: &'a Catalogs,
     pub unread: &'a mut Unread,
-    /// Poses of all moves so far.
+    /// Number of poses of all moves so far.
     pub poses: &'a mut usize,
-    /// Moves by the name of the road user, each with the time of its event; times of an act are not yet in.
+    /// Moves by the name of the road user, each with the time of its event, without the time of the act.
     pub moves: Vec<(String, Option<f64>, Move)>,
 }
 
 impl MotionReader<'_> {
-    /// Takes the events of a `<ManeuverGroup>`.
+    /// Adds the events of a `<ManeuverGroup>`.
     ///
     /// # Errors
     /// `invalid-field`, with the line.
@@ -194,7 +194,8 @@ impl MotionReader<'_> {
         Ok(())
     }
 
-    /// Poses of a `<FollowTrajectoryAction>` that begins at a time; nothing for one without times or of curves.
+    /// Poses of a `<FollowTrajectoryAction>` that begins at a time; nothing for a trajectory without times or
+    /// with curves.
     ///
     /// # Errors
     /// `invalid-field`, with the line.
@@ -240,7 +241,7 @@ impl MotionReader<'_> {
     }
 }
 
-/// The place of an element with a name in one.
+/// The place of a named element within another.
 pub(super) fn named(place: Place<'_>, node: &XmlNode) -> String {
     match node.element.get("name").or_else(|| node.element.get("entityRef")) {
         Some(name) => format!("{place}/{}[{name}]", node.name()),
@@ -248,7 +249,7 @@ pub(super) fn named(place: Place<'_>, node: &XmlNode) -> String {
     }
 }
 
-/// The place of an action down to what it is.
+/// The place of an action including its kind.
 pub(super) fn deepest(place: Place<'_>, node: &XmlNode) -> String {
     let mut place = named(place, node);
     if let Some(inner) = node.children.first().filter(|_| node.name().ends_with("Action")) {

@@ -1,28 +1,28 @@
-//! Parameters of a scenario: `$name`, and `${...}` with numbers, parameters and the usual signs.
+//! Parameters of a scenario: `$name`, and `${...}` with numbers, parameters and the usual operators.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, wanted, what};
 use crate::tree::XmlNode;
 use std::collections::HashMap;
 
-/// Most parameters that hold at one place, and deepest brackets of an expression.
+/// Most parameters in one scope, and deepest brackets of an expression.
 const MAX_PARAMETERS: usize = 4_096;
 const MAX_DEPTH: usize = 32;
-/// Attributes that name a parameter and have no value of one.
+/// Attributes that name a parameter instead of using its value.
 const NAMES: [&str; 2] = ["parameterRef", "variableRef"];
 
-/// Parameters that hold at a place.
+/// Parameters of a scope.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scope {
     values: HashMap<String, String>,
 }
 
 impl Scope {
-    /// The same with the parameters that an element declares, unless `given` has them. One whose value cannot be
-    /// told is not declared.
+    /// The scope with the parameters that an element declares, unless `given` has them. A parameter without a
+    /// known value is not declared.
     ///
     /// # Errors
-    /// `out-of-range` for too many.
+    /// `out-of-range` for too many parameters.
     pub fn declared(&self, node: &XmlNode, given: &HashMap<String, String>) -> Result<Self, ReadError> {
         let mut scope = self.clone();
         let lists = node.all("ParameterDeclarations").chain(node.all("ParameterDeclaration"));
@@ -44,8 +44,8 @@ impl Scope {
         Ok(scope)
     }
 
-    /// Replaces parameters by their values in an element and all in it. What has no value stays as it is written:
-    /// [`number`] refuses it where it is needed, and most of it is not.
+    /// Replaces parameters by their values in an element and its content. Text without a value stays
+    /// unchanged: [`number`] refuses it if it is needed, and most of it is not.
     pub fn fill(&self, node: &mut XmlNode) {
         for (name, text) in &mut node.element.attributes {
             if !text.contains('$') || NAMES.contains(&name.as_str()) {
@@ -55,7 +55,7 @@ impl Scope {
                 *text = value;
             }
         }
-        // Declarations within hold further down: they are resolved where they are read.
+        // Inner declarations apply to their own content: they are resolved when they are read.
         let inner = node.children.iter_mut().filter(|child| child.name() != "ParameterDeclarations");
         for child in inner {
             if child.name() != "Maneuver" {
@@ -77,12 +77,12 @@ impl Scope {
     }
 }
 
-/// An attribute, or nothing.
+/// An attribute; empty if it is missing.
 pub(super) fn attribute<'a>(node: &'a XmlNode, name: &str) -> &'a str {
     node.element.get(name).unwrap_or_default()
 }
 
-/// An attribute as a finite number, if it is there.
+/// An attribute as a finite number, if it is present.
 ///
 /// # Errors
 /// `invalid-field`.
@@ -147,7 +147,7 @@ impl ParameterExpression<'_> {
             from + rest.iter().position(|b| !part(b)).unwrap_or(rest.len())
         };
         let mut count = ends(0);
-        // The sign of an exponent is of the number.
+        // The sign of an exponent belongs to the number.
         let is_number = !named && self.rest.first().is_some_and(u8::is_ascii_digit);
         let signed = matches!(self.rest.get(count.saturating_sub(1)..), Some([b'e' | b'E', b'+' | b'-', ..]));
         if is_number && signed {
@@ -164,7 +164,7 @@ impl ParameterExpression<'_> {
         }
     }
 
-    /// The value of a function, from behind its bracket to behind the closing one.
+    /// The value of a function; reads from after its opening bracket to after the closing one.
     fn function(&mut self, name: &str) -> Option<f64> {
         let first = self.sum()?;
         let second = if self.sign(b",").is_some() { Some(self.sum()?) } else { None };

@@ -9,15 +9,15 @@ use scene::geometry::rotate;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Place of a road user's reference point, in the frame of the map.
+/// Pose of a road user's reference point, in the frame of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pose {
     pub at: Vec2,
-    /// Unknown where the file gives none and nothing implies it.
+    /// Unknown if the file has none and nothing implies it.
     pub heading_rad: Option<f64>,
 }
 
-/// What positions refer to.
+/// Objects to which positions refer.
 #[derive(Default)]
 pub(super) struct ScenarioPlaces {
     pub roads: Option<RoadPlaces>,
@@ -29,7 +29,7 @@ pub(super) struct ScenarioPlaces {
 type Offsets = (f64, f64);
 
 impl ScenarioPlaces {
-    /// The place of a `<Position>`; nothing for one that is not resolved.
+    /// The pose of a `<Position>`; nothing for one that cannot be resolved.
     ///
     /// # Errors
     /// `invalid-field` for what is no number.
@@ -74,7 +74,8 @@ impl ScenarioPlaces {
                 None => None,
             },
             "RelativeLanePosition" => match self.found(node) {
-                // Lanes with traffic along the road are numbered below zero from its middle: one to the left is one more.
+                // Lanes with traffic along the road have negative numbers from its middle: the next lane to
+                // the left has the next number.
                 Some((road, (s_m, _), Some(lane))) if lane < 0 => {
                     let (lanes, offset_m) = pair("dLane", "offset")?;
                     let along = number(node, "ds")?.or(number(node, "dsLane")?).unwrap_or(0.0);
@@ -104,7 +105,7 @@ impl ScenarioPlaces {
         found.map(|(at, along_rad)| turned(at, Some(along_rad), node)).transpose()
     }
 
-    /// Without an orientation a road user heads where the lane leads.
+    /// Without an orientation, the heading is that of the lane.
     fn on_lane(&self, node: &XmlNode, road: &str, lane: i32, at: Offsets) -> Result<Option<Pose>, ReadError> {
         let found = self.roads.as_ref().and_then(|roads| roads.lane(road, lane, at.0, at.1));
         let Some((at, along_rad, against)) = found else { return Ok(None) };
@@ -115,7 +116,7 @@ impl ScenarioPlaces {
     }
 }
 
-/// A pose with the orientation that a position has, relative to a heading unless it is absolute.
+/// A pose with the orientation of a position, which is relative to a heading unless it is absolute.
 fn turned(at: Vec2, base_rad: Option<f64>, node: &XmlNode) -> Result<Pose, ReadError> {
     let Some(orientation) = node.child("Orientation") else { return Ok(Pose { at, heading_rad: base_rad }) };
     let h = number(orientation, "h")?;

@@ -1,4 +1,4 @@
-//! What a scenario has that a scene does not show, by its place in the file.
+//! Contents of a scenario that a scene does not show, by their place in the file.
 
 use crate::problem::ImportWarning;
 use crate::sentences;

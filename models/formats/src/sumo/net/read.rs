@@ -14,34 +14,34 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::BufRead;
 
-/// Most bytes of one tag: a shape with the most points a polyline may have, twice (`outlineShape`).
+/// Most bytes of one tag: a shape with the most points of a polyline, twice (`outlineShape`).
 const MAX_TAG: usize = 1 << 20;
 /// Most elements of a network.
 const MAX_ELEMENTS: usize = 600_000;
 /// Most attributes in a network.
 const MAX_ATTRIBUTES: usize = 4_000_000;
-/// Junctions are no wider than this, metres.
+/// Greatest width of a junction, metres.
 const JUNCTION_M: f64 = 200.0;
-/// Width of a lane that gives none, metres: the default of SUMO.
+/// Width of a lane without a stated one, metres: SUMO's default.
 const LANE_WIDTH_M: f64 = 3.2;
 
 /// Most characters of a projection.
 const PROJECTION_CHARS: usize = 500;
-/// Ends of lanes this near to each other need no way between them, and farther ones than a junction is wide have
-/// none, metres.
+/// Lane ends within the first distance need no connection, and those beyond the second, wider than a
+/// junction, have none, metres.
 const WAY_M: (f64, f64) = (0.5, 60.0);
 
-/// The element below the root that is open.
+/// The open element below the root.
 #[derive(Default)]
 enum OpenElement {
-    /// None, or one that is not read.
+    /// None, or one that is skipped.
     #[default]
     Other,
     Edge(NetEdge),
     Program(SignalProgram),
 }
 
-/// A `<connection>`; it may stand before the lanes that it names.
+/// A `<connection>`; it may precede the lanes that it names.
 struct Connection {
     from: String,
     to: String,
@@ -54,14 +54,14 @@ struct Connection {
 #[derive(Default)]
 struct Reader {
     net: Net,
-    /// Elements that are open.
+    /// Number of open elements.
     depth: usize,
     open: OpenElement,
     connections: Vec<Connection>,
     elements: usize,
     attributes: usize,
     chosen: Chosen,
-    /// Hashes of the ids of edges that are not taken.
+    /// Hashes of the ids of skipped edges.
     left_out: HashSet<u64>,
 }
 
@@ -69,7 +69,7 @@ impl Net {
     /// Reads a network.
     ///
     /// # Errors
-    /// When the text is no XML, is no SUMO network, or a value cannot be read.
+    /// When the text is not XML or not a SUMO network, or a value cannot be read.
     pub fn read(text: &str) -> Result<Self, SumoError> {
         Self::read_from(text.as_bytes())
     }
@@ -79,7 +79,8 @@ impl Net {
         Self::read_part(input, &mut Chosen::default())
     }
 
-    /// Reads what is chosen of a network: edges with a lane near the circle, with the connections among them.
+    /// Reads the chosen part of a network: edges with a lane near the circle, with the connections among
+    /// them.
     pub(in crate::sumo) fn read_part(input: impl BufRead, chosen: &mut Chosen) -> Result<Self, SumoError> {
         let mut scanner = Scanner::new(input, MAX_TAG);
         let mut reader = Reader { chosen: std::mem::take(chosen), ..Reader::default() };
@@ -137,10 +138,10 @@ impl Reader {
         Ok(())
     }
 
-    /// Bounds what the lists of a network can grow to.
+    /// Limits the lists of a network.
     fn count(&mut self, element: &Element) -> Result<(), SumoError> {
         if self.chosen.is_part() {
-            // What is passed over takes no memory but that of its hash.
+            // A skipped edge takes only the memory of its hash.
             self.elements = self.net.lanes.len() + self.connections.len() + self.left_out.len() / 8;
         } else {
             self.elements += 1;
@@ -168,7 +169,7 @@ impl Reader {
         self.depth = self.depth.saturating_sub(1);
     }
 
-    /// Takes an edge, or drops it with its lanes where it lies outside of the chosen part.
+    /// Adds an edge, or drops it with its lanes if it lies outside the chosen part.
     fn edge(&mut self, edge: NetEdge) {
         let first = self.net.lanes.len() - edge.lanes.len();
         let lanes = self.net.lanes.get(first..).unwrap_or_default();
@@ -188,14 +189,14 @@ impl Reader {
         self.left_out.insert(hash(&edge.id));
     }
 
-    /// The network with its lanes linked. A connection of lanes that are not there links nothing.
+    /// The network with linked lanes. A connection of missing lanes is ignored.
     fn linked(self) -> Net {
         let Self { mut net, connections, .. } = self;
         let by_id: HashMap<String, usize> =
             net.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
-        // Ways through junctions, each with the lane behind it: some files have no connection out of them.
+        // Ways through junctions, each with its next lane: some files have no connection out of them.
         let mut unled: Vec<(usize, usize)> = Vec::new();
-        // Links that rule the ways into lanes that are entered without a lane between: one, or several.
+        // Signal links for lanes that are entered without a lane between: one, or several.
         let mut entered: HashMap<usize, Vec<Option<(String, usize)>>> = HashMap::new();
         for connection in connections {
             let (from, to) = (by_id.get(&connection.from), by_id.get(&connection.to));
@@ -220,7 +221,7 @@ impl Reader {
                 net.lanes[via].successors.push(to);
             }
         }
-        // Of a network without ways through junctions, what a light rules begins behind them.
+        // In a network without ways through junctions, the signals apply to the lanes after them.
         for (lane, signals) in entered {
             if let Some(first) = signals.first().filter(|first| signals.iter().all(|signal| signal == *first))
             {
@@ -237,8 +238,8 @@ fn hash(id: &str) -> u64 {
     hasher.finish()
 }
 
-/// A way through a junction between the ends of two lanes, for networks that are written without
-/// (`--no-internal-links`); nothing where the lanes meet or are not for traffic.
+/// A way through a junction between the ends of two lanes, for networks without them (`--no-internal-links`);
+/// nothing if the lanes meet or carry no traffic.
 fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
     let travelled = |lane: usize| {
         let kind = net.lanes[lane].kind;
@@ -285,7 +286,7 @@ fn way(net: &mut Net, from: usize, to: usize) -> Option<usize> {
     Some(lane)
 }
 
-/// What was added to the projected coordinates.
+/// The offset that was added to the projected coordinates.
 fn offset(location: &Element) -> Result<Vec2, SumoError> {
     let Some(text) = location.get("netOffset") else { return Ok(Vec2::zeros()) };
     point(text).map(|(offset, _)| offset).ok_or_else(|| SumoError::value(text, wanted::POINT, location.line))
@@ -324,7 +325,7 @@ fn edge(element: &Element) -> Result<Option<NetEdge>, SumoError> {
 /// A lane; the caller knows its position in the network.
 fn lane(element: &Element, function: EdgeFunction, heights: &mut bool) -> Result<NetLane, SumoError> {
     let has_width = element.get("width").is_some();
-    // A negative width stands for the usual one.
+    // A negative width stands for the default.
     let told_m = if has_width { Some(number(element, "width")?) } else { None };
     let width_m = told_m.filter(|width| *width >= 0.0).unwrap_or(LANE_WIDTH_M);
     Ok(NetLane {
@@ -370,7 +371,7 @@ fn program(element: &Element) -> Result<SignalProgram, SumoError> {
         id: owned(element, "id")?,
         kind: element.get("type").unwrap_or("static").to_owned(),
         offset_s: match element.get("offset") {
-            // The word means the time at which the simulation begins.
+            // The word means the beginning of the simulation.
             None | Some("begin") => 0.0,
             Some(_) => number(element, "offset")?,
         },

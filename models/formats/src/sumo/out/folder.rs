@@ -1,4 +1,4 @@
-//! All that SUMO needs of a scene, as one zip.
+//! Writes all files that SUMO needs of a scene, as one zip.
 
 use super::network::ExportedNetwork;
 use super::{net, recording, trips};
@@ -12,13 +12,13 @@ use scene::{STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
 
-/// Ends of the names of the files.
+/// Suffixes of the file names.
 pub(in crate::sumo) const NET: &str = ".net.xml";
 pub(in crate::sumo) const TRIPS: &str = ".rou.xml";
 pub(in crate::sumo) const RECORDING: &str = ".fcd.xml";
 pub(in crate::sumo) const CONFIGURATION: &str = ".sumocfg";
 
-/// Writes a scene: its network with trips and a configuration where it has lanes, and its motion where it has road
+/// Writes a scene: its network with trips and a configuration if it has lanes, and its motion if it has road
 /// users.
 ///
 /// # Errors
@@ -69,7 +69,7 @@ fn configuration(name: &str, steps: usize) -> io::Result<Vec<u8>> {
     out.empty("step-length", &[("value", &decimal(STEP_S))]);
     out.close();
     out.open("processing", &[]);
-    // Road users begin where they are, however near each other.
+    // Road users start at their positions, however close to each other.
     out.empty("collision.action", &[("value", "warn")]);
     out.empty("time-to-teleport", &[("value", "-1")]);
     out.close();

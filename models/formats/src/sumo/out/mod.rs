@@ -1,4 +1,5 @@
-//! From scenes to files of SUMO: a network, a recording, and a folder of both with the trips of its road users.
+//! Writes scenes as files of SUMO: a network, a recording, and a folder of both with the trips of its road
+//! users.
 
 pub(super) mod folder;
 pub(super) mod net;

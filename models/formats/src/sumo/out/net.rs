@@ -1,4 +1,4 @@
-//! A network as SUMO loads it (`net.xml`): lanes where they are, with links, rules and lights.
+//! Writes a network for SUMO (`net.xml`): lanes at their positions, with links, rules and lights.
 
 use super::network::{Edge, ExportedNetwork, Junction, LaneRole, Link, is_motorway};
 use super::yields::{LinkPriority, letters};
@@ -14,7 +14,7 @@ use scene::routes::assumed_speed_limit_mps;
 use scene::{STEP_S, Scene, SignalState, Vec2};
 use std::io;
 
-/// Links that turn by more than this are turns, and by more than that go back, radians.
+/// Links with a greater angle than the first are turns, and than the second U-turns, radians.
 const TURNS_RAD: (f64, f64) = (0.6, 2.6);
 /// Word in the types of edges that are motorways.
 const MOTORWAY: &str = "highway.motorway";
@@ -42,7 +42,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     Ok(Exported { bytes, losses })
 }
 
-/// The file, with lights that go on for so many steps; nothing for a map without lanes.
+/// The file, with lights over this many steps; nothing for a map without lanes.
 pub(super) fn document(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
@@ -92,7 +92,7 @@ fn location(scene: &Scene, network: &ExportedNetwork<'_>, out: &mut Markup) {
     let (low, high) = points().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let corners: Vec<String> = [low.x, low.y, high.x, high.y].into_iter().map(decimal).collect();
     let boundary = corners.join(",");
-    // Other names of projections are not SUMO's.
+    // SUMO does not know other names of projections.
     let crs = scene.meta.origin.crs.as_deref().filter(|crs| crs.starts_with("+proj"));
     out.empty(
         "location",
@@ -122,7 +122,7 @@ fn permission(lane_type: LaneType) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// The limit of a lane, assumed where the map gives none, m/s.
+/// The limit of a lane, assumed if the map has none, m/s.
 pub(super) fn limit_mps(lane: &Lane) -> f64 {
     lane.speed_limit_mps.unwrap_or_else(|| assumed_speed_limit_mps(lane.lane_type))
 }
@@ -155,7 +155,7 @@ fn write_edge(network: &ExportedNetwork<'_>, edge: &Edge, out: &mut Markup) {
     out.close();
 }
 
-/// SUMO's letter for what a light shows.
+/// SUMO's letter for a signal state.
 fn letter(state: SignalState) -> char {
     match state {
         SignalState::Go | SignalState::ArrowGo => 'g',
@@ -167,10 +167,10 @@ fn letter(state: SignalState) -> char {
     }
 }
 
-/// Length of the phase in which the lights of a junction turn green that do not while there is motion, seconds.
+/// Length of the phase in which lights turn green that are never green during the motion, seconds.
 const MADE_PHASE_S: f64 = 10.0;
 
-/// Lights of a junction that let nobody pass in so many steps.
+/// Lights of a junction that are never green in these steps.
 fn never_green(scene: &Scene, junction: &Junction, steps: usize) -> Vec<bool> {
     let stops = |light: &usize| {
         let signal = &scene.signals[*light];
@@ -198,7 +198,7 @@ fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
         let duration = decimal((end - begin) as f64 * STEP_S);
         out.empty("phase", &[("duration", &duration), ("state", &shown)]);
     }
-    // Who waits at a light that the record never shows green would wait for ever.
+    // A vehicle at a light that the record never shows green would wait for ever.
     let never = never_green(scene, junction, steps);
     if never.contains(&true) {
         let shown: String = never.iter().map(|never| if *never { 'g' } else { 'r' }).collect();
@@ -240,7 +240,7 @@ fn write_junction(network: &ExportedNetwork<'_>, junction: &Junction, out: &mut 
     out.close();
 }
 
-/// Joints between the parts of a link, at which SUMO lets traffic wait within a junction.
+/// Joints between the parts of a link, at which SUMO makes traffic wait within a junction.
 fn waiting(network: &ExportedNetwork<'_>, link: &Link, out: &mut Markup) {
     for pair in link.via.windows(2) {
         let [(_, before), (lane, id)] = pair else { continue };

@@ -1,4 +1,4 @@
-//! Placed road users beside recorded ones: the same scenes, as many of each type, the same region.
+//! Compares placed road users with recorded ones: the same scenes, as many of each type, the same region.
 
 mod distance;
 mod table;
@@ -19,7 +19,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Types that are judged.
+/// Types that are evaluated.
 const TYPES: [AgentType; 3] = [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist];
 /// Distances to lanes and neighbours are capped at this, metres.
 const FAR_M: f64 = 50.0;
@@ -59,7 +59,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All, with the range of their classes.
+    /// All measures, with the ranges of their classes.
     const ALL: [(Self, f64, f64); 6] = [
         (Self::NearestNeighborM, 0.0, FAR_M),
         (Self::LaneDistanceM, 0.0, 12.0),
@@ -91,7 +91,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// Distance of one distribution from the log's.
+/// Distance of one distribution from that of the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DistributionDistance {
     /// Wasserstein-1, in the measure's unit.
@@ -106,7 +106,7 @@ pub struct DistributionDistance {
 pub struct MeasureGaps {
     pub model: DistributionDistance,
     pub lane_sampler: DistributionDistance,
-    /// One half of the scenes' logs against the other half: what chance leaves.
+    /// The logs of one half of the scenes against those of the other: the effect of chance.
     pub log_halves: DistributionDistance,
 }
 
@@ -122,7 +122,7 @@ pub struct PlacementFacts {
     pub off_road_share: Interval,
     /// Share of vehicles more than 2 m from every lane's centre.
     pub off_lane_share: Interval,
-    /// Share of vehicles that stand.
+    /// Share of standing vehicles.
     pub standing_share: Interval,
 }
 
@@ -153,7 +153,7 @@ struct SceneMeasures {
     standing: Vec<f64>,
 }
 
-/// Log, model and lane sampler of one scene.
+/// Measures of log, model and lane sampler of one scene.
 type Three = [SceneMeasures; 3];
 
 /// Compares placements with the logs of scenes.
@@ -220,7 +220,7 @@ fn of_scene(
     three[0].asked = logged.len();
     let mut request = PlaceRequest::new(Arc::new(Scene { agents: Vec::new(), ..scene.clone() }));
     (request.step, request.region, request.amount) = (step, region, Amount::Each(each));
-    // Some recorded cars stand closer than 2 m; the request must allow placement the same.
+    // Some recorded cars stand closer than 2 m; placement must be allowed to do the same.
     request.min_gap_m = 1.0;
     for seed in 0..options.seeds {
         request.seed = seed;
@@ -267,7 +267,7 @@ impl SceneMeasures {
     }
 }
 
-/// The lane that a road user is nearest to; among those it is on, the one it stands along.
+/// The lane nearest to a road user; of several lanes that it is on, the one it is aligned with.
 fn lane_of(graph: &LaneGraph, state: &State) -> Option<LaneHit> {
     let hits = graph.nearest_for(state.position(), FAR_M, AgentType::Vehicle);
     let on = hits.iter().filter(|h| h.distance_m < 1.75);

@@ -1,5 +1,5 @@
-//! Table 1: distance of futures from the recorded motion, one road user at a time. The only known future is
-//! the stated goal.
+//! Table 1: distance between futures and the recorded motion, one road user at a time. The given goal is the
+//! only known part of the future.
 
 mod sheets;
 
@@ -35,10 +35,10 @@ fn make(trial: &mut Trial<'_>) -> Result<Made> {
     Ok(Made { sheets, pictures, ..Made::default() })
 }
 
-/// Source of the answer to a case.
+/// Method that answers a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AnswerSource {
-    /// The product as it is shipped, with the weights of this index.
+    /// The shipped product, with the weights of this index.
     Refined(usize),
     /// The same weights without refinement and noise.
     Initializer(usize),
@@ -49,19 +49,19 @@ pub enum AnswerSource {
 }
 
 impl AnswerSource {
-    /// All, in the tables' order.
+    /// All methods, in the order of the tables.
     pub fn all(entrants: Entrants<'_>) -> Vec<Self> {
         let ours = (0..entrants.judged.len()).flat_map(|i| [Self::Refined(i), Self::Initializer(i)]);
         ours.chain(Self::rivals(entrants)).collect()
     }
 
-    /// All that are not ours.
+    /// All methods of others.
     pub fn rivals(entrants: Entrants<'_>) -> Vec<Self> {
         let learned = (0..entrants.baselines.len()).map(Self::Learned);
         learned.chain(Rival::ALL.map(Self::Formula)).collect()
     }
 
-    /// All with probabilities, by their final answers.
+    /// All methods with probabilities, by their final answers.
     pub fn answering(entrants: Entrants<'_>) -> Vec<Self> {
         let ours = (0..entrants.judged.len()).map(Self::Refined);
         ours.chain((0..entrants.baselines.len()).map(Self::Learned)).collect()
@@ -82,7 +82,7 @@ impl AnswerSource {
 /// Below this speed recorded headings are noise, m/s.
 const TURNING_MPS: f64 = 0.5;
 
-/// Manner of a logged motion.
+/// Kind of a logged motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Manner {
     turn_deg: f64,
@@ -93,7 +93,7 @@ pub struct Manner {
 }
 
 impl Manner {
-    /// Of a case's log from its first step.
+    /// Manner of a case's log from its first step.
     pub fn of(log: &Agent, case: &Case) -> Self {
         let states: Vec<_> = (0..=HORIZON_STEPS).filter_map(|step| log.state_at(step)).collect();
         let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > TURNING_MPS).collect();
@@ -168,7 +168,7 @@ pub struct Outcome {
     /// Errors.
     pub measured: Measured,
     manner: Manner,
-    /// By future; empty for formulas.
+    /// Probabilities of the futures; empty for formulas.
     probabilities: Vec<f64>,
     goal: Option<GoalVerdict>,
 }
@@ -179,16 +179,16 @@ struct GoalVerdict {
     reported: bool,
     futures: usize,
     outside: usize,
-    /// Metres from the future shown to the goal's position, where that is fixed.
+    /// Distance from the shown future to the goal's position, metres, if that is fixed.
     left_m: Option<f64>,
 }
 
-/// The shipped settings, or the initializer as it is.
+/// A request with the shipped settings, or with the initializer only.
 pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Request {
     let mut request = Request::new(Arc::new(scene));
     request.agents = Some(BTreeSet::from([id.to_owned()]));
     request.seed = seed;
-    // The others' logs are withheld, so the answer must not avoid a guess at them.
+    // The logs of the others are withheld, so the answer must not avoid a guess at them.
     request.stages.background_in_the_way = false;
     if !refined {
         (request.steps, request.diversity) = (0, 0.0);
@@ -196,7 +196,7 @@ pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Reque
     request
 }
 
-/// Futures of one case by itself, and whether the goal was reported out of reach.
+/// Futures of a single case, and whether the goal was reported as out of reach.
 ///
 /// # Errors
 /// When the generator fails.
@@ -216,7 +216,7 @@ pub fn alone(
     Ok(sample.and_then(|mut s| s.agents.remove(id)).map(|futures| (futures, reported)))
 }
 
-/// Answers of all methods to all cases, in order of scenes, cases, conditions, methods.
+/// Answers of all methods to all cases, by scene, case, condition and method.
 ///
 /// # Errors
 /// When a generator fails.

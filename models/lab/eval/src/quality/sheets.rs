@@ -9,7 +9,7 @@ use super::{AnswerSource, GROUPS, GoalVerdict, Outcome};
 use scene::AgentType;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One of the errors.
+/// Selects one of the errors.
 type ErrorOf = fn(&Measured) -> f64;
 
 /// Everything that table 1 prints.
@@ -21,7 +21,7 @@ pub struct Quality<'a> {
 }
 
 impl<'a> Quality<'a> {
-    /// Over these outcomes.
+    /// The sheets over these outcomes.
     pub fn new(entrants: Entrants<'a>, outcomes: &'a [Outcome], boot: &'a Bootstrap) -> Self {
         let types: BTreeSet<AgentType> = outcomes.iter().map(|o| o.agent_type).collect();
         Self { entrants, outcomes, boot, types: types.into_iter().collect() }
@@ -120,7 +120,7 @@ impl<'a> Quality<'a> {
         self.of(agent_type, subset, method).map(|o| ((o.site, o.case), value(&o.measured))).collect()
     }
 
-    /// Ours minus a rival's, over the cases that both answered.
+    /// The product's value minus a rival's, over the cases that both answered.
     fn difference(
         &self,
         agent_type: AgentType,

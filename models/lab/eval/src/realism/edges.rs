@@ -3,7 +3,7 @@
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::{LaneMap, Vec2};
 
-/// Nothing farther is looked for, metres.
+/// Greatest distance that is searched, metres.
 pub(super) const FAR_M: f64 = 40.0;
 
 /// All road edges and the sides of drivable areas.
@@ -24,7 +24,7 @@ impl RoadEdges {
         self.0.is_empty()
     }
 
-    /// Metres from a point to the nearest edge, at most [`FAR_M`].
+    /// Distance from a point to the nearest edge, at most [`FAR_M`], metres.
     pub(super) fn distance_m(&self, p: Vec2) -> f64 {
         self.0.nearest(p, FAR_M).map_or(FAR_M, |found| found.2)
     }

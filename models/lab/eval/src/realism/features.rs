@@ -13,7 +13,7 @@ const MOVING_MPS: f64 = 0.5;
 /// One histogram.
 pub(super) struct Feature {
     pub(super) name: &'static str,
-    /// Bounds and bins of a number; `None` for what either happens or not.
+    /// Bounds and bins of a number; `None` for a yes-or-no feature.
     pub(super) bins: Option<(f64, f64, usize)>,
     pub(super) weight: f64,
 }
@@ -22,7 +22,7 @@ const fn number(name: &'static str, low: f64, high: f64, bins: usize, weight: f6
     Feature { name, bins: Some((low, high, bins)), weight }
 }
 
-/// The challenge's features in its order, without traffic lights. Its bound of 3.14 is no pi.
+/// The features of the challenge in its order, without traffic lights. Its bound is 3.14, not pi.
 #[allow(clippy::approx_constant, reason = "a published number")]
 pub(super) const FEATURES: [Feature; 9] = [
     number("speed", 0.0, 25.0, 10, 0.05),
@@ -39,13 +39,13 @@ pub(super) const FEATURES: [Feature; 9] = [
 /// Index of time to collision among the features.
 const TIME_TO_COLLISION: usize = 6;
 
-/// Time to collision is looked for so far, seconds.
+/// Horizon of the time to collision, seconds.
 const HORIZON_S: f64 = 5.0;
-/// Nothing farther is nearest, metres.
+/// Greatest distance to the nearest object, metres.
 const FAR_M: f64 = 40.0;
 
-/// One road user's features in one rollout: values over time, one list a feature; of what happens or not,
-/// one value, 1 or 0. Empty where a feature does not apply.
+/// One road user's features in one rollout: values over time, one list per feature; a yes-or-no feature has
+/// one value, 1 or 0. Empty if a feature does not apply.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Motion {
     pub(super) values: [Vec<f64>; FEATURES.len()],
@@ -58,13 +58,13 @@ impl Motion {
         self.values[TIME_TO_COLLISION].iter().copied().reduce(f64::min)
     }
 
-    /// Acceleration along, lateral acceleration and jerk above 0.5 m/s.
+    /// Longitudinal acceleration, lateral acceleration and jerk above 0.5 m/s.
     pub(super) fn felt(&self) -> [Vec<f64>; 3] {
         self.felt.clone()
     }
 }
 
-/// Features of some road users, one entry each, at the steps where their log is known.
+/// Features of some road users, one entry each, at the steps at which their log is known.
 pub(super) fn observe(site: &Site<'_>, edges: &RoadEdges, motions: &Motions, whom: &[usize]) -> Vec<Motion> {
     let outlines: Vec<Option<Vec<(OrientedBox, State)>>> = motions
         .iter()
@@ -186,7 +186,7 @@ mod tests {
         assert!(seen[0].values[0].iter().all(|v| (v - 15.0).abs() < 1e-9));
         assert!(seen[0].values[1].iter().all(|a| a.abs() < 1e-6));
         assert_eq!(seen[0].values[0].len(), 89);
-        // After 9 s the gap is 200 - 90 - 4.7 m, more than is looked at.
+        // After 9 s the gap is 200 - 90 - 4.7 m, more than is searched.
         assert!(seen[0].values[4].iter().all(|d| *d == FAR_M));
         assert_eq!((seen[0].values[5].as_slice(), seen[0].values[8].len()), (&[0.0][..], 0));
         assert!(seen[0].values[6].iter().all(|t| *t == HORIZON_S));

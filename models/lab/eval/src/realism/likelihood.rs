@@ -2,12 +2,12 @@
 
 use super::features::{FEATURES, Feature, Motion};
 
-/// Added to every bin, so that nothing is impossible.
+/// Count added to every bin, so that no value is impossible.
 const PSEUDOCOUNT: f64 = 0.1;
-/// The same for what happens or not.
+/// Count added for yes-or-no features.
 const PSEUDOCOUNT_FLAG: f64 = 0.001;
 
-/// One scene's likelihoods, 0 to 1; `None` where nothing was measured.
+/// The likelihoods of one scene, 0 to 1; `None` if nothing was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Likelihoods {
     pub(super) by_feature: [Option<f64>; FEATURES.len()],
@@ -22,8 +22,8 @@ impl Likelihoods {
     }
 }
 
-/// Of logged road users under rollouts of the same ones: geometric mean over road users and steps, each
-/// road user with a histogram of its own over all rollouts and steps.
+/// Likelihoods of logged road users under rollouts of the same road users: geometric mean over road users and
+/// steps. Each road user has its own histogram over all rollouts and steps.
 pub(super) fn likelihoods(log: &[Motion], rollouts: &[Vec<Motion>]) -> Likelihoods {
     let mut out = Likelihoods::default();
     for (i, feature) in FEATURES.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! Table 4: does generated traffic look like recorded traffic, as a distribution? In the manner of the
-//! Waymo Open Sim Agents Challenge (Montali et al. 2023): the log's likelihood under histograms of many
-//! rollouts, feature by feature.
+//! Table 4: whether the distribution of generated traffic resembles that of recorded traffic. The method
+//! follows the Waymo Open Sim Agents Challenge (Montali et al. 2023): the log's likelihood under histograms
+//! of many rollouts, feature by feature.
 
 mod edges;
 mod features;
@@ -31,7 +31,7 @@ const ROLLOUTS: usize = 32;
 enum Roller<'a> {
     Log,
     ConstantVelocity,
-    /// With and without goals.
+    /// Random variations of the prior, with or without goals.
     PriorNoise(bool),
     Learned(&'a Baseline, bool),
     Ours(&'a Judged, bool),
@@ -68,7 +68,7 @@ impl Roller<'_> {
     }
 }
 
-/// Variations of the prior, independent for each road user; the first rollout of each is a variation too.
+/// Variations of the prior, independent for each road user; the first rollout is a variation too.
 fn noisy(site: &Site<'_>, goals: bool, seed: u64) -> Vec<Motions> {
     let mut out: Vec<Motions> = vec![vec![None; site.scene.agents.len()]; ROLLOUTS];
     for i in generated(site) {
@@ -114,8 +114,8 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasur
     Ok(RolloutMeasures { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
 }
 
-/// Distance of the log from rollouts of a scene: the composite likelihood, and the share of moving road users
-/// that come within `soon_s` of a collision, summed over rollouts with their count.
+/// Likeness of rollouts of a scene to the log: the composite likelihood, and the share of moving road users
+/// that come within `soon_s` of a collision, summed over rollouts, with their number.
 pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (Option<f64>, (f64, f64)) {
     let edges = RoadEdges::new(&site.scene.map);
     let cases: Vec<usize> = site.cases.iter().map(|c| c.agent).collect();

@@ -1,10 +1,10 @@
-//! Cubic Hermite curves in time: from a place and a velocity to a place and a velocity, what an animation
-//! tool draws between two key frames.
+//! Cubic Hermite curves in time between two positions with velocities, as an animation tool draws them
+//! between key frames.
 
 use scene::motion::Target;
 use scene::{STEP_S, Vec2};
 
-/// A cubic in time between two places with their velocities.
+/// A cubic in time between two positions with velocities.
 #[derive(Clone, Copy, Debug)]
 pub struct Hermite {
     from: (Vec2, Vec2),
@@ -13,14 +13,14 @@ pub struct Hermite {
 }
 
 impl Hermite {
-    /// From a place and velocity (m, m/s) to others in `seconds`, which must be above 0.
+    /// The curve from a position and velocity (m, m/s) to another in `seconds`, which must be above 0.
     pub fn new(from: (Vec2, Vec2), to: (Vec2, Vec2), seconds: f64) -> Self {
         Self { from, to, seconds }
     }
 
-    /// The curve to a target's position, met at its step. The velocity there follows the target's speed and
-    /// heading where they are fixed; a free end has no acceleration. If only the speed is fixed, it takes the
-    /// direction of such an end. `None` for a target without a position.
+    /// The curve to a target's position, reached at its step. The final velocity follows the target's speed
+    /// and heading if they are fixed; a free end has no acceleration. If only the speed is fixed, its
+    /// direction is that of a free end. `None` for a target without a position.
     pub fn to_target(from: (Vec2, Vec2), target: &Target) -> Option<Self> {
         let ((p0, v0), p1) = (from, target.position?);
         let seconds = target.step.max(1) as f64 * STEP_S;
@@ -29,7 +29,7 @@ impl Hermite {
         Some(Self::new(from, (p1, v1), seconds))
     }
 
-    /// Place and velocity after `t` seconds; beyond the end the motion goes on unchanged.
+    /// Position and velocity after `t` seconds; after the end the motion continues unchanged.
     pub fn at(&self, t: f64) -> (Vec2, Vec2) {
         let ((p0, v0), (p1, v1), seconds) = (self.from, self.to, self.seconds);
         let s = t.min(seconds) / seconds;
@@ -58,7 +58,7 @@ mod tests {
         let close = |a: (Vec2, Vec2), b: (Vec2, Vec2)| (a.0 - b.0).norm() < 1e-9 && (a.1 - b.1).norm() < 1e-9;
         assert!(close(curve.at(0.0), from) && close(curve.at(6.0), to));
         assert!(close(curve.at(8.0), (to.0 + to.1 * 2.0, to.1)));
-        // Velocity is the slope of the place.
+        // The velocity is the derivative of the position.
         let slope = (curve.at(3.001).0 - curve.at(2.999).0) / 0.002;
         assert!((slope - curve.at(3.0).1).norm() < 1e-5);
     }

@@ -1,5 +1,5 @@
-//! Intelligent driver model (Treiber, Hennecke and Helbing 2000) along the lane route: limit and bends, the
-//! leader as it stands now going on at its speed, a red light that stays red.
+//! Intelligent driver model (Treiber, Hennecke and Helbing 2000) along the lane route: speed limit and bends,
+//! a leader that keeps its present speed, and a red light that stays red.
 
 use super::state;
 use experts::planning::profile::Caps;
@@ -11,23 +11,23 @@ use scene::{HORIZON_STEPS, STEP_S, State};
 const ACCELERATION: f64 = 1.5;
 /// Comfortable braking, m/s2.
 const BRAKING: f64 = 2.0;
-/// Wanted time gap to the leader, seconds.
+/// Desired time gap to the leader, seconds.
 const TIME_GAP_S: f64 = 1.5;
-/// Wanted gap when standing, metres.
+/// Desired gap at standstill, metres.
 const STANDING_GAP_M: f64 = 2.0;
-/// Hardest braking, m/s2.
+/// Greatest deceleration, m/s2.
 const HARDEST: f64 = 8.0;
-/// A light that requires more braking than this is driven through, m/s2.
+/// A light that requires a greater deceleration is ignored, m/s2.
 const TOO_LATE: f64 = 5.0;
 
-/// Obstacle ahead: gap from the own front to its bumper now, metres, and its speed, m/s.
+/// Obstacle ahead: gap between the own front and its bumper now, metres, and its speed, m/s.
 #[derive(Clone, Copy, Debug)]
 struct Ahead {
     gap_m: f64,
     speed_mps: f64,
 }
 
-/// States at steps 1 ..= 90 of the agent with this index; `None` when it is not there or on no lane.
+/// States at steps 1 ..= 90 of the agent with this index; `None` if it is absent or on no lane.
 pub fn intelligent_driver(world: &World<'_>, agent: usize) -> Option<Vec<State>> {
     let who = world.present.iter().find(|p| p.index == agent)?;
     let v0 = world.model(who).start_speed_mps();
@@ -63,7 +63,7 @@ fn everything_ahead(
         .filter(|light| light.state.is_stop())
         .map(|light| light.distance_m - 0.5 * length_m)
         .filter(|gap| v0 * v0 / (2.0 * gap.max(0.1)) < TOO_LATE)
-        // The standing gap of the model is meant for bumpers, not for lines.
+        // The model's gap at standstill is meant for bumpers, not for stop lines.
         .map(|gap| Ahead { gap_m: gap + STANDING_GAP_M, speed_mps: 0.0 });
     leader.into_iter().chain(light).collect()
 }

@@ -9,8 +9,8 @@ use lab_train::baselines::Baseline;
 use scene::random::Key;
 use scene::{Future, Goal, HORIZON_STEPS, STEP_S, State, Track};
 
-/// Futures of a case, the most probable first; none under a condition that the baseline does not see, or of a
-/// type that it does not know.
+/// Futures of a case, the most probable first; none under a condition or for a type that the baseline does
+/// not know.
 ///
 /// # Errors
 /// When the tensor library fails.
@@ -24,9 +24,9 @@ pub fn learned(baseline: &Baseline, site: &Site<'_>, case: &Case, subset: Subset
     Ok(found.into_iter().next().unwrap_or_default())
 }
 
-/// Whole scene from each road user's most probable future, replanned every so many steps (1..=90) from the
-/// reached states, as the product is. A goal is dropped once its time has passed. Road users of a type that
-/// the baseline does not know take the path of least effort.
+/// Whole scene from the most probable future of each road user, replanned after this many steps (1..=90) from
+/// the reached states, as the product is. A goal is dropped once its time has passed. Road users of a type
+/// that the baseline does not know follow the path of least effort.
 ///
 /// # Errors
 /// When the tensor library fails.
@@ -76,7 +76,7 @@ pub struct Together<'a> {
 
 impl<'a> Together<'a> {
     /// Generates them, with or without the log's goals. Road users of a type that the baseline does not know
-    /// take the path of least effort.
+    /// follow the path of least effort.
     ///
     /// # Errors
     /// When the tensor library fails.
@@ -139,7 +139,7 @@ mod tests {
         let baseline = Baseline::random("asked", BaselineKind::Paper).unwrap();
         let of = |every| replanned(&baseline, &site, true, every).unwrap();
         let (once, often) = (of(90), of(30));
-        // Once in nine seconds is the plan of the start.
+        // A single plan for nine seconds equals the plan of the start.
         assert_eq!(once, Together::new(&baseline, &site, true).unwrap().likeliest());
         for i in 0..2 {
             let (once, often) = (once[i].as_ref().unwrap(), often[i].as_ref().unwrap());

@@ -20,7 +20,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rival {
-    /// On as now.
+    /// The present velocity, unchanged.
     ConstantVelocity,
     /// Cubic Hermite spline from the start state to the goal.
     Spline,
@@ -48,7 +48,8 @@ impl Rival {
         }
     }
 
-    /// Its futures of a case, all as probable, the first answer first; empty where the formula says nothing.
+    /// Futures of a case, all with the same probability, the first answer first; empty if the formula does
+    /// not apply.
     pub fn futures(self, site: &Site<'_>, case: &Case, subset: Subset, seed: u64) -> Vec<Future> {
         let agent = &site.blind.agents[case.agent];
         let goal = case.goal(site.scene, subset);
@@ -72,12 +73,12 @@ impl Rival {
     }
 }
 
-/// On wheels, and with no place to be: the driver model does not know how to meet a goal.
+/// Whether it has wheels and no goal position: the driver model cannot meet a goal.
 fn may_follow_lane(agent: &Agent, goal: &Goal) -> bool {
     matches!(agent.agent_type, AgentType::Vehicle | AgentType::Cyclist) && goal.is_free()
 }
 
-/// States at steps 1 ..= 90 of going on unchanged.
+/// States at steps 1 ..= 90 of unchanged motion.
 pub fn constant_velocity(start: &State) -> Vec<State> {
     let at = |step: usize| {
         let moved = start.position() + start.velocity() * (step as f64 * STEP_S);

@@ -5,9 +5,9 @@ use scene::motion::{Knots, MotionKind, MotionModel, Target, project};
 use scene::random::Key;
 use scene::{Agent, Goal, KNOTS, State};
 
-/// Random variations beside the prior itself.
+/// Number of random variations beside the prior itself.
 pub const VARIATIONS: usize = 5;
-/// Knots this far apart vary together, seconds.
+/// Correlation time of the knots, seconds.
 const CORRELATION_S: f64 = 1.5;
 /// Spread of the acceleration knots, m/s2.
 const ACCELERATION_SD: f64 = 1.0;
@@ -60,7 +60,7 @@ fn projected(model: &MotionModel, knots: &Knots, goal: &Goal, goal_step: usize) 
     project(model, knots, &target, None).trajectory.iter().skip(1).map(State::from).collect()
 }
 
-/// Spreads of both channels; curvature varies the less the faster the road user is.
+/// Standard deviations of both channels; curvature varies less at higher speeds.
 fn spread(model: &MotionModel, speed_mps: f64) -> [f64; 2] {
     match model.kind {
         MotionKind::Drive => {

@@ -1,4 +1,4 @@
-//! Cubic Hermite spline: what an animation tool would draw between two key frames.
+//! Cubic Hermite spline, as an animation tool draws it between two key frames.
 
 use super::hermite::Hermite;
 use super::state;
@@ -6,14 +6,14 @@ use scene::geometry::direction;
 use scene::motion::Target;
 use scene::{Goal, HORIZON_STEPS, STEP_S, State};
 
-/// Below this speed the curve's direction gives no heading, m/s: a spline has no noise, so it is taken lower than
-/// where recorded road users stand.
+/// Below this speed the curve's direction gives no heading, m/s. A spline has no noise, so the value is lower
+/// than for recorded road users.
 const DIRECTION_MPS: f64 = 0.2;
 
-/// States at steps 1 ..= 90 on the cubic in position from `start` to `goal`, met at `goal_step`.
+/// States at steps 1 ..= 90 on the cubic in position from `start` to `goal`, reached at `goal_step`.
 ///
-/// Without a position the way is straight with even acceleration to the speed. Beyond the goal it goes on
-/// unchanged.
+/// Without a position, the path is straight with constant acceleration to the speed. After the goal, the
+/// motion continues unchanged.
 pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
     let from = (start.position(), start.velocity());
     let Goal { position, heading_rad, speed_mps, .. } = *goal;
@@ -30,7 +30,7 @@ pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
     (1..=HORIZON_STEPS).map(state_at).collect()
 }
 
-/// Straight on, to the given speed if there is one.
+/// Straight motion, to the given speed if there is one.
 fn straight(start: &State, speed_mps: Option<f64>, goal_step: usize) -> Hermite {
     let (p0, v0) = (start.position(), start.velocity());
     let seconds = goal_step.max(1) as f64 * STEP_S;

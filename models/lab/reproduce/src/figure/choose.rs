@@ -1,4 +1,4 @@
-//! Which scenes and road users show what the figure is about.
+//! Chooses scenes and road users that show the subjects of the figure.
 
 use lab_eval::Site;
 use lab_eval::measure::{can_be_followed, following, mean_distance_m};
@@ -9,7 +9,7 @@ use scene::{Agent, AgentType, HORIZON_STEPS, STANDING_MPS, Vec2, wrap_angle};
 pub enum Role {
     /// Road users placed on an empty map.
     Creating,
-    /// One end moved, the others answer.
+    /// One end is moved, and the others react.
     Editing,
     /// A recording with motion that is physically impossible.
     Correcting,
@@ -17,16 +17,16 @@ pub enum Role {
     Left,
     /// Case (b): a right turn.
     Right,
-    /// Cases (c) and (d): a vehicle waits among pedestrians, and then gets a goal that makes it go.
+    /// Cases (c) and (d): a vehicle waits among pedestrians, and then gets a goal that makes it drive.
     Waiting,
 }
 
 impl Role {
-    /// In the order of the page.
+    /// All roles, in the order of the page.
     pub const ALL: [Self; 6] =
         [Self::Creating, Self::Editing, Self::Correcting, Self::Left, Self::Right, Self::Waiting];
 
-    /// Place in [`Role::ALL`].
+    /// Index in [`Role::ALL`].
     pub fn index(self) -> usize {
         self as usize
     }
@@ -61,15 +61,15 @@ impl Role {
 pub struct Found {
     /// Role of the panel.
     pub role: Role,
-    /// Place of the scene in the list.
+    /// Index of the scene in the list.
     pub case: usize,
-    /// The more the better.
+    /// Suitability; higher is better.
     pub score: f64,
     /// Index of the road user; `None` for [`Role::Creating`].
     pub who: Option<usize>,
 }
 
-/// A turn is one by so much, degrees.
+/// Angles that count as a turn, degrees.
 const TURN_DEG: std::ops::Range<f64> = 50.0..130.0;
 /// Below this speed a recorded heading is noise, m/s.
 const TURNING_MPS: f64 = 0.5;
@@ -122,7 +122,7 @@ pub fn found(case: usize, site: &Site<'_>) -> Vec<Found> {
     out
 }
 
-/// Places at the half seconds; the first one again where the log has gaps.
+/// Positions at the half seconds; the first position in gaps of the log.
 fn way(log: &Agent) -> Vec<Vec2> {
     let first = log.state_at(0).map_or(Vec2::zeros(), |s| s.position());
     (0..=HORIZON_STEPS).step_by(5).map(|s| log.state_at(s).map_or(first, |s| s.position())).collect()
@@ -133,7 +133,7 @@ fn near(a: &[Vec2], b: &[Vec2]) -> bool {
     a.iter().enumerate().any(|(i, p)| soon(i).any(|(_, q)| (p - q).norm() < NEAR_M))
 }
 
-/// To the left, degrees.
+/// Angle of the turn to the left, degrees.
 fn turn_deg(log: &Agent) -> f64 {
     let states: Vec<_> = (0..=HORIZON_STEPS).filter_map(|s| log.state_at(s)).collect();
     let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > TURNING_MPS).collect();

@@ -12,14 +12,14 @@ use scene::{AgentFutures, Goal, HORIZON_STEPS, STEP_S, Sample, Scene, Vec2, wrap
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Road users that are created, and how far from the middle they may be, metres.
+/// Number of road users that are created, and their greatest distance from the middle, metres.
 const CREATED: (usize, f64) = (28, 60.0);
 /// The paper's condition of case (d): metres ahead, and velocity along and across the heading.
 const AHEAD_M: f64 = 100.0;
 const VELOCITY_MPS: [f64; 2] = [20.0, -2.0];
-/// A picture's centre is at most this far from the start of its road user, metres.
+/// Greatest distance between a picture's centre and the start of its road user, metres.
 const MIDDLE_M: f64 = 45.0;
-/// An edited vehicle is to be where it was at this step only at the end.
+/// The goal of an edited vehicle at the end is its position at this step.
 const EDITED_STEP: usize = 50;
 
 /// A picture with its words.
@@ -169,7 +169,7 @@ fn panel(
     })
 }
 
-/// One road user generated in the recording; the others answer or keep their logs.
+/// One road user is generated in the recording; the others react or keep their logs.
 fn edited(
     caption: Caption<'_>,
     scene: &Scene,

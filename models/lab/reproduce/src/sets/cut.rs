@@ -1,10 +1,11 @@
-//! One scene to squares of one interval.
+//! Cuts one scene into the squares of one interval.
 
 use super::{Centre, SetCounts, SetOptions};
 use lab_train::scenes::{Crop, Cropped, stretch};
 use scene::{Agent, HORIZON_STEPS, Scene};
 
-/// A judged road user moves farther than this from its start, metres: a standing one gives no information.
+/// Least distance that an evaluated road user moves from its start, metres: a standing one gives no
+/// information.
 const MOVES_M: f64 = 2.0;
 
 /// A square of one interval, with up to 9 s of the recording from its start.
@@ -16,19 +17,19 @@ pub struct Cut {
     pub start: usize,
     /// Id of the road user in the middle, unless it is the ego.
     pub middle: Option<String>,
-    /// Road users that are learned from or judged, places in the scene.
+    /// Indices of the road users for training or evaluation.
     pub judged: Vec<usize>,
-    /// Standing road users of the same type: some are learned from, none is judged.
+    /// Standing road users of the same type: some are used for training, none for evaluation.
     pub standing: Vec<usize>,
 }
 
 impl Cut {
-    /// The recording goes on for the whole 9 s.
+    /// Whether the recording covers the whole 9 s.
     pub fn is_whole(&self) -> bool {
         self.scene.time.steps > HORIZON_STEPS
     }
 
-    /// Only the interval: Table I is measured on it.
+    /// The interval only, on which Table I is measured.
     pub fn interval(&self, steps: usize) -> Scene {
         stretch(&self.scene, 0, steps)
     }
@@ -92,7 +93,7 @@ pub(super) fn cases_at(
     out
 }
 
-/// There at the first frame and at the interval's end, and known for long enough between.
+/// Whether it is present at the first frame and at the interval's end, and known for long enough between.
 fn is_known(agent: &Agent, options: &SetOptions) -> bool {
     let ends = [0, options.interval_steps].iter().all(|step| agent.track.at(*step).is_some());
     ends && agent.track.valid_steps().filter(|s| (1..=options.interval_steps).contains(s)).count()
@@ -131,13 +132,14 @@ mod tests {
         // 20 s: three whole intervals of 6 s, and 2 s are left.
         assert_eq!(cut.iter().map(|c| c.start).collect::<Vec<_>>(), [0, 60, 120]);
         assert_eq!((counts.squares, counts.too_few, counts.nobody), (3, 0, 0));
-        // The road user 90 m ahead is outside; one missing at the end is not judged, nor is a standing one.
+        // The road user 90 m ahead is outside; one that is missing at the end is not evaluated, nor is a
+        // standing one.
         let judged = |cut: &Cut| -> Vec<String> {
             cut.judged.iter().map(|i| cut.scene.agents[*i].id.clone()).collect()
         };
         assert_eq!(judged(&cut[0]), ["ego"]);
         assert_eq!(cut[0].scene.agents[cut[0].standing[0]].id, "stands");
-        // In the second it is gone at the first frame; in the third it is there throughout.
+        // In the second it is absent at the first frame; in the third it is always present.
         assert_eq!(
             (judged(&cut[1]), judged(&cut[2])),
             (vec!["ego".into()], vec!["ego".into(), "gone".into()])

@@ -1,4 +1,4 @@
-//! All files to sets: records on disk, a list of what is judged, and counts.
+//! Turns all files into sets: records on disk, a list of test cases, and counts.
 
 use super::cut::{cases, cases_at, starts};
 use super::interest::{INTERACTIVE_M, interest};
@@ -15,9 +15,9 @@ use scene::{STEP_S, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Files worked on at a time.
+/// Files that are processed at a time.
 const CHUNK: usize = 16;
-/// Standing road users learned from, as a share of the moving ones.
+/// Standing road users for training, as a share of the moving ones.
 const STANDING_SHARE: f64 = 0.25;
 /// Name of the set without conditions; its road users are drawn separately.
 const FREE: &str = "vehicle-free";
@@ -47,7 +47,7 @@ struct OfFile {
     free: Vec<CaseRecords>,
 }
 
-/// Reads all files; writes the records and returns the sets. Places of `test` are never learned from.
+/// Reads all files; writes the records and returns the sets. Places of `test` are never used for training.
 ///
 /// # Errors
 /// When nothing can be read, records cannot be written, or the run is stopped.
@@ -69,7 +69,7 @@ pub fn make(
         writers.push(writer(records_path(folder, centre), centre)?);
     }
     let mut free = writer(free_records_path(folder), Centre::Ego)?;
-    // Tests first: their places are known before anything is learned from.
+    // Tests first: their places must be known before training records are made.
     for part in [Part::Test, Part::Data] {
         let files = data.files(part)?;
         let others: BTreeSet<u64> = places.keys().copied().collect();
@@ -113,7 +113,7 @@ pub fn make(
     Ok(out)
 }
 
-/// Share of a scene's place; `None` if it may not be learned from.
+/// Share of a scene's place; `None` if it may not be used for training.
 fn share(scene: &Scene, part: Part, data: &Data, tests: &BTreeSet<u64>) -> (u64, Option<Share>) {
     let key = place_key(scene);
     let share = match part {
@@ -178,7 +178,7 @@ fn test_case(cut: &Cut, centre: Centre, file: (Part, usize), scene: usize) -> Te
     }
 }
 
-/// Road users of a case to learn from: a bounded, random number of moving ones and a quarter as many standing
+/// Road users of a case for training: a bounded, random number of moving ones and a quarter as many standing
 /// ones, so that whole scenes can be generated too.
 fn chosen(cut: &Cut, options: &SetOptions) -> Vec<usize> {
     let middle = cut.middle.as_deref().unwrap_or_default();
@@ -202,11 +202,11 @@ fn learn(cut: &Cut, chosen: &[usize], centre: Centre, options: &SetOptions, out:
     }
 }
 
-/// The squares of some cases, file by file: `with` gets the place of a case in the list and what was cut for it; its
-/// results come in the order of the cases.
+/// The squares of some cases, file by file: `with` gets the index of a case and its cut. The results are in
+/// the order of the cases.
 ///
 /// # Errors
-/// When a case is not where it was, `with` fails, or the run is stopped.
+/// When a case is missing, `with` fails, or the run is stopped.
 pub fn each_case<T: Send>(
     data: &Data,
     options: &SetOptions,
@@ -253,7 +253,7 @@ pub fn each_case<T: Send>(
     Ok(out.into_iter().map(|(_, value)| value).collect())
 }
 
-/// The square of a case cut once more.
+/// Cuts the square of a case again.
 fn again(scene: &Scene, case: &TestCase, options: &SetOptions) -> Result<Cut> {
     let mut counts = SetCounts::default();
     let found = cases_at(scene, case.centre, case.start, case.middle.as_deref(), options, &mut counts);
@@ -263,7 +263,7 @@ fn again(scene: &Scene, case: &TestCase, options: &SetOptions) -> Result<Cut> {
     })
 }
 
-/// The most interactive scenes of a set, at most so many: one of each interval, each known for the whole 9 s,
+/// The most interactive scenes of a set, up to `most`: one of each interval, each known for the whole 9 s,
 /// with a road user of another type near the same place at the same time.
 pub fn interactive(sets: &Sets, centre: Centre, most: usize) -> Vec<TestCase> {
     let mut best: BTreeMap<_, (Interest, &TestCase)> = BTreeMap::new();

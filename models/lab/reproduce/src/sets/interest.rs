@@ -1,11 +1,11 @@
-//! Which recorded scenes are interactive.
+//! Finds interactive scenes among recorded ones.
 
 use super::Interest;
 use scene::{Agent, AgentType, HORIZON_STEPS, Scene, Vec2};
 
 /// Two road users meet when they come nearer than this to one place, metres.
 const PLACE_M: f64 = 2.5;
-/// Within this many steps of each other.
+/// Greatest difference of the times, steps.
 const APART_STEPS: usize = 30;
 /// A scene is interactive only if a pair comes closer than this, metres.
 pub(super) const INTERACTIVE_M: f64 = 10.0;
@@ -14,8 +14,9 @@ const MOVES_M: f64 = 2.0;
 /// Every other step is checked.
 const STRIDE: usize = 2;
 
-/// Of pairs of a road user of this type and one of another type that both move, in the first 9 s of the log: how many
-/// come to the same place within 3 s of each other, and how near the nearest comes.
+/// Interaction of pairs of a road user of this type and one of another type that both move, in the first 9 s
+/// of the log: the number of pairs that come to the same place within 3 s of each other, and the least
+/// distance.
 pub(super) fn interest(scene: &Scene, of: AgentType) -> Interest {
     let moving: Vec<(AgentType, Vec<(usize, Vec2)>)> =
         scene.agents.iter().filter_map(|agent| Some((agent.agent_type, places(agent)?))).collect();
@@ -37,7 +38,7 @@ fn places(agent: &Agent) -> Option<Vec<(usize, Vec2)>> {
     places.iter().any(|(_, p)| (p - first).norm() > MOVES_M).then_some(places)
 }
 
-/// Least distance of places that both are at within 3 s of each other.
+/// Least distance between positions that both reach within 3 s of each other.
 fn nearest_m(a: &[(usize, Vec2)], b: &[(usize, Vec2)]) -> f64 {
     let mut least = f64::MAX;
     for (s, p) in a {
@@ -65,7 +66,7 @@ mod tests {
         let of = |agents| interest(&scene(agents), AgentType::Pedestrian);
         let met = of(vec![log("a", 8.0, 91), crossing.clone()]);
         assert!(met.encounters == 1 && met.nearest_m < 1.0, "{met:?}");
-        // One far behind comes too late, one that stands comes to nothing, and two on foot are company.
+        // A road user far behind comes too late, one that stands meets none, and two on foot do not count.
         let late = shifted(log("b", 8.0, 91), -60.0, 0.0);
         let stands = shifted(log("c", 0.0, 91), 30.0, 0.0);
         let apart = of(vec![late, stands, crossing.clone(), walker("v", 1.2, (30.0, -4.0))]);

@@ -1,20 +1,20 @@
-//! Learned rivals of the experts, trained on the same records with the same machinery and as many steps. They
+//! Learned rivals of the experts, trained on the same records with the same tools and as many steps. They
 //! show what other networks achieve without the experts' lanes, control space and projection.
 //!
-//! * [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road
-//!   users to six futures as points, squared error of the best one and likelihood of its index. Vehicles
+//! - [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road
+//!   users to six futures as points; squared error of the best one and likelihood of its index. Vehicles
 //!   only, without conditions.
-//! * [`BaselineKind::TrafficGenConditional`]: one such network for all types, which sees the condition.
-//! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type,
-//!   and a conditional diffusion model that refines its futures: a context encoder of its own and a
-//!   one-dimensional U-Net over the points, five leapfrog steps from the fifth level of noise of a hundred.
-//!   It is trained as in the paper: only the denoiser, then the initializer with the denoiser and its encoder
+//! - [`BaselineKind::TrafficGenConditional`]: one such network for all types, with the condition as an input.
+//! - [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type,
+//!   and a conditional diffusion model that refines its futures, with its own context encoder and a
+//!   one-dimensional U-Net over the points: five leapfrog steps from the fifth of a hundred noise levels. It
+//!   is trained as in the paper: the denoiser alone, then the initializer with the denoiser and its encoder
 //!   frozen, then both.
 //!
-//! All see the road user itself, map pieces and neighbours as the experts do, but no routes. The condition (position,
-//! velocity and heading at the end, and the box) goes through an MLP of its own. A future is 18
-//! points, one every half second, in the road user's frame at the start; [`curve`] makes states of them. A
-//! goal is something that the networks see, and nothing makes them meet it.
+//! All of them see the road user itself, map pieces and neighbours as the experts do, but no routes. The
+//! condition (position, velocity and heading at the end, and the box) goes through its own MLP. A future has
+//! 18 points, one every half second, in the road user's frame at the start; [`curve`] converts them to
+//! states. A goal is only an input of the networks: nothing forces them to meet it.
 
 mod answer;
 mod curve;
@@ -42,7 +42,7 @@ use crate::training::{self, EVERYBODY, Metrics, Stage, TrainError, TrainOptions,
 use regressor::Regressor;
 use unet::Unet;
 
-/// The one member of a file's metadata.
+/// The only member of a file's metadata.
 const HEADER: &str = "dragtraffic-baseline";
 
 /// Method of a baseline.
@@ -62,12 +62,12 @@ pub enum BaselineKind {
 }
 
 impl BaselineKind {
-    /// It sees goals.
+    /// Whether it sees goals.
     pub fn has_condition(self) -> bool {
         self != Self::TrafficGen
     }
 
-    /// Expert of the records that it learns from, if the method names one.
+    /// Expert whose records it learns from, if the method requires one.
     pub fn expert(self) -> Option<&'static str> {
         match self {
             Self::TrafficGen => Some("vehicle"),
@@ -83,9 +83,9 @@ impl BaselineKind {
 pub struct Plan {
     /// Method.
     pub kind: BaselineKind,
-    /// Widths and counts, as the experts have them.
+    /// Widths and counts, as for the experts.
     pub sizes: Architecture,
-    /// Hidden numbers of the condition's MLP; the paper has 1024.
+    /// Hidden size of the condition's MLP; the paper has 1024.
     pub condition_width: usize,
 }
 
@@ -178,7 +178,7 @@ impl Networks {
         self.tensors.values().next().map_or(&Device::Cpu, Tensor::device)
     }
 
-    /// Types that it answers for.
+    /// Types that it supports.
     fn types(&self) -> Result<&'static [AgentType], NetError> {
         match self.card.expert.as_str() {
             "vehicle" => Ok(&[AgentType::Vehicle]),
@@ -198,10 +198,11 @@ pub fn options(kind: BaselineKind, records: Vec<PathBuf>, stage: Stage, out: Pat
     TrainOptions::of(records, stage, out, Plan::of(kind))
 }
 
-/// Trains a baseline and writes its weights; `report` gets each line. Gives the last validation.
+/// Trains a baseline and writes its weights; `report` gets each line. Returns the last validation.
 ///
 /// # Errors
-/// When the method has no such stage, files cannot be read or written, or a checkpoint belongs to another run.
+/// When the method has no such stage, files cannot be read or written, or a checkpoint belongs to another
+/// run.
 pub fn train(
     options: &TrainOptions<Plan>,
     report: &mut dyn FnMut(&TrainProgress),

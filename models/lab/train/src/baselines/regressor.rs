@@ -1,4 +1,5 @@
-//! From what a road user sees over six learned queries (Varadarajan et al., "MultiPath++", 2021) to points and scores.
+//! From the visible surroundings of a road user over six learned queries (Varadarajan et al., "MultiPath++",
+//! 2021) to points and scores.
 
 use candle_core::{Result, Tensor};
 use experts::net::layers::{Linear, Mlp};
@@ -23,7 +24,7 @@ pub(super) struct Regressed {
     pub(super) score: Tensor,
 }
 
-/// Features to futures.
+/// Maps features to futures.
 pub(super) struct Regressor {
     encoder: Encoder,
     queries: Tensor,

@@ -9,13 +9,13 @@ use crate::training::{DraftPoses, Record};
 /// Points at the instants, metres, x and y in the road user's frame at the start.
 pub(super) type Points = [[f32; 2]; INSTANTS];
 
-/// Forgets all goals. The choice of map pieces follows a goal's position too: see [`asks_for_a_place`].
+/// Removes all goals. The choice of map pieces depends on a goal's position too: see [`asks_for_a_place`].
 pub(super) fn forget_goals(features: &mut AgentFeatures) {
     features.own[OWN_GOAL].fill(0.0);
     features.neighbours.iter_mut().for_each(|other| other[NEIGHBOUR_GOAL].fill(0.0));
 }
 
-/// Whether a goal's position is fixed, in which case map pieces near it are seen.
+/// Whether a goal's position is fixed, so that map pieces near it are included.
 pub(super) fn asks_for_a_place(features: &AgentFeatures) -> bool {
     features.own[OWN_GOAL_POSITION] > 0.0
 }
@@ -28,7 +28,8 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    /// From the path that the recording keeps nearest to: there its coordinates say most exactly where it was.
+    /// Taken from the path that the recording follows most closely: its coordinates there are the most
+    /// accurate.
     pub(super) fn of(record: &Record) -> Self {
         let target = &record.target;
         let aside = |across: &[f32; INSTANTS]| -> f32 {

@@ -60,7 +60,8 @@ impl Trainee for Networks {
         self.plan.kind == BaselineKind::TrafficGenConditional
     }
 
-    /// As the paper trains: what is frozen has no share, and the joint stage trains all alike.
+    /// Share of the learning rate, as in the paper: frozen parts have none, and the joint stage trains
+    /// everything alike.
     fn share(stage: Stage, name: &str) -> f64 {
         let refiner = name.starts_with("refiner.");
         match stage {
@@ -140,8 +141,8 @@ impl Networks {
     }
 }
 
-/// The paper's L_MSE of the future nearest to the recording and L_NLL of its index. `names` are those of the least
-/// distance and of the most probable future's.
+/// The paper's L_MSE of the future nearest to the recording and L_NLL of its index. `names` are the names of
+/// the least distance and of that of the most probable future.
 fn pulled(
     futures: &Regressed,
     truths: &[Truth],
@@ -165,7 +166,7 @@ fn pulled(
     seeded(&futures.points, flat(&pulls))? + seeded(&futures.score, nudges.as_flattened().to_vec())?
 }
 
-/// Least mean distance of six futures, only as a figure.
+/// Least mean distance of six futures, as a metric only.
 fn nearest(futures: &Regressed, truths: &[Truth], name: &'static str, metrics: &mut Metrics) -> Result<()> {
     for (truth, futures) in truths.iter().zip(points(&futures.points)?) {
         metrics.add(name, loss::squared(truth, &futures).ade.into_iter().fold(f32::INFINITY, f32::min));

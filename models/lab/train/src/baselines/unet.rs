@@ -1,5 +1,6 @@
-//! The paper's denoiser: an encoder of its own, and a one-dimensional U-Net over the points of a future that says the
-//! noise in them, with cross-attention to what the road user sees and to the user's condition at each step.
+//! The paper's denoiser: its own encoder, and a one-dimensional U-Net over the points of a future that
+//! predicts the noise in them, with cross-attention to the road user's surroundings and the user's condition
+//! at each step.
 
 use candle_core::{Result, Tensor};
 use experts::net::layers::{CrossBlock, Linear, Norm, RELU_GAIN};
@@ -13,7 +14,7 @@ use super::regressor::NUMBERS;
 
 /// Level of noise at which the initializer's futures enter.
 const START: usize = 5;
-/// Steps from there.
+/// Number of steps from there.
 pub(super) const STEPS: usize = 5;
 /// Points that become one on the way down: 18 points, then 9, then 3.
 const POOLED: [usize; 2] = [2, 3];
@@ -23,7 +24,7 @@ pub(super) fn steps() -> Vec<(usize, usize)> {
     schedule::ddim(START, STEPS)
 }
 
-/// Convolution of three neighbours on a line, zeros beyond its ends.
+/// Convolution of three adjacent points, with zeros beyond the ends.
 struct Conv(Linear);
 
 impl Conv {
@@ -40,7 +41,7 @@ impl Conv {
     }
 }
 
-/// Two convolutions with the level of noise between them, added to their input.
+/// Two convolutions with the noise level between them, added to their input.
 struct ResidualBlock {
     norm: Norm,
     first: Conv,
@@ -66,7 +67,7 @@ impl ResidualBlock {
     }
 }
 
-/// Encoding of a batch by the denoiser's own encoder.
+/// Output of the denoiser's own encoder for a batch.
 pub(super) struct Context {
     /// [batch, width]
     pub(super) vector: Tensor,
@@ -75,7 +76,7 @@ pub(super) struct Context {
     mask: Tensor,
 }
 
-/// The denoiser. Futures are in units of the loss here, [batch, MODES, NUMBERS].
+/// The denoiser. Futures are in the units of the loss here, [batch, MODES, NUMBERS].
 pub(super) struct Unet {
     encoder: Encoder,
     /// The encoded condition as a token.
@@ -129,7 +130,7 @@ impl Unet {
         })
     }
 
-    /// Reads a batch, once for all its steps.
+    /// Encodes a batch, once for all its steps.
     pub(super) fn context(&self, sight: &Sight) -> Result<Context> {
         let EncodedBatch { vector, tokens, mask, condition } = self.encoder.read(sight)?;
         let (tokens, mask) = match condition {
@@ -143,7 +144,7 @@ impl Unet {
         Ok(Context { vector, tokens: self.token_norm.forward(&tokens)?, mask })
     }
 
-    /// The noise in futures at levels, one a road user.
+    /// The noise in futures at levels, one per road user.
     pub(super) fn noise(&self, seen: &Context, futures: &Tensor, levels: &[usize]) -> Result<Tensor> {
         let batch = futures.dim(0)?;
         let (lines, device) = (batch * MODES, futures.device());
@@ -171,8 +172,9 @@ impl Unet {
         self.leave.forward(&self.norm.forward(&fine)?)?.reshape((batch, MODES, NUMBERS))
     }
 
-    /// The leapfrog steps by the paper's update (its section on diffusion refinement): each takes off its share of the
-    /// estimated noise and, but for the last, adds fresh noise of the step's own variance. `fresh` has a draw a step.
+    /// The leapfrog steps by the paper's update (its section on diffusion refinement): each removes its share
+    /// of the estimated noise and, except for the last, adds new noise with the variance of the step. `fresh`
+    /// has one draw per step.
     pub(super) fn leapfrog(&self, seen: &Context, futures: &Tensor, fresh: &[Tensor]) -> Result<Tensor> {
         let batch = futures.dim(0)?;
         let mut futures = futures.clone();

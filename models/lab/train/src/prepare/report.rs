@@ -43,15 +43,15 @@ pub struct LeftOut {
     pub outside_the_crop: usize,
     /// Road users of another type than the expert's.
     pub wrong_type: usize,
-    /// Those of the expert's type that are not there at the first step.
+    /// Road users of the expert's type that are absent at the first step.
     pub absent_at_the_start: usize,
-    /// Those known at fewer than 30 of the 90 steps after the first.
+    /// Road users known at fewer than 30 of the 90 steps after the first.
     pub too_short: usize,
     /// Standing road users that were not drawn.
     pub standing: usize,
-    /// Road users skipped because the scene has its share.
+    /// Road users beyond the limit of their scene.
     pub over_the_scenes_limit: usize,
-    /// Road users beyond the limit of records in all.
+    /// Road users beyond the total limit of records.
     pub over_the_files_limit: usize,
 }
 
@@ -71,17 +71,17 @@ impl LeftOut {
     }
 }
 
-/// Split of the records by place: all scenes of a place go to one side. Training may use fewer of the
-/// held-out ones, never others.
+/// Split of the records by place: all scenes of a place are on the same side. Training may use fewer of the
+/// held-out ones, but never others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct PlaceSplit {
     /// Places with records.
     pub places: usize,
-    /// Those of them held out.
+    /// Places that are held out.
     pub places_held_out: usize,
     /// Scenes with records.
     pub scenes: usize,
-    /// Those of them held out.
+    /// Scenes that are held out.
     pub scenes_held_out: usize,
     /// Records held out.
     pub records_held_out: usize,
@@ -115,7 +115,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Of these distances.
+    /// Statistics of these distances.
     pub(super) fn of(mut distances: Vec<f64>) -> Self {
         distances.sort_by(f64::total_cmp);
         let records = distances.len();

@@ -1,31 +1,32 @@
-//! The part of a scene that is looked at: a square about the ego, and how many road users it must hold.
+//! The part of a scene that is used: a square about the ego, and the least number of road users in it.
 
 use scene::geometry::rotate;
 use scene::{AgentType, Scene};
 use serde::Serialize;
 
-/// Selection of a scene's road users. The map stays whole, so that a road user that leaves the square still
-/// has lanes.
+/// Selection of a scene's road users. The map stays complete, so that a road user that leaves the square
+/// still has lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Crop {
-    /// Side of the square, metres: its middle is the ego, its sides lie along and across the ego's heading
-    /// at the first step. Without an ego there, the first road user that is. `None` takes all.
+    /// Side of the square, metres. Its centre is the ego, its sides lie along and across the ego's heading at
+    /// the first step. If the ego is absent, the first present road user replaces it. `None` takes all.
     pub side_m: Option<f64>,
-    /// Fewer road users (vehicles, pedestrians and cyclists) there at the first step leave the scene out.
+    /// Scenes with fewer road users (vehicles, pedestrians and cyclists) there at the first step are left
+    /// out.
     pub least_agents: usize,
 }
 
 /// A scene after its crop.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cropped {
-    /// The scene with the road users that count, and how many were taken out.
+    /// The scene with the selected road users, and the number of removed ones.
     Kept(Box<Scene>, usize),
     /// Too few road users; this many would remain.
     TooFew(usize),
 }
 
 impl Crop {
-    /// The paper's: 120 m square, at least 32 road users.
+    /// The crop of the paper: a square of 120 m, at least 32 road users.
     pub const PAPER: Self = Self { side_m: Some(120.0), least_agents: 32 };
 
     /// Removes road users outside the square at the first step.
@@ -33,7 +34,7 @@ impl Crop {
         self.about(scene, None)
     }
 
-    /// The same with a road user of this index in the middle, in place of the ego.
+    /// Crops about the road user of this index instead of the ego.
     pub fn about(&self, mut scene: Scene, middle: Option<usize>) -> Cropped {
         let before = scene.agents.len();
         if let Some(side_m) = self.side_m {
@@ -81,7 +82,7 @@ mod tests {
             shifted(log("corner", 5.0, 91), 159.0, 59.0),
             ego,
         ];
-        // One that comes later is not there at the first step.
+        // A road user that comes later is absent at the first step.
         agents.push(log("late", 5.0, 91));
         agents[4].track.first_step = 5;
         let whole = scene(agents);

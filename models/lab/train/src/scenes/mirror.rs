@@ -1,8 +1,8 @@
-//! The mirror image of a scene: left and right swapped, so that a few recorded scenes teach twice as much.
+//! The mirror image of a scene, which doubles the training data of a few recorded scenes.
 
 use scene::{Scene, State, Vec2};
 
-/// The scene with y and all headings turned over. What drives on the right drives on the left in it.
+/// The scene with y and all headings negated: traffic that drives on the right then drives on the left.
 pub fn mirrored(scene: &Scene) -> Scene {
     let mut out = scene.clone();
     out.map = scene.map.mirrored().into();

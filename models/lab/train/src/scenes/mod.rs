@@ -1,4 +1,4 @@
-//! Recorded scenes: read from files, and made into what learning and judging want of them.
+//! Recorded scenes: reads them from files, and prepares them for training and evaluation.
 
 mod crop;
 mod mirror;
@@ -43,7 +43,7 @@ pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
     Ok(imported?.into_iter().filter_map(Result::ok).map(|(scene, _)| scene).collect())
 }
 
-/// Scenes of one place share a key: the source id without its window number.
+/// Key of the place of a scene: the source id without its window number.
 pub fn place_key(scene: &Scene) -> u64 {
     let id = scene.meta.source_id.as_deref().unwrap_or(&scene.name);
     let place = if id.starts_with("synth-") { id.rsplit_once('-').map_or(id, |p| p.0) } else { id };
@@ -51,8 +51,9 @@ pub fn place_key(scene: &Scene) -> u64 {
     hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
-/// A copy of a scene that knows nothing after its first step: one state for each road user, the lights as
-/// they are then and unknown later, no conditions, no futures. Neither features nor the choice can look ahead in it.
+/// A copy of a scene without information after its first step: one state for each road user, the lights in
+/// their present state and unknown later, no conditions, no futures. Neither features nor choices can look
+/// ahead in it.
 pub fn blind(scene: &Scene) -> Scene {
     let mut out = scene.clone();
     out.generated = None;
@@ -90,7 +91,7 @@ mod tests {
             }
         }
         other.signals[0].runs[1] = (20, SignalState::Caution);
-        // A signal that is first heard of later is not there yet.
+        // A signal whose states begin later is absent.
         let late = Signal { runs: vec![(7, SignalState::Stop)], ..first.signals[0].clone() };
         other.signals.push(late);
         assert_eq!(blind(&first), blind(&other));

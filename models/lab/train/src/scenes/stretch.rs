@@ -1,9 +1,9 @@
-//! Stretches of a recording as scenes of their own.
+//! Cuts stretches of a recording into scenes of their own.
 
 use scene::{Conditions, Scene, SignalState, Track};
 
-/// The steps `first ..= first + steps` of a scene, as far as it has them, renumbered from 0. Conditions and
-/// generated futures are dropped, and so are road users that are never seen in the stretch.
+/// The steps `first ..= first + steps` of a scene, as far as it has them, renumbered from 0. Conditions,
+/// generated futures and road users that are never seen in the stretch are dropped.
 pub fn stretch(scene: &Scene, first: usize, steps: usize) -> Scene {
     let last = (first + steps).min(scene.time.steps.saturating_sub(1)).max(first);
     let mut out = scene.clone();

@@ -23,17 +23,17 @@ pub(super) struct CheckpointState<A> {
     pub(super) stage: Stage,
     pub(super) seed: u64,
     pub(super) batch: usize,
-    /// Steps in all: the rate falls towards them.
+    /// Total number of steps, over which the rate falls.
     pub(super) steps: u64,
     /// Top learning rate.
     pub(super) rate: f64,
-    /// The rate at the end; a hundredth of the top one without.
+    /// Learning rate at the end; a hundredth of the top one if absent.
     #[serde(default)]
     pub(super) rate_end: Option<f64>,
     pub(super) minutes: Option<f64>,
-    /// The refiner is shown the way downhill.
+    /// Whether the refiner gets the descent direction of the energy.
     pub(super) repulsion: bool,
-    /// The refiner attends to what drafts meet.
+    /// Whether the refiner attends to the obstacles of drafts.
     pub(super) attention: bool,
     pub(super) step: u64,
     /// Seconds trained so far.
@@ -42,7 +42,7 @@ pub(super) struct CheckpointState<A> {
     pub(super) records: String,
 }
 
-/// Writes a file whole or leaves that of before.
+/// Replaces a file completely or not at all.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
     formats::files::replace(path, bytes).map_err(TrainError::io(path))
 }
@@ -72,14 +72,14 @@ pub(super) fn save<T: Trainee>(
     replace(path, &bytes)
 }
 
-/// A run that can go on.
+/// A run that can be continued.
 pub(super) struct Resumed<T: Trainee> {
     pub(super) state: CheckpointState<T::Architecture>,
     pub(super) trained: T,
     pub(super) adam: AdamW,
 }
 
-/// Reads a run; its networks go to `device`, wherever they were before.
+/// Reads a run; its networks are placed on `device`, wherever they were before.
 pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T>, TrainError> {
     let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
     let damaged = |reason: String| TrainError::damaged(path, reason);

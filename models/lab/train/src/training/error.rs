@@ -13,7 +13,7 @@ pub enum TrainError {
         /// Cause.
         source: std::io::Error,
     },
-    /// A file is not what it should be.
+    /// A file has invalid content.
     #[error("{path}: {reason}")]
     Damaged {
         /// File.
@@ -21,16 +21,16 @@ pub enum TrainError {
         /// Value found and value expected.
         reason: String,
     },
-    /// TrainOptions or data that do not make sense together.
+    /// Options or data that do not fit together.
     #[error("{0}")]
     Invalid(String),
     /// A stop was requested; the run's checkpoint is kept.
     #[error("stopped after step {step}; --resume goes on from there")]
     Stopped {
-        /// Steps done.
+        /// Steps that are done.
         step: u64,
     },
-    /// No graphics card can be used.
+    /// No graphics card is usable.
     #[error("no CUDA device to train on: {0}")]
     Device(String),
     /// The network library failed.

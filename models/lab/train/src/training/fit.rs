@@ -1,4 +1,4 @@
-//! The recording as residuals: least squares within the goal's tangent space.
+//! Fits residuals to the recording: least squares within the goal's tangent space.
 
 use experts::features::{AgentFeatures, GroundTruth};
 
@@ -9,7 +9,7 @@ use scene::KNOTS;
 use super::Record;
 use super::route::ResidualBasis;
 
-/// Ridge, square metres per square of a normalised knot: what noise in the recording costs.
+/// Ridge, square metres per square of a normalised knot, against noise in the recording.
 const RIDGE: f64 = 0.05;
 
 /// The recorded residual on each mode's anchor.
@@ -20,7 +20,7 @@ pub(super) fn recorded(
 ) -> [[f32; RESIDUAL]; MODES] {
     let mut residual = [[0.0; RESIDUAL]; MODES];
     for half in 0..2 {
-        // The ridge keeps it definite; a recording that is no number leaves the residual at zero.
+        // The ridge keeps it definite; a recording with NaN leaves the residual at zero.
         let found = factorised(route.rows(half), &agent.tangent[half], &target.valid);
         let Some((factor, design)) = found else { continue };
         for (mode, residual) in residual.iter_mut().enumerate() {
@@ -40,17 +40,17 @@ pub(super) fn recorded(
     residual
 }
 
-/// Distance of recordings from their best residual: the error that no training can remove.
+/// Distance of recordings from their best residual: the error that training cannot remove.
 pub struct FitError(ResidualBasis);
 
 impl FitError {
-    /// Ready to measure.
+    /// Prepares the measurement.
     pub fn new() -> Self {
         Self(ResidualBasis::new())
     }
 
-    /// Mean distance over the recorded instants, metres, of a recording from its own residual (the one that
-    /// training is shown) on the anchor where that is least. `None` where no instant is recorded.
+    /// Mean distance over the recorded instants, metres, between a recording and its own residual (the
+    /// training target) on the anchor with the least distance. `None` if no instant is recorded.
     pub fn of(&self, record: &Record) -> Option<f64> {
         let target = &record.target;
         let valid: Vec<usize> = (0..INSTANTS).filter(|i| target.valid[*i] > 0.0).collect();
@@ -80,7 +80,7 @@ impl Default for FitError {
 type Design = SMatrix<f64, INSTANTS, KNOTS>;
 type Factor = Cholesky<f64, Const<KNOTS>>;
 
-/// Rows of instants that are not recorded are zero: `A = B P` of the others, and the factor of `A' A + ridge`.
+/// Rows of unrecorded instants are zero: `A = B P` of the others, and the factor of `A' A + ridge`.
 fn factorised(
     rows: &[[f32; KNOTS]; INSTANTS],
     tangent: &[[f32; KNOTS]; KNOTS],
@@ -119,8 +119,8 @@ mod tests {
         let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
         let good = fit.of(&record).unwrap();
         assert!(good < 0.2, "{good}");
-        // A metre to and fro from one half second to the next is no motion that one knot a second can say;
-        // with all other anchors as bad, the one left as it was counts.
+        // One knot per second cannot represent a metre to and fro each half second; all other anchors are as
+        // bad, so the unchanged one counts.
         let zigzag = |record: &mut Record, mode: usize| {
             for (i, across) in record.target.across[mode].iter_mut().enumerate() {
                 *across += if i % 2 == 0 { 1.0 } else { -1.0 };

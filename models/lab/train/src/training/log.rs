@@ -1,4 +1,4 @@
-//! Log of a run, as a file of JSON lines and as curves.
+//! Log of a run, as JSON lines and as curves.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::run::TrainProgress;
 use super::{TrainError, checkpoint};
 
-/// Width and height of a panel, and the space around it, in pixels.
+/// Width and height of a panel, and its margins, in pixels.
 const PANEL: [f64; 2] = [560.0, 210.0];
 const EDGE: [f64; 2] = [56.0, 34.0];
 
@@ -18,21 +18,21 @@ const EDGE: [f64; 2] = [56.0, 34.0];
 #[serde(deny_unknown_fields)]
 struct LogLine {
     step: u64,
-    /// Means over records held out, else over the steps since the line before.
+    /// Whether these are means over held-out records; otherwise over the steps since the last line.
     held_out: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     rate: Option<f64>,
     means: BTreeMap<String, f64>,
 }
 
-/// The log of a run. It lies beside the weights, with `.jsonl` and `.svg` added to their name.
+/// The log of a run. Its paths are that of the weights with `.jsonl` and `.svg` appended.
 pub(super) struct Log {
     out: PathBuf,
     lines: Vec<LogLine>,
 }
 
 impl Log {
-    /// A new log, or the lines so far of a run that goes on from `step`.
+    /// A new log, or the existing lines of a run that continues from `step`.
     pub(super) fn open(out: &Path, step: u64) -> Result<Self, TrainError> {
         let mut log = Self { out: out.to_path_buf(), lines: Vec::new() };
         let path = log.beside(".jsonl");
@@ -56,7 +56,7 @@ impl Log {
         path.into()
     }
 
-    /// Keeps a line; after a validation both files are rewritten.
+    /// Adds a line; after a validation both files are rewritten.
     pub(super) fn add(&mut self, progress: &TrainProgress) -> Result<(), TrainError> {
         let means = |metrics: &super::Metrics| metrics.means().map(|(n, v)| (n.to_owned(), v)).collect();
         let line = match progress {
@@ -73,7 +73,7 @@ impl Log {
         if held_out { self.write() } else { Ok(()) }
     }
 
-    /// The least loss on records held out so far, as far as it is measured, else the least distance.
+    /// Whether the loss on held-out records is the least so far; the distance if there is no loss.
     pub(super) fn is_best(&self, metrics: &super::Metrics) -> bool {
         let Some(name) = ["loss", "refined", "min"].into_iter().find(|name| metrics.mean(name).is_some())
         else {
@@ -97,7 +97,7 @@ impl Log {
         checkpoint::replace(&self.beside(".svg"), self.svg().as_bytes())
     }
 
-    /// One panel a measure: thin the training's, thick with dots that of records held out.
+    /// One panel per metric: a thin line for training, a thick one with dots for held-out records.
     fn svg(&self) -> String {
         let names: BTreeSet<&String> = self.lines.iter().flat_map(|line| line.means.keys()).collect();
         let (width, height) = (PANEL[0] + 2.0 * EDGE[0], PANEL[1] + 2.0 * EDGE[1]);
@@ -124,7 +124,7 @@ impl Log {
         let curves = [curve(false), curve(true)];
         let values = || curves.iter().flatten().map(|(_, v)| *v);
         let last = curves.iter().flatten().map(|(s, _)| *s).fold(1.0, f64::max);
-        // The first lines of a run are far off and would flatten the rest.
+        // The first lines of a run are far off and would flatten the curve.
         let mut sorted: Vec<f64> = values().collect();
         sorted.sort_by(f64::total_cmp);
         let (low, high) = match (sorted.first(), sorted.get(sorted.len() * 97 / 100)) {

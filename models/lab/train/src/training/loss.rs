@@ -1,5 +1,5 @@
-//! Losses with their gradients, written out: the networks' outputs are few numbers, and their loss
-//! through the tensor library would cost more than some of the networks.
+//! Losses with explicit gradients: the networks have few outputs, and a loss through the tensor library would
+//! cost more than some of the networks.
 
 use experts::features::GroundTruth;
 
@@ -8,12 +8,12 @@ use scene::KNOTS;
 
 use super::route::ResidualBasis;
 
-/// Added under the root of a distance, square metres.
+/// Added under the root of a distance for smoothness, square metres.
 const ROUND: f32 = 0.01;
-/// Weight of the first mode's pull to the recording, won or lost, if a goal's position is fixed. With such a
-/// goal the first mode is the mean future and the default answer.
+/// Weight of the pull of the first mode to the recording, whether it is the best mode or not, if a goal's
+/// position is fixed. With such a goal the first mode is the mean future and the default answer.
 const MIDDLE: f32 = 0.3;
-/// Mean distance above which a losing mode is not pulled, metres.
+/// Mean distance above which a mode that is not the best is not pulled, metres.
 const FAR: f32 = 60.0;
 
 /// Output of the initializer for one road user.
@@ -47,7 +47,7 @@ pub(super) struct InitialParts {
     pub(super) scale_nll: f32,
 }
 
-/// Distance of a residual to the recording, mean over the valid instants, and its gradient.
+/// Distance between a residual and the recording, mean over the valid instants, and its gradient.
 pub(super) fn distance(
     route: &ResidualBasis,
     target: &GroundTruth,
@@ -69,7 +69,7 @@ pub(super) fn distance(
     (mean, to_knots(route, &pull))
 }
 
-/// A gradient [along, across] at the instants as one to the normalised knots.
+/// Converts a gradient [along, across] at the instants to one at the normalised knots.
 pub(super) fn to_knots(route: &ResidualBasis, pull: &[[f32; 2]; INSTANTS]) -> [f32; RESIDUAL] {
     let mut knots = [0.0; RESIDUAL];
     for half in 0..2 {
@@ -82,7 +82,7 @@ pub(super) fn to_knots(route: &ResidualBasis, pull: &[[f32; 2]; INSTANTS]) -> [f
     knots
 }
 
-/// Weight of a road user by its speed, so that fast ones do not drown the rest.
+/// Weight of a road user by its speed, so that fast ones do not dominate.
 pub(super) fn speed_weight(target: &GroundTruth) -> f32 {
     let speed = target.base_along.iter().map(|base| base[0].abs()).fold(0.0, f32::max) / 0.5;
     1.0 / (1.0 + 0.05 * speed)
@@ -93,9 +93,9 @@ pub(crate) fn least(values: &[f32]) -> usize {
     (0..values.len()).fold(0, |best, i| if values[i] < values[best] { i } else { best })
 }
 
-/// Winner takes all on positions, likelihood of the winner's score, scales of the winner, and whether the road user stays.
-/// `recorded` are the residuals of [`super::fit::recorded`]; `bound` road users have a goal position. Gives the
-/// parts and the gradient.
+/// The loss of the initializer: winner takes all on positions, likelihood of the winner's score, scales of
+/// the winner, and whether the road user stays. `recorded` are the residuals of [`super::fit::recorded`];
+/// `bound` road users have a goal position. Returns the parts and the gradient.
 pub(super) fn initial(
     route: &ResidualBasis,
     target: &GroundTruth,
@@ -142,9 +142,8 @@ pub(super) fn initial(
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
 }
 
-/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores
-/// estimate how often each mode comes nearest. The choice of the shown answer is separate: it takes the least
-/// expected distance.
+/// Negative log likelihood of the best mode's score, with its gradient, so that the scores estimate how often
+/// each mode is the nearest. The shown answer is chosen separately, by the least expected distance.
 pub(crate) fn index(score: &[f32; MODES], best: usize) -> (f32, [f32; MODES]) {
     let given = softmax(score);
     let mut gradient = given;
@@ -165,7 +164,7 @@ fn binary(logit: f32, truth: f32) -> (f32, f32) {
     (loss, 1.0 / (1.0 + (-logit).exp()) - truth)
 }
 
-/// Laplace likelihood of the recorded residual; the residual itself is not moved by it.
+/// Laplace likelihood of the recorded residual, without a gradient to the residual itself.
 fn scales(
     recorded: &[f32; RESIDUAL],
     residual: &[f32; RESIDUAL],
@@ -175,7 +174,7 @@ fn scales(
 ) -> f32 {
     let mut nll = 0.0;
     for i in 0..RESIDUAL {
-        // Bounded below, so that a number that is always right (a fixed one) does not run away.
+        // Bounded below, so that the scale of a number that is always right (a fixed one) does not diverge.
         let log = log_scale[i].clamp(-5.0, 5.0);
         let miss = (recorded[i] - residual[i]).abs() / log.exp();
         nll += miss + log;
@@ -185,7 +184,8 @@ fn scales(
     nll
 }
 
-/// A denoised residual against the recording: metres at the instants and, a little, the knots.
+/// A denoised residual compared with the recording: metres at the instants and, with a small weight, the
+/// knots.
 pub(super) fn denoised(
     route: &ResidualBasis,
     target: &GroundTruth,
@@ -202,7 +202,7 @@ pub(super) fn denoised(
     (loss, grad)
 }
 
-/// Distance between a refined residual and the draft it came from, over all instants.
+/// Distance between a refined residual and its draft, over all instants.
 pub(super) fn moved(
     route: &ResidualBasis,
     draft: &[f32; RESIDUAL],
@@ -258,7 +258,7 @@ mod tests {
                     let mut moved = output.clone();
                     change(&mut moved, delta);
                     let (parts, _) = initial(&route, &record.target, &recorded, bound, &moved);
-                    // Scales and scores do not move the residual: their losses are held apart.
+                    // Scales and scores do not change the residual: their losses are separate.
                     (f64::from(parts.total), f64::from(0.02 * parts.scale_nll + 0.5 * parts.score_nll))
                 };
                 let (up, down) = (at(2e-3), at(-2e-3));

@@ -1,4 +1,4 @@
-//! Sums of what was measured, in a fixed order.
+//! Sums of measured values, in a fixed order.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ pub struct Metrics {
 }
 
 impl Metrics {
-    /// Nothing measured yet on some records.
+    /// Metrics of some records, without values yet.
     pub fn new(records: usize) -> Self {
         Self { records, sums: Vec::new() }
     }
@@ -27,7 +27,7 @@ impl Metrics {
         }
     }
 
-    /// Adds what was measured on other records.
+    /// Adds the metrics of other records.
     pub fn merge(&mut self, other: &Self) {
         self.records += other.records;
         for &(name, value) in &other.sums {

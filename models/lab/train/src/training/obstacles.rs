@@ -1,4 +1,4 @@
-//! Who is in the way of the records of a shard: as recorded, or along the drafts that lead at a step.
+//! Obstacles of the records of a shard: recorded, or along the leading drafts of a step.
 
 use experts::planning::INSTANTS;
 use scene::geometry::overlap_energy::{MovingBox, Poses, absent, gap};
@@ -9,7 +9,7 @@ use super::route::{DraftPoses, ResidualBasis};
 use super::sample::Shard;
 use super::stages::Modes;
 
-/// A box that moves, in a record's frame.
+/// A moving box, in a record's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Obstacle {
     poses: Poses<INSTANTS>,
@@ -21,7 +21,7 @@ impl Obstacle {
         MovingBox { poses: &self.poses, half: self.half }
     }
 
-    /// Where it would be some intervals later at the velocity of the moment.
+    /// Its pose some intervals later at its present velocity.
     pub(super) fn carried_on(&self, intervals: f32) -> Self {
         Self { poses: scene::geometry::overlap_energy::carried_on(&self.poses, intervals), half: self.half }
     }
@@ -29,9 +29,9 @@ impl Obstacle {
 
 /// The obstacles of each record of a shard.
 pub(super) struct ShardObstacles {
-    /// By record: those of the recording that count, all but those that overlap it there; with their numbers.
+    /// Recorded obstacles by record, without those that overlap it in the recording; with their indices.
     recorded: Vec<Vec<(u32, Obstacle)>>,
-    /// By record: numbers of those that overlap it in the recording.
+    /// By record: indices of the road users that overlap it in the recording.
     left_out: Vec<Vec<u32>>,
 }
 
@@ -52,12 +52,12 @@ impl ShardObstacles {
         Self { recorded, left_out }
     }
 
-    /// Everybody as recorded.
+    /// All obstacles as recorded.
     pub(super) fn as_recorded(&self) -> Vec<Vec<Obstacle>> {
         self.recorded.iter().map(|all| all.iter().map(|(_, o)| o.clone()).collect()).collect()
     }
 
-    /// Each record with a mode in `leading` moves along this draft, everybody else as recorded.
+    /// Each record with a mode in `leading` moves along this draft, all others as recorded.
     pub(super) fn along(
         &self,
         route: &ResidualBasis,
@@ -80,7 +80,7 @@ impl ShardObstacles {
         for (j, poses) in placed.iter().enumerate() {
             let other = &shard.records[j];
             let Some(poses) = poses.as_ref().filter(|_| shard.scenes[j] == shard.scenes[i]) else { continue };
-            // A batch may hold a road user twice.
+            // A batch may contain a road user twice.
             if numbers.contains(&other.number) {
                 continue;
             }
@@ -96,7 +96,7 @@ impl ShardObstacles {
     }
 }
 
-/// A pose in the frame at `from` as one in the frame at `to`.
+/// Converts a pose in the frame at `from` to one in the frame at `to`.
 fn seen_from(pose: [f32; 4], from: &[f32; 4], to: &[f32; 4]) -> [f32; 4] {
     if absent(&pose) {
         return pose;
@@ -109,7 +109,8 @@ fn seen_from(pose: [f32; 4], from: &[f32; 4], to: &[f32; 4]) -> [f32; 4] {
     [x, y, c, s]
 }
 
-/// Which recorded neighbours count for a record: all but those that overlap the road user in the recording.
+/// Whether each recorded neighbour counts for a record: all do except those that overlap the road user in the
+/// recording.
 fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
     let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
     let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
@@ -134,7 +135,7 @@ mod tests {
         let path = folder.path().join("a.records");
         let mut scenes = toy::scenes(1, 2, 3);
         let records = &mut scenes[0].2;
-        // The second drives 10 m to the left of the first, the other way.
+        // The second drives 10 m to the left of the first, in the opposite direction.
         records[1].place = [0.0, 10.0, -1.0, 0.0];
         toy::write(&path, &scenes);
         let (tools, shard) = toy::shard(&path);
@@ -150,7 +151,7 @@ mod tests {
             let y = 10.0 - other.across[0][instant];
             assert!((pose[0] - x).abs() < 0.6 && (pose[1] - y).abs() < 0.6, "{pose:?} {x} {y}");
         }
-        // Nobody leads for the second: everybody as recorded.
+        // No draft leads for the second: all obstacles are as recorded.
         assert_eq!(seen[1].len(), all.as_recorded()[1].len());
     }
 }

@@ -10,21 +10,21 @@ const BETA1: f64 = 0.9;
 const BETA2: f64 = 0.98;
 const EPSILON: f64 = 1e-8;
 const DECAY: f64 = 0.01;
-/// Longest gradient of a step.
+/// Greatest norm of a step's gradient.
 const CLIP: f64 = 5.0;
-/// Most of the running mean of the weights that is kept each step.
+/// Greatest share of the running mean of the weights that is kept in each step.
 const MEAN: f64 = 0.999;
 
-/// Gradients in the order of the parameters' names; nothing for a parameter that took no part.
+/// Gradients in the order of the parameters' names; nothing for a parameter that was not used.
 pub(super) type Gradients = Vec<Option<Vec<f32>>>;
 
-/// A parameter's numbers beside its weights.
+/// Numbers of a parameter beside its weights.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Moments {
     pub(super) first: Vec<f32>,
     pub(super) second: Vec<f32>,
     pub(super) mean: Vec<f32>,
-    /// Share of the rate.
+    /// Share of the learning rate.
     pub(super) share: f64,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct AdamW {
 }
 
 impl AdamW {
-    /// At rest; `share` is the share of the rate with which a parameter learns.
+    /// The initial state; `share` is the share of the learning rate for a parameter.
     pub(super) fn new(vars: &BTreeMap<String, Var>, share: impl Fn(&str) -> f64) -> Result<Self, TrainError> {
         let mut moments = BTreeMap::new();
         for (name, var) in vars {
@@ -47,7 +47,7 @@ impl AdamW {
         Ok(Self { moments, step: 0 })
     }
 
-    /// One step; gives the length of the gradient before it was clipped.
+    /// One step; returns the norm of the gradient before clipping.
     pub(super) fn apply(
         &mut self,
         vars: &BTreeMap<String, Var>,
@@ -57,7 +57,7 @@ impl AdamW {
         let squares = |g: &Vec<f32>| g.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>();
         let length = gradients.iter().flatten().map(squares).sum::<f64>().sqrt();
         if !length.is_finite() {
-            // A gradient that is no number must not reach the weights.
+            // A gradient with NaN must not reach the weights.
             self.step += 1;
             return Ok(length);
         }
@@ -74,7 +74,7 @@ impl AdamW {
         Ok(length)
     }
 
-    /// Moves the running mean of the weights; what is frozen keeps its bits.
+    /// Updates the running mean of the weights; frozen parameters keep their bits.
     pub(super) fn average(&mut self, vars: &BTreeMap<String, Var>) -> Result<(), TrainError> {
         let keep = MEAN.min((1.0 + self.step as f64) / (10.0 + self.step as f64)) as f32;
         for (var, moments) in vars.values().zip(self.moments.values_mut()) {
@@ -122,7 +122,7 @@ fn update(values: &mut [f32], moments: &mut Moments, gradient: &[f32], rates: Ra
     }
 }
 
-/// Rate at a share (0..1) of the training: a cosine from the first to the second of these, after a warm-up.
+/// Learning rate at a share (0..1) of the training: a cosine from `top` to `end`, after a warm-up.
 pub(super) fn rate((top, end): (f64, f64), step: u64, warm_up: u64, progress: f64) -> f64 {
     let warm = ((step + 1) as f64 / warm_up.max(1) as f64).min(1.0);
     let cosine = 0.5 * (1.0 + (std::f64::consts::PI * progress.clamp(0.0, 1.0)).cos());

@@ -27,7 +27,7 @@ impl Processor {
     }
 }
 
-/// The first graphics card. One test operation reports a driver that is too old for the kernels at once.
+/// The first graphics card. A test operation reports at once a driver that is too old for the kernels.
 fn first_card() -> Result<Device> {
     let device = Device::new_cuda(0)?;
     (Tensor::zeros(1, DType::F32, &device)? + 1.0)?.to_vec1::<f32>()?;

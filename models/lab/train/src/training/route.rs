@@ -1,14 +1,14 @@
-//! Residuals to positions: along and across an anchor, then on its path.
+//! Converts residuals to positions: along and across an anchor, then on its path.
 
 use experts::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use scene::KNOTS;
 
 use super::{AnchorPath, Record};
 
-/// TrainProgress and offset at the instants, metres.
+/// Progress and offset at the instants, metres.
 pub(crate) type RouteCoordinates = [[f32; 2]; INSTANTS];
 
-/// The basis, with the scales of normalised residuals in it.
+/// The basis, including the scales of normalised residuals.
 #[derive(Clone, Debug)]
 pub(super) struct ResidualBasis {
     along: [[f32; KNOTS]; INSTANTS],
@@ -45,7 +45,7 @@ impl ResidualBasis {
     }
 }
 
-/// A draft as boxes, and the path's directions (cosine, sine) where they are.
+/// A draft as boxes, with the directions (cosine, sine) of the path at their positions.
 pub(crate) struct DraftPoses {
     pub(crate) poses: scene::geometry::overlap_energy::Poses<INSTANTS>,
     pub(super) directions: [[f32; 2]; INSTANTS],
@@ -74,7 +74,7 @@ impl DraftPoses {
         Self::new(record, mode, &route.coordinates(&record.target.base_along[mode], residual))
     }
 
-    /// A gradient to x and y as one to progress and offset.
+    /// Converts a gradient in x and y to one in progress and offset.
     pub(super) fn along_across(&self, gradient: &[[f32; 2]; INSTANTS]) -> [[f32; 2]; INSTANTS] {
         std::array::from_fn(|i| {
             let ([x, y], [c, s]) = (gradient[i], self.directions[i]);
@@ -83,7 +83,7 @@ impl DraftPoses {
     }
 }
 
-/// Point and direction at a progress; straight on before the first and after the last point.
+/// Point and direction at a progress; the path continues straight before the first and after the last point.
 fn at(path: &AnchorPath, along: f32) -> ([f32; 2], [f32; 2]) {
     let last = path.points.len().saturating_sub(2);
     let place = along - path.start;

@@ -27,7 +27,7 @@ use crate::provenance::Provenance;
 pub const EVERYBODY: &str = "everybody";
 /// Steps between two lines of a report.
 const REPORT: u64 = 100;
-/// Records held out that are used at most.
+/// Most held-out records that are used.
 const HELD_OUT: usize = 2048;
 
 /// Options of a training.
@@ -40,17 +40,17 @@ pub struct TrainOptions<A = Architecture> {
     /// Description of the records' sources for the header; replaces that of the records. Their licences are
     /// kept in any case.
     pub trained_on: Option<String>,
-    /// Which part is trained.
+    /// Stage of the training.
     pub stage: Stage,
-    /// Weights to begin with; random ones without.
+    /// Initial weights; random ones if absent.
     pub init: Option<PathBuf>,
-    /// Steps in all.
+    /// Total number of steps.
     pub steps: u64,
-    /// Records a step.
+    /// Records per step.
     pub batch: usize,
     /// Top learning rate.
     pub rate: f64,
-    /// Rate at the end; a hundredth of the top one without.
+    /// Learning rate at the end; a hundredth of the top one if absent.
     pub rate_end: Option<f64>,
     /// Device that computes the networks; a run is repeatable bit for bit only on the CPU.
     pub processor: Processor,
@@ -63,14 +63,14 @@ pub struct TrainOptions<A = Architecture> {
     pub resume: bool,
     /// Seed of the weights, the batches and the noise.
     pub seed: u64,
-    /// Ends the run after this time, with the rate falling accordingly; the result then depends on the
-    /// machine's speed.
+    /// Ends the run after this time, with the rate falling accordingly; the result then depends on the speed
+    /// of the machine.
     pub minutes: Option<f64>,
     /// Steps between two validations, each followed by a save.
     pub validate_every: u64,
-    /// A checkpoint is kept too where this time has passed at a line of the report, seconds.
+    /// Time after which a checkpoint is also written at a line of the report, seconds.
     pub checkpoint_every_s: f64,
-    /// Set by others to end the run after the step under way, with a checkpoint.
+    /// A flag by which other threads end the run after the current step, with a checkpoint.
     pub stop: Arc<AtomicBool>,
     /// Sizes of new networks.
     pub architecture: A,
@@ -79,14 +79,14 @@ pub struct TrainOptions<A = Architecture> {
 }
 
 impl TrainOptions {
-    /// Usual values for the three things that have none.
+    /// Default options; the arguments have no defaults.
     pub fn new(records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Self {
         Self::of(records, stage, out, Architecture::default())
     }
 }
 
 impl<A> TrainOptions<A> {
-    /// Usual values for networks of an architecture.
+    /// Default options for networks of an architecture.
     pub(crate) fn of(records: Vec<PathBuf>, stage: Stage, out: PathBuf, architecture: A) -> Self {
         Self {
             records,
@@ -120,7 +120,7 @@ pub fn checkpoint_path(out: &Path) -> PathBuf {
     path.into()
 }
 
-/// Steps that go so many times through the records that are trained on.
+/// Number of steps for this many epochs over the training records.
 ///
 /// # Errors
 /// When records cannot be read.
@@ -140,29 +140,29 @@ pub fn best_path(out: &Path) -> PathBuf {
 /// A line of a run's report.
 #[derive(Clone, Debug)]
 pub enum TrainProgress {
-    /// The run begins or goes on.
+    /// The run begins or continues.
     Begin {
-        /// Records to train on and held out.
+        /// Number of training records and of held-out records.
         records: (usize, usize),
-        /// Trained numbers.
+        /// Number of trained parameters.
         parameters: usize,
         /// Steps already done.
         step: u64,
     },
-    /// Means over the steps since the line before.
+    /// Means over the steps since the last line.
     Training {
         /// Steps done.
         step: u64,
-        /// Learning rate now.
+        /// Present learning rate.
         rate: f64,
-        /// Mean length of the gradient before clipping.
+        /// Mean norm of the gradient before clipping.
         gradient: f64,
         /// Losses and distances.
         metrics: Metrics,
-        /// Records a second.
+        /// Records per second.
         speed: f64,
     },
-    /// Figures of the running mean of the weights on records held out.
+    /// Metrics of the running mean of the weights on held-out records.
     Validation {
         /// Steps done.
         step: u64,
@@ -187,7 +187,7 @@ impl fmt::Display for TrainProgress {
     }
 }
 
-/// Trains an expert and writes the weights; `report` gets each line. Gives the last validation.
+/// Trains an expert and writes the weights; `report` gets each line. Returns the last validation.
 ///
 /// # Errors
 /// When files cannot be read or written, or a checkpoint belongs to another run.
@@ -195,7 +195,7 @@ pub fn run(options: &TrainOptions, report: &mut dyn FnMut(&TrainProgress)) -> Re
     run_of::<Expert>(options, report)
 }
 
-/// [`run`] of whatever can be trained.
+/// [`run`] for any trainable networks.
 pub(crate) fn run_of<T: Trainee>(
     options: &TrainOptions<T::Architecture>,
     report: &mut dyn FnMut(&TrainProgress),
@@ -211,7 +211,7 @@ pub(crate) fn run_of<T: Trainee>(
         parameters: run.trained.tensors().values().map(Tensor::elem_count).sum(),
         step: run.adam.step,
     });
-    // A graphics card is busiest with whole batches, and they come to it one after another.
+    // A graphics card is used best with whole batches, one after another.
     let (shard, threads) = if device.is_cpu() { (SHARD, options.threads) } else { (options.batch, 1) };
     let workers = Workers {
         records: &records,
@@ -243,7 +243,8 @@ pub(crate) fn run_of<T: Trainee>(
         if step.is_multiple_of(REPORT) {
             reporter.line(&since.line(step, rate))?;
             since = Since::new();
-            // At a line, so that the log of a run that goes on from here is that of a run without a stop.
+            // Only at a line, so that the log of a run that continues from here equals that of an
+            // uninterrupted run.
             if kept.elapsed().as_secs_f64() >= options.checkpoint_every_s {
                 reporter.log.write()?;
                 run.keep()?;
@@ -324,7 +325,7 @@ impl Since {
 struct TrainingRun<'a, T: Trainee> {
     options: &'a TrainOptions<T::Architecture>,
     trained: T,
-    /// The same with the running mean of the weights.
+    /// The networks with the running mean of the weights.
     mean: T,
     adam: AdamW,
     records: String,
@@ -363,7 +364,7 @@ impl<'a, T: Trainee> TrainingRun<'a, T> {
         self.seconds_before + self.clock.elapsed().as_secs_f64()
     }
 
-    /// Share of the run that is done.
+    /// Completed share of the run.
     fn progress(&self) -> f64 {
         let steps = self.adam.step as f64 / self.options.steps.max(1) as f64;
         match self.options.minutes {
@@ -387,7 +388,7 @@ impl<'a, T: Trainee> TrainingRun<'a, T> {
         Ok(metrics)
     }
 
-    /// The weights, the same as the best so far where they are that, and a checkpoint.
+    /// Writes the weights, a copy as the best so far if they are, and a checkpoint.
     fn save(&mut self, best: bool) -> Result<(), TrainError> {
         let options = self.options;
         let notes = &mut self.mean.card_mut().notes;

@@ -1,4 +1,4 @@
-//! Which records make a batch, and a shard of them ready for the networks.
+//! Chooses the records of a batch, and prepares shards of them for the networks.
 
 use std::collections::HashMap;
 
@@ -26,10 +26,10 @@ pub fn is_for_tests(key: u64) -> bool {
     u64::from(hash.as_bytes()[0]) * HELD_OUT / 256 == 1
 }
 
-/// Records to train on with their chances, and records held out.
+/// Training records with their probabilities, and held-out records.
 pub(super) struct Split {
     train: Vec<usize>,
-    /// The scene of each.
+    /// Scene of each record.
     scenes: Vec<usize>,
     /// Running sums of the weights.
     sums: Vec<f64>,
@@ -37,8 +37,8 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Splits the records that `takes` accepts by the hash of the scenes' keys; `most_held_out` bounds the
-    /// cost of a validation. With `even` each file has the same chance to be drawn from.
+    /// Splits the records that `takes` accepts by the hash of the scenes' keys; `most_held_out` limits the
+    /// cost of a validation. With `even`, draws come from each file with the same probability.
     pub(super) fn new(
         records: &Records,
         most_held_out: usize,
@@ -81,8 +81,8 @@ impl Split {
         self.train.len()
     }
 
-    /// The records of a step's batch: the same for the same seed and step, whatever came before. Up to `together`
-    /// of one scene stand one after the other.
+    /// The records of a step's batch: a function of seed and step only. Up to `together` records of one scene
+    /// are consecutive.
     pub(super) fn batch(&self, seed: u64, step: u64, size: usize, together: usize) -> Vec<usize> {
         let mut rng = stream(seed, step, 0);
         let total = self.sums.last().copied().unwrap_or(0.0);
@@ -112,9 +112,9 @@ pub(crate) fn stream(seed: u64, step: u64, part: u64) -> Stream {
 /// Records that go through the networks together.
 pub(crate) struct Shard {
     pub(crate) records: Vec<Record>,
-    /// The scene of each.
+    /// Scene of each record.
     pub(super) scenes: Vec<usize>,
-    /// Map pieces that they see; the records' piece indices are rows of this.
+    /// Map pieces that they see; the records' piece indices refer to this list.
     pub(crate) pieces: Vec<[f32; PIECE]>,
     /// The recording on each mode's anchor.
     pub(super) recorded: Vec<[[f32; RESIDUAL]; MODES]>,

@@ -1,4 +1,4 @@
-//! The three stages' losses of a shard, and what is measured on records held out.
+//! The losses of the three stages for a shard, and the metrics on held-out records.
 
 use candle_core::{Device, Result, Tensor};
 use experts::Refining;
@@ -26,7 +26,7 @@ pub(super) use experts::planning::Modes;
 
 /// Weight of the overlap penalty in the joint stage, of energies summed over the instants.
 const PENALTY: f32 = 6.888_889;
-/// Weight of staying near the draft, for the modes that did not win.
+/// Weight of the distance to the draft, for the modes that are not the best.
 const STAY: f32 = 0.5;
 
 /// Which part of the expert is trained, and how.
@@ -74,8 +74,8 @@ fn energy(
     (overlap.energy, draft.along_across(&overlap.gradient))
 }
 
-/// What the joint stage punishes in one residual: boxes too close now, and those that soon will be, as in the energy
-/// that resolves overlaps in a draw. Records hold no kerbs.
+/// Penalty of the joint stage for one residual: boxes that are too close now or will be soon, as in the
+/// energy that resolves overlaps in a draw. Records contain no kerbs.
 fn penalty(
     tools: &Tools,
     record: &Record,
@@ -98,15 +98,15 @@ fn penalty(
     (energy, gradient)
 }
 
-/// What a step of the refiner is told, as tensors.
+/// Inputs of a refiner step, as tensors.
 struct StepInputs {
     push: Tensor,
-    /// Of a refiner that attends.
+    /// Encounters, for a refiner with attention.
     encounters: Option<EncounterTensors>,
 }
 
 impl StepInputs {
-    /// At drafts among obstacles.
+    /// Inputs for drafts among obstacles.
     fn at(
         expert: &Expert,
         tools: &Tools,
@@ -145,7 +145,7 @@ fn met(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts: &[Mode
     .collect()
 }
 
-/// The way downhill at drafts.
+/// Descent directions of the energy at drafts.
 fn repulsions(tools: &Tools, shard: &Shard, obstacles: &[Vec<Obstacle>], drafts: &[Modes]) -> Vec<Modes> {
     if !tools.refining.repulsion {
         return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
@@ -179,7 +179,7 @@ fn arrays(tensor: &Tensor) -> Result<Vec<Modes>> {
     Ok(values.as_chunks::<RESIDUAL>().0.as_chunks::<MODES>().0.to_vec())
 }
 
-/// `sum(output * gradient)`: its backward pass hands `gradient` on to `output`.
+/// `sum(output * gradient)`: its backward pass gives `gradient` to `output`.
 pub(crate) fn seeded(output: &Tensor, gradient: Vec<f32>) -> Result<Tensor> {
     (output * Tensor::from_vec(gradient, output.shape(), output.device())?)?.sum_all()
 }
@@ -194,8 +194,7 @@ fn noise(rng: &mut Stream, count: usize, scale: f32) -> Vec<Modes> {
         .collect()
 }
 
-/// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and the
-/// measurements.
+/// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and the metrics.
 pub(super) fn train(
     expert: &Expert,
     tools: &Tools,
@@ -274,7 +273,7 @@ fn denoiser(
 ) -> std::result::Result<Tensor, TrainError> {
     let prepared = expert.refiner.prepare(context)?;
     let count = shard.records.len();
-    // Half of the levels are levels that refinement visits.
+    // Half of the levels are those of refinement.
     let levels: Vec<usize> = (0..count)
         .map(|_| {
             let top = if rng.chance(0.5) { schedule::START } else { schedule::LEVELS };
@@ -308,8 +307,8 @@ fn denoiser(
     Ok(seeded_modes(&denoised, &grads)?)
 }
 
-/// Weight of each mode's recorded residual: an anchor far from the recording needs residuals that no draft
-/// will have. Sums to 1.
+/// Weight of each mode's recorded residual: an anchor far from the recording would need residuals that no
+/// draft has. The weights sum to 1.
 fn shares(recorded: &Modes) -> [f32; MODES] {
     let size = recorded.map(|r| (r.iter().map(|x| x * x).sum::<f32>() / RESIDUAL as f32).sqrt());
     let least = size[loss::least(&size)];
@@ -332,14 +331,14 @@ fn joint(
     for (record, draft) in shard.records.iter().zip(&mut drafts) {
         take_by_surprise(&tools.route, record, draft, rng);
     }
-    // Most follow a draft of theirs, as in a joint draw; the rest are as recorded.
+    // Most road users follow one of their drafts, as in a joint draw; the others move as recorded.
     let leading: Vec<Option<usize>> =
         outputs(initial)?.iter().map(|output| rng.chance(0.8).then(|| drawn(output, rng))).collect();
     let scale = [0.0, rng.unit() as f32, 1.0][rng.below(3)];
     let start = if rng.chance(0.2) { 0 } else { schedule::START };
     let obstacles = ShardObstacles::new(shard);
     let walk = Walk { expert, tools, shard, obstacles: &obstacles, leading, prepared: prepared.detach() };
-    // Most often one step does all.
+    // Usually, a single step does everything.
     let steps = schedule::ddim(start, if rng.chance(0.6) { 1 } else { schedule::STEPS });
     let taken = rng.below(steps.len());
     let before = walk.go(
@@ -352,7 +351,7 @@ fn joint(
     let inputs = walk.inputs(&arrays(&before)?)?;
     let refined = expert.refiner.denoise(&prepared, &before, &inputs.borrowed(), &levels)?;
     let refined_modes = arrays(&refined)?;
-    // Each is held against where the others are after the step: they have seen the same drafts.
+    // Each is compared with the others' positions after the step: all have seen the same drafts.
     let others = walk.others(&refined_modes);
     let mut grads = Vec::with_capacity(shard.records.len());
     for (index, refined) in refined_modes.iter().enumerate() {
@@ -367,8 +366,8 @@ fn drawn(output: &AgentOutput, rng: &mut Stream) -> usize {
     mode_at(&loss::softmax(&output.score).map(f64::from), rng.unit())
 }
 
-/// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
-/// futures where two coincide, and refinement must leave them theirs.
+/// In half of the records, one mode gets a speed change that the initializer would not give: the generator
+/// makes such futures if two coincide, and refinement must keep them different.
 fn take_by_surprise(route: &ResidualBasis, record: &Record, draft: &mut Modes, rng: &mut Stream) {
     let [takes, mode, rate, until] = std::array::from_fn(|_| rng.unit());
     if takes < 0.5 {
@@ -389,7 +388,7 @@ fn take_by_surprise(route: &ResidualBasis, record: &Record, draft: &mut Modes, r
     }
 }
 
-/// The winner is pulled to the recording, the others to their drafts, all away from overlaps.
+/// The best mode is pulled to the recording, the others to their drafts, all away from overlaps.
 fn joint_gradient(
     tools: &Tools,
     record: &Record,
@@ -428,19 +427,19 @@ fn joint_gradient(
     grads
 }
 
-/// Refinement steps through which nothing flows back.
+/// Refinement steps without backpropagation.
 struct Walk<'a> {
     expert: &'a Expert,
     tools: &'a Tools,
     shard: &'a Shard,
     obstacles: &'a ShardObstacles,
-    /// The mode along which each leads, or nothing for one that moves as recorded.
+    /// The leading mode of each record; nothing for one that moves as recorded.
     leading: Vec<Option<usize>>,
     prepared: Prepared,
 }
 
 impl Walk<'_> {
-    /// Who is in the way where these drafts lead.
+    /// The obstacles if the records move along these drafts.
     fn others(&self, drafts: &[Modes]) -> Vec<Vec<Obstacle>> {
         self.obstacles.along(&self.tools.route, self.shard, &self.leading, drafts)
     }
@@ -462,8 +461,8 @@ impl Walk<'_> {
     }
 }
 
-/// Figures on held-out records: the initializer's, and unless only it is trained those of five refinement
-/// steps from its drafts with full noise.
+/// Metrics on held-out records: those of the initializer and, unless only it is trained, those of five
+/// refinement steps from its drafts with full noise.
 pub(super) fn validate(
     expert: &Expert,
     tools: &Tools,
@@ -527,7 +526,7 @@ mod tests {
                 assert!(taken[mode][KNOTS..] == drafts[mode][KNOTS..], "across");
                 let along = route.coordinates(&record.target.base_along[mode], &taken[mode]);
                 assert!(along.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "backwards");
-                // A fixed goal's projection has nothing left to take away.
+                // Nothing remains to be removed by a fixed goal's projection.
                 for (row, knot) in record.agent.tangent[0].iter().zip(&taken[mode]) {
                     let kept: f32 = row.iter().zip(&taken[mode]).map(|(p, r)| p * r).sum();
                     assert!((kept - knot).abs() < 1e-4, "{kept} {knot}");

@@ -40,11 +40,11 @@ fn stopping_and_going_on_changes_nothing() {
     for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
         let straight = options(folder.path(), stage, 20);
         let (_, expected) = trained(&straight);
-        // The run is stopped after ten steps, as a killed one would be: the file of step ten is put back.
+        // The run stops after ten steps, as a killed one would: the file of step ten is restored.
         let stopped = TrainOptions { validate_every: 10, ..straight.clone() };
         let mut at_ten = None;
         run(&stopped, &mut |line| {
-            // Reported before it is saved, so the file is still that of step ten.
+            // The report comes before the save, so the file is still that of step ten.
             if let TrainProgress::Validation { step: 20, .. } = line {
                 at_ten = Some(std::fs::read(checkpoint_path(&stopped.out)).unwrap());
             }
@@ -87,7 +87,7 @@ fn a_run_that_is_stopped_goes_on_as_if_it_had_not_been() {
     let (_, bytes) = trained(&resumed);
     assert!(bytes == expected, "weights differ");
     assert_eq!(log(&resumed.out), expected_log);
-    // Other settings are another run.
+    // Other settings make another run.
     let other = [
         (TrainOptions { steps: 140, ..resumed.clone() }, "number of steps"),
         (TrainOptions { rate: 1e-3, ..resumed.clone() }, "rate"),
@@ -139,7 +139,7 @@ fn the_best_weights_are_kept_beside_the_last() {
         if let TrainProgress::Validation { metrics, .. } = line {
             losses.extend(metrics.mean("loss").or(metrics.mean("min")));
             if losses.len() == 5 {
-                // Reported before it is saved, so the file is still that of the fourth.
+                // The report comes before the save, so the file is still that of the fourth.
                 at_fourth = std::fs::read(&wild.out).unwrap();
                 wild.stop.store(true, std::sync::atomic::Ordering::Relaxed);
             }

@@ -1,5 +1,5 @@
-//! Records of a toy world for tests: straight paths, an acceleration and a lateral wish that can be
-//! read off the features, and recorded neighbours beside the path.
+//! Records of a toy world for tests: straight paths, an acceleration and a lateral offset that the features
+//! reveal, and recorded neighbours beside the path.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -54,7 +54,7 @@ pub(crate) fn shard(path: &Path) -> (Tools, Shard) {
     (tools, shard)
 }
 
-/// Asserts that each stage's loss reaches just the variables that the stage trains.
+/// Asserts that each stage's loss reaches exactly the variables that the stage trains.
 pub(crate) fn assert_gradients_by_stage(trainee: &impl Trainee, tools: &Tools, shard: &Shard) {
     for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
         let (loss, _) = trainee.loss(tools, shard, stage, &mut stream(1, 1, 1)).unwrap();
@@ -99,7 +99,7 @@ fn record(rng: &mut Stream, number: u32, pieces: usize) -> Record {
     let path = AnchorPath { start: -2.0, points: (0..150).map(|i| [i as f32 - 2.0, 0.0]).collect() };
     Record {
         number,
-        // One beside the other, so far apart that none meets another.
+        // Side by side, too far apart to meet.
         place: [0.0, 200.0 * number as f32, 1.0, 0.0],
         agent,
         pieces,

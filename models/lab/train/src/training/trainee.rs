@@ -15,7 +15,7 @@ use super::{Record, TrainError};
 
 /// Networks with their losses. Parameter names decide which stage trains them: see [`Trainee::share`].
 pub(crate) trait Trainee: Sized + Sync {
-    /// Configuration that decides the shapes and the meaning of the tensors.
+    /// Configuration that determines the shapes and the meaning of the tensors.
     type Architecture: Clone + PartialEq + Serialize + DeserializeOwned;
 
     /// Random weights from a seed.
@@ -25,9 +25,9 @@ pub(crate) trait Trainee: Sized + Sync {
         seed: u64,
         device: &Device,
     ) -> Result<Self, NetError>;
-    /// Weights of a file, to be trained further.
+    /// Weights of a file, for further training.
     fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError>;
-    /// The same with what the wanted architecture has more, random from a seed.
+    /// These networks with the additional parts of the wanted architecture, random from a seed.
     fn grown(self, _wanted: &Self::Architecture, _seed: u64) -> Result<Self, NetError> {
         Ok(self)
     }
@@ -37,21 +37,21 @@ pub(crate) trait Trainee: Sized + Sync {
     fn architecture(&self) -> &Self::Architecture;
     /// Card of the weights in the file.
     fn card(&self) -> &Card;
-    /// The same, to be changed.
+    /// Card of the weights, for changes.
     fn card_mut(&mut self) -> &mut Card;
     /// All tensors by name.
     fn tensors(&self) -> &BTreeMap<String, Tensor>;
     /// All variables by name.
     fn vars(&self) -> &BTreeMap<String, Var>;
 
-    /// Whether it can learn from a record.
+    /// Whether the networks can learn from a record.
     fn takes(&self, record: &Record) -> bool;
-    /// Whether each file of records has the same chance to be drawn from, however many it holds.
+    /// Whether draws come from each file with the same probability, however many records it has.
     fn draws_files_evenly(&self) -> bool;
 
-    /// Share of the rate that a parameter learns with in a stage; what has none stays as it is, bit for bit. As the
-    /// experts have it: those under `refiner.` take no part in [`Stage::Initializer`], all others take none in
-    /// [`Stage::Denoiser`] and learn slower in [`Stage::Joint`].
+    /// Share of the learning rate for a parameter in a stage; a parameter without a share is unchanged, bit
+    /// for bit. For the experts: parameters under `refiner.` are frozen in [`Stage::Initializer`], all others
+    /// are frozen in [`Stage::Denoiser`] and learn slower in [`Stage::Joint`].
     fn share(stage: Stage, name: &str) -> f64 {
         let refiner = name.starts_with("refiner.");
         match stage {
@@ -63,7 +63,7 @@ pub(crate) trait Trainee: Sized + Sync {
     }
 
     /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and the
-    /// measurements.
+    /// metrics.
     fn loss(
         &self,
         tools: &Tools,

@@ -26,7 +26,7 @@ pub(super) struct Workers<'a> {
 }
 
 impl Workers<'_> {
-    /// The mean gradient of a batch, and what was measured on it.
+    /// The mean gradient of a batch, and its metrics.
     pub(super) fn train(
         &self,
         trained: &impl Trainee,
@@ -70,7 +70,7 @@ impl Workers<'_> {
         Ok((gradients.collect::<Result<_, TrainError>>()?, metrics))
     }
 
-    /// Figures on held-out records; the draws are the same every time.
+    /// Metrics on held-out records; the draws are the same every time.
     pub(super) fn validate(&self, trained: &impl Trainee, indices: &[usize]) -> Result<Metrics, TrainError> {
         let results = self.each_shard(indices, |number, indices| {
             let shard = Shard::new(self.records, indices, &self.tools.route)?;
@@ -82,7 +82,7 @@ impl Workers<'_> {
         Ok(metrics)
     }
 
-    /// Runs all shards, each thread taking the next one; gives the results in the shards' order.
+    /// Runs all shards; each thread takes the next one. Returns the results in the shards' order.
     fn each_shard<T: Send>(
         &self,
         indices: &[usize],

@@ -1,27 +1,27 @@
-//! Pairs that belong together: pedestrians in company, a truck and its trailer. Their contact is no fault,
-//! because their boxes are larger than they are or because they are coupled.
+//! Pairs that belong together: pedestrians walking in company, a truck and its trailer. Their contact is no
+//! fault, because boxes exceed the bodies, or because they are coupled.
 
 use super::mover::Mover;
 use crate::geometry::obb::signed_gap;
 use crate::{AgentType, STEP_S};
 
-/// People in company keep their centres within this, metres.
+/// Greatest distance between the centres of pedestrians in company, metres.
 const COMPANY_M: f64 = 1.5;
-/// People in company walk alike: their velocities differ by less than this, m/s.
+/// Greatest difference of their velocities, m/s.
 const COMPANY_MPS: f64 = 0.7;
-/// Seconds before and after a moment in which company shows.
+/// Time before and after a moment over which company is determined, seconds.
 const COMPANY_S: f64 = 2.0;
-/// Company of less than this is an encounter, seconds.
+/// Shorter company is an encounter, seconds.
 const LEAST_COMPANY_S: f64 = 1.0;
-/// A truck and its trailer never come farther apart than this, metres.
+/// Greatest gap between a truck and its trailer, metres.
 const HITCH_M: f64 = 0.5;
-/// In bends the distance of their centres changes by less than this, metres.
+/// Greatest change of the distance of their centres in bends, metres.
 const HITCH_PLAY_M: f64 = 1.0;
-/// They drive at least this far together, metres: cars of a queue that does not move are no trailers.
+/// Shortest distance that they drive together, metres: cars of a standing queue are no trailers.
 const HITCH_TRAVEL_M: f64 = 2.0;
 
-/// Two walkers keep together about this step: near each other and as fast, side by side, behind each other
-/// or standing, for most of two seconds before and after.
+/// Whether two walkers keep together around this step: near each other and equally fast, side by side, behind
+/// each other or standing, for most of two seconds before and after.
 pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
     if a.agent_type != AgentType::Pedestrian || b.agent_type != AgentType::Pedestrian {
         return false;
@@ -38,7 +38,7 @@ pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
     together as f64 * STEP_S >= LEAST_COMPANY_S && 2 * together > seen
 }
 
-/// A truck and its trailer: two vehicle boxes that drive and stay at each other all the time.
+/// Whether they are a truck and its trailer: two vehicle boxes that drive and always stay adjacent.
 pub(super) fn are_hitched(a: &Mover, b: &Mover) -> bool {
     let vehicles = a.agent_type == AgentType::Vehicle && b.agent_type == AgentType::Vehicle;
     if !vehicles || a.travel_m < HITCH_TRAVEL_M || b.travel_m < HITCH_TRAVEL_M {

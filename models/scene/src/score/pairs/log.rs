@@ -1,4 +1,4 @@
-//! Whether the recording shows an event of a pair.
+//! Whether the recording contains an event of a pair.
 
 use super::mover::Mover;
 use super::{Pair, PairBounds, Touch, look_at};
@@ -6,11 +6,11 @@ use crate::STEP_S;
 use crate::score::input::{Actor, ScoreInput};
 use std::borrow::Cow;
 
-/// An event this much before or after that of the log is the same one, seconds.
+/// Greatest time difference to the log's event for the same event, seconds.
 pub const SAME_S: f64 = 1.0;
-/// An overlap that much deeper than the log's is another one, metres.
+/// Greatest excess depth over the log's overlap for the same overlap, metres.
 const SAME_DEPTH_M: f64 = 0.1;
-/// A near miss that much closer than the log's is another one, metres.
+/// Greatest difference to the log's gap for the same near miss, metres.
 pub const SAME_GAP_M: f64 = 0.5;
 
 /// The pair as it was recorded; `None` without a recording of both.
@@ -23,8 +23,9 @@ pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Op
     Some((of_log(a)?, of_log(b)?))
 }
 
-/// The collision, else the overlap, else the near miss, of this pair is the log's own: both move as recorded, or the log shows
-/// as near a miss at about the same time. A collision of motion that was made is never the log's.
+/// Whether the collision, else the overlap, else the near miss of this pair belongs to the log. Either both
+/// move as recorded, or the log has an equally near event at about the same time. A collision of generated
+/// motion never belongs to the log.
 pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pair: &Pair) -> bool {
     if !a.generated && !b.generated {
         return true;

@@ -9,7 +9,7 @@ use crate::score::pet::post_encroachment_s;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Two farther apart have no encounter yet, metres.
+/// Pairs farther apart have no encounter yet, metres.
 const FAR_M: f64 = 100.0;
 
 /// The worst values of one encounter, up to its event; null where a measure does not apply.
@@ -28,7 +28,7 @@ pub struct Measures {
 }
 
 impl Measures {
-    /// Of two motions up to a step, counted from the first scored one.
+    /// The measures of two motions up to a step, counted from the first scored one.
     pub(in crate::score) fn of(a: &Mover, b: &Mover, last: usize) -> Self {
         let mut found = Self { pet_s: post_encroachment_s(a, b), ..Self::default() };
         for (step, moments) in a.moments.iter().zip(&b.moments).enumerate().take(last + 1) {

@@ -1,4 +1,4 @@
-//! Interactions of two road users: collisions, near misses, least gap, least time to collision.
+//! Interactions of two road users: collisions, near misses, smallest gap, smallest time to collision.
 
 mod company;
 mod log;
@@ -19,25 +19,25 @@ pub(super) use near::{BRUSH_M, PARKED_M};
 use near::{Gap, Nearest, Side, near_miss};
 pub(super) use tally::PairTally;
 
-/// Moments checked from one step to the next, the step itself counted.
+/// Moments checked per step, including the step itself.
 pub const SUBSTEPS: usize = 4;
 
-/// What the pairs of one road user come to.
+/// Totals over the pairs of one road user.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairTotals {
     /// Collisions it is part of and the log does not show.
     pub collisions: usize,
     /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
-    /// Overlaps below the threshold of a collision, likewise.
+    /// Its overlaps below the collision threshold that the log does not contain.
     pub light_overlaps: usize,
-    /// Collisions it is part of and the log shows too.
+    /// Its collisions that the log contains too.
     pub logged_collisions: usize,
-    /// Its box overlaps another's at a step, however little.
+    /// Whether its box overlaps another's at a step, however little.
     pub overlaps: bool,
-    /// Least time to collision, seconds.
+    /// Smallest time to collision, seconds.
     pub min_ttc_s: Option<f64>,
-    /// With which road user, by its place in the input.
+    /// The other road user of that pair, by index in the input.
     pub min_ttc_with: Option<usize>,
     /// Least gap, metres.
     pub min_distance_m: Option<f64>,
@@ -45,22 +45,22 @@ pub struct PairTotals {
     pub pet_s: Option<f64>,
 }
 
-/// What all pairs come to.
+/// Results of all pairs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairScores {
-    /// One a pair, in pair order.
+    /// At most one per pair, in pair order.
     pub collisions: Vec<Collision>,
-    /// One a pair, in pair order.
+    /// At most one per pair, in pair order.
     pub overlaps: Vec<BoxOverlap>,
-    /// One a pair, in pair order.
+    /// At most one per pair, in pair order.
     pub near_misses: Vec<NearMiss>,
-    /// One a pair with any of these events, in pair order.
+    /// One per pair with any of these events, in pair order.
     pub encounters: Vec<Encounter>,
     /// By road user, in input order.
     pub agents: Vec<PairTotals>,
 }
 
-/// What one pair comes to.
+/// Results of one pair.
 #[derive(Debug, Default)]
 struct Pair {
     min_ttc_s: Option<f64>,
@@ -71,7 +71,7 @@ struct Pair {
     near: Option<Nearest>,
 }
 
-/// Any overlap of the boxes of a pair whose contact counts, at one or more steps.
+/// An overlap of the boxes of a pair whose contact counts, at one or more steps.
 #[derive(Debug)]
 struct Touch {
     /// First step, from the first scored one.
@@ -90,16 +90,16 @@ impl Touch {
 /// A collision. Times are in steps from the first scored one.
 #[derive(Debug)]
 struct Contact {
-    /// First and last moment over the threshold.
+    /// First and last moment above the threshold.
     first: f64,
     last: f64,
-    /// Relative speed at the first, m/s.
+    /// Relative speed at the first moment, m/s.
     closing_mps: f64,
     /// Greatest intersection over union.
     iou: f64,
 }
 
-/// Least gap and time of both road users: a larger one changes no score of the pair.
+/// Known smallest gap and time of both road users: larger values do not change the score of the pair.
 #[derive(Clone, Copy, Debug)]
 struct PairBounds {
     gap_m: f64,
@@ -107,11 +107,11 @@ struct PairBounds {
 }
 
 impl PairBounds {
-    /// Everything may change it.
+    /// Any value may change the score.
     const NOTHING: Self = Self { gap_m: f64::INFINITY, ttc_s: LOOK_AHEAD_S };
 }
 
-/// Looks at all pairs that the input asks for.
+/// Scores all pairs that the input selects.
 pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
     let movers: Vec<Mover> = input.actors.iter().map(|a| Mover::new(a, input.steps.clone())).collect();
     let movers: Vec<&Mover> = movers.iter().collect();
@@ -158,19 +158,20 @@ impl Meeting {
         Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
     }
 
-    /// Two motions with these bounds come near enough for one.
+    /// Whether two motions with these bounds come near enough for an interaction.
     pub(crate) fn is_possible(input: &ScoreInput<'_>, a: &MoverBounds, b: &MoverBounds) -> bool {
         !a.stay_apart(b, input.thresholds.near_gap_m())
     }
 
-    /// The interaction of two motions regardless of who generated them, without events that the log shows.
+    /// The interaction of two motions regardless of who generated them, without events that the log contains.
     /// `input` gives thresholds and exclusions.
     pub(crate) fn between(
         input: &ScoreInput<'_>,
         (a, mover_a): (&Actor<'_>, &Mover),
         (b, mover_b): (&Actor<'_>, &Mover),
     ) -> Option<Self> {
-        // Only collisions and near misses are needed, so the bounds skip the search for least gap and time.
+        // Only collisions and near misses are needed, so these bounds skip the search for smallest gap and
+        // time.
         let known = PairBounds { gap_m: input.thresholds.near_gap_m(), ttc_s: input.thresholds.ttc_s };
         if !Self::is_possible(input, &mover_a.bounds, &mover_b.bounds) {
             return None;
@@ -182,7 +183,7 @@ impl Meeting {
     }
 }
 
-/// The log itself shows this pair overlapping, or a truck and its trailer.
+/// Whether the pair is excluded: the log shows it overlapping, or it is a truck and its trailer.
 pub(super) fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
     let mut logged = input.steps.clone().filter_map(|step| {
@@ -194,14 +195,14 @@ pub(super) fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) 
     }
     let Some((p, q)) = logged.next() else { return false };
     let overlap = |(p, q): (OrientedBox, OrientedBox)| overlaps(&p, &q, 0.0);
-    // A truck and its trailer are beside each other all the time: few pairs need the long look.
+    // A truck and its trailer are always adjacent, so few pairs need the expensive check.
     let hitched = || log::logged(input, a, b).is_some_and(|(p, q)| company::are_hitched(&p, &q));
     overlap((p, q))
         || (input.exclude == Exclude::OverlapInLog && logged.any(overlap))
         || (circle_gap(&p, &q) <= 0.0 && hitched())
 }
 
-/// Goes through the steps of a pair.
+/// Steps through the motions of a pair.
 fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> Pair {
     let limits = &input.thresholds;
     let mut pair = Pair::default();
@@ -214,14 +215,14 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> P
         }
         let moving = p.speed_mps > limits.moving_mps || q.speed_mps > limits.moving_mps;
         let apart = circle_gap(&p.outline, &q.outline);
-        // The gap matters where it can be a new least, a near miss, or a collision before the next step.
+        // The gap matters if it can be a new minimum, a near miss, or a collision before the next step.
         let gap_m = known.gap_m.min(pair.min_distance_m.unwrap_or(f64::INFINITY)).max(limits.near_gap_m());
         let horizon_s = known.ttc_s.min(pair.min_ttc_s.unwrap_or(LOOK_AHEAD_S)).max(limits.ttc_s);
         let displacement_m = a.max_displacement_m + b.max_displacement_m;
         let matter_m = gap_m.max(displacement_m).max((a.top_mps + b.top_mps) * horizon_s);
         if apart > matter_m + displacement_m {
-            // Nothing matters until the two have come that near.
-            // Two that stand still never come nearer: the quotient is infinite then.
+            // Nothing matters until the two have come that near. Two that stand never come nearer: the
+            // quotient is infinite then.
             next = step.saturating_add(((apart - matter_m) / displacement_m) as usize);
             continue;
         }
@@ -255,7 +256,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: PairBounds) -> P
     }
     pair.near = pair.near.filter(Nearest::lasts);
     if pair.collision.is_some() {
-        // Two that brush each other between two steps are on no course to meet at either.
+        // Two that brush each other between two steps have no collision course at either step.
         pair.min_ttc_s = Some(0.0);
     }
     pair
@@ -265,7 +266,7 @@ pub(super) fn ttc(p: &MoverState, q: &MoverState, horizon_s: f64) -> Option<f64>
     time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, horizon_s)
 }
 
-/// Looks for collisions from this step to just before the next.
+/// Checks for collisions from this step to just before the next.
 fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), step: usize, gap: f64) {
     let displacement_m = |m: &Mover| m.moments.get(step)?.as_ref()?.displacement_m;
     let displacement = displacement_m(a).zip(displacement_m(b)).map(|(p, q)| p + q);
@@ -297,7 +298,7 @@ fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), st
     }
 }
 
-/// That these two touch says nothing: people in company, or recorded cars that both stay parked.
+/// Whether contact of the two means nothing: pedestrians in company, or recorded cars that both stay parked.
 pub(super) fn belong_together(a: &Mover, b: &Mover, step: usize) -> bool {
     let parked = |m: &Mover| !m.generated && m.travel_m < PARKED_M;
     parked(a) && parked(b) || company::walk_together(a, b, step)

@@ -1,4 +1,4 @@
-//! One road user made ready for many pairs.
+//! One road user, prepared for comparison with many others.
 
 use crate::geometry::obb::OrientedBox;
 use crate::geometry::ttc::LOOK_AHEAD_S;
@@ -7,37 +7,37 @@ use crate::score::input::Actor;
 use crate::{AgentType, STEP_S, State};
 use std::ops::Range;
 
-/// Steps to each side over which a turn is measured.
+/// Steps to each side over which a turn rate is measured.
 const TURN_STEPS: usize = 2;
 
-/// One road user made ready for many pairs: its boxes and velocities over the scored steps.
+/// One road user, prepared for comparison with many others: its boxes and velocities over the scored steps.
 #[derive(Debug)]
 pub(crate) struct Mover {
-    /// Box and velocity a scored step.
+    /// Box and velocity per scored step.
     pub moments: Vec<Option<MoverState>>,
     /// Greatest distance from its first place, metres.
     pub travel_m: f64,
-    /// Farthest any point of its box moves from one seen step to the next, metres.
+    /// Greatest displacement of any point of its box between consecutive known steps, metres.
     pub(super) max_displacement_m: f64,
     /// Greatest speed, m/s.
     pub(super) top_mps: f64,
     pub bounds: MoverBounds,
     pub agent_type: AgentType,
-    /// The motion was made, not recorded.
+    /// Whether the motion was generated, not recorded.
     pub generated: bool,
 }
 
-/// Where a road user is over the scored steps, and what it can touch: known without its boxes.
+/// Bounds of a road user's places over the scored steps, and of what it can touch, without its boxes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MoverBounds {
-    /// Holds its boxes at all steps.
+    /// Contains its boxes at all steps.
     pub(crate) places: Option<Rectangle>,
-    /// Holds all it can touch within the look-ahead at constant velocity.
+    /// Contains everything that it can touch within the look-ahead at constant velocity.
     reach: Option<Rectangle>,
 }
 
 impl MoverBounds {
-    /// Of the motion that is scored, over these scene steps.
+    /// Bounds of the scored motion over these scene steps.
     pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
         let radius_m = OrientedBox::of_state(&State::default(), &actor.size).radius_m();
         let states = || steps.clone().filter_map(|step| actor.state(step));
@@ -46,8 +46,8 @@ impl MoverBounds {
         Self { places, reach: rectangle(radius_m, reach) }
     }
 
-    /// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
-    /// their places stay farther apart than the least gaps already known, metres.
+    /// Whether nothing this pair does can change a score. Neither reaches the other within the look-ahead,
+    /// and their places stay farther apart than the known smallest gaps, metres.
     pub(crate) fn stay_apart(&self, other: &Self, known_m: f64) -> bool {
         let clear = |p: Option<Rectangle>, q: Option<Rectangle>| match (p, q) {
             (Some((cp, hp)), Some((cq, hq))) => {
@@ -69,12 +69,12 @@ pub(crate) struct MoverState {
     pub outline: OrientedBox,
     pub velocity: Vec2,
     pub speed_mps: f64,
-    /// Bound on how far any point of the box moves to the next step, metres; none without one.
+    /// Bound of the displacement of any point of the box to the next step, metres; `None` without one.
     pub(super) displacement_m: Option<f64>,
 }
 
 impl Mover {
-    /// Of the motion that is scored, over these scene steps.
+    /// The scored motion over these scene steps.
     pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
         let mut moments: Vec<Option<MoverState>> = Vec::with_capacity(steps.len());
         let (mut max_displacement_m, mut top_mps) = (0.0_f64, 0.0_f64);
@@ -122,7 +122,7 @@ impl Mover {
         }
     }
 
-    /// Box between two steps, `part` from 0 to 1 of the way; places and headings change evenly.
+    /// Box between two steps at a share of 0 to 1; position and heading are interpolated linearly.
     pub(super) fn between(&self, step: usize, part: f64) -> Option<OrientedBox> {
         let from = self.moments.get(step)?.as_ref()?.outline;
         if part == 0.0 {
@@ -135,19 +135,19 @@ impl Mover {
     }
 }
 
-/// The turn from one box to the next, at most a quarter: detectors take the front for the back at times, and a box that
-/// is turned by half is the same one.
+/// The turn between two boxes, at most a quarter turn. Detectors sometimes confuse front and back, and a box
+/// turned by half is the same box.
 fn turn_rad(from: &OrientedBox, to: &OrientedBox) -> f64 {
     0.5 * wrap_angle(2.0 * (to.heading_rad() - from.heading_rad()))
 }
 
-/// Bound on how far any point of the box moves from the first moment to the second, metres.
+/// Bound of the displacement of any point of the box from the first moment to the second, metres.
 fn displacement(from: &MoverState, to: &MoverState) -> f64 {
     let turn = turn_rad(&from.outline, &to.outline).abs();
     (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }
 
-/// Upright rectangle about circles with this radius, each moved from here to there.
+/// Upright rectangle around circles of this radius, each moved between two points.
 fn rectangle(radius_m: f64, moved: impl Iterator<Item = (Vec2, Vec2)>) -> Option<Rectangle> {
     let centers = Extent::about(moved.flat_map(|(p, shift)| [p, p + shift]))?;
     let about = centers.grown(radius_m);

@@ -1,4 +1,4 @@
-//! Conditions under which a moment of two road users is a near miss.
+//! Conditions under which two road users have a near miss at a moment.
 
 use super::mover::{Mover, MoverState};
 use crate::geometry::obb::{OrientedBox, circle_gap, overlaps};
@@ -7,28 +7,28 @@ use crate::score::input::Thresholds;
 use crate::{AgentType, STEP_S};
 use std::f64::consts::FRAC_PI_6;
 
-/// A road user that stays within this of its first place all the time is parked, metres.
+/// A road user that always stays within this distance of its first place is parked, metres.
 pub(in crate::score) const PARKED_M: f64 = 1.0;
-/// Beside pedestrians, slower vehicles crawl, m/s: a pedestrian keeps clear of them without haste.
+/// Speed below which a vehicle beside pedestrians crawls, m/s: a pedestrian can easily keep clear of it.
 const CRAWL_MPS: f64 = 1.5;
 
-/// A parked road user is passed nearer than others: cars stand beside every lane, metres.
+/// Gap for passing a parked road user, smaller than for others because cars stand beside every lane, metres.
 pub(in crate::score) const BRUSH_M: f64 = 0.15;
 
-/// A gap counts as no less than this where it divides, metres.
+/// Lower bound of a gap as a divisor, metres.
 pub(super) const LEAST_GAP_M: f64 = 0.05;
-/// Cosine of the angle within which one that follows has the other ahead of it.
+/// Cosine of the angle within which a follower has the other ahead of it.
 const AHEAD: f64 = 0.7;
 
-/// A collision course of fewer steps ends by a turn that just begins, and is no near miss.
+/// A collision course of fewer steps is about to end by a turn, so it is no near miss.
 const LEAST_COURSE: usize = 3;
 
-/// What makes a moment a near miss.
+/// Reason of a near miss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NearMissKind {
     /// The gap: one crosses close to the other.
     Gap,
-    /// The course: they meet if both go on.
+    /// The course: they would collide if both continued.
     Course,
 }
 
@@ -56,7 +56,7 @@ impl Nearest {
         }
     }
 
-    /// Whether the near miss is more than a moment of a turn.
+    /// Whether the near miss lasts longer than a moment of a turn.
     pub(super) fn lasts(&self) -> bool {
         self.crosses || self.steps >= LEAST_COURSE
     }
@@ -75,11 +75,11 @@ impl Side<'_> {
         self.mover.agent_type == AgentType::Pedestrian
     }
 
-    /// Where it is in `time_s` if it keeps its speed and goes on turning as it does.
+    /// Its box after `time_s` at constant speed and turn rate.
     pub(super) fn later(&self, turn_rate_radps: f64, time_s: f64) -> OrientedBox {
         let outline = &self.moment.outline;
         let turned = turn_rate_radps * time_s;
-        // Along an arc the way is that of the chord, which lies half the turn off.
+        // Along an arc, the displacement has the direction of the chord, half the turn off.
         let half = 0.5 * turned;
         let chord = if half.abs() < 1e-6 { 1.0 } else { half.sin() / half };
         let center = outline.center() + rotate(self.moment.velocity * (time_s * chord), half);
@@ -92,7 +92,7 @@ impl Side<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub gap_m: f64,
-    /// From the first to the second, a unit vector.
+    /// Unit vector from the first to the second.
     pub towards: Vec2,
     /// Time to collision at constant velocity, seconds, if there is one.
     pub ttc_s: Option<f64>,
@@ -100,10 +100,11 @@ pub(super) struct Gap {
     pub closing_mps: f64,
 }
 
-/// A near miss: both move (or one stands in the way for a while), the gap shrinks fast, and either they
-/// meet within the time threshold if both go on as they do, round their bends too, or one crosses close
-/// to the other; or made motion all but brushes another at speed. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
-/// passes beside another on its own line, and one that brakes normally behind another.
+/// A near miss: both move (or one stands in the way for a while) and the gap shrinks fast. Either they would
+/// collide within the time threshold if both continued, around their bends too, or one crosses close to the
+/// other. Generated motion that almost brushes another at speed also counts. Excluded are two walkers, parked
+/// cars, wheels that stand or crawl beside people, a road user that passes beside another on its own line,
+/// and one that brakes normally behind another.
 pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<NearMissKind> {
     let made = a.mover.generated || b.mover.generated;
     let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
@@ -135,18 +136,18 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(NearMissKind::Course)
 }
 
-/// One of the two is behind the other on the same way.
+/// Whether one of the two is behind the other in the same direction.
 pub(super) fn follows(a: &MoverState, b: &MoverState, towards: Vec2) -> bool {
     let turn = wrap_angle(a.outline.heading_rad() - b.outline.heading_rad()).abs();
     turn < FRAC_PI_6 && towards.dot(&direction(a.outline.heading_rad())).abs() > AHEAD
 }
 
-/// The two touch within this time if both keep their speeds and turn rates.
+/// Whether the two touch within this time at constant speeds and turn rates.
 pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
     meeting_s(a, b, time_s).is_some()
 }
 
-/// Seconds until the two touch if both keep their speeds and turn rates, at most `time_s`; checked step by step.
+/// Seconds until the two touch at constant speeds and turn rates, at most `time_s`; checked step by step.
 pub(super) fn meeting_s(a: Side<'_>, b: Side<'_>, time_s: f64) -> Option<f64> {
     let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
     let both_m = (a.moment.speed_mps + b.moment.speed_mps) * STEP_S;
@@ -158,7 +159,7 @@ pub(super) fn meeting_s(a: Side<'_>, b: Side<'_>, time_s: f64) -> Option<f64> {
         if overlaps(&later_a, &later_b, 0.0) {
             return Some(later_s);
         }
-        // Two apart do not touch before they have gone what lies between them: those steps need no look.
+        // Two separate boxes cannot touch before they have covered the gap, so those steps are skipped.
         let apart_m = circle_gap(&later_a, &later_b).max(0.0);
         step = step.saturating_add(((apart_m / both_m) as usize).max(1));
     }

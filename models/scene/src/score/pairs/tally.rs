@@ -1,4 +1,4 @@
-//! Results of the pairs so far: the least values of each road user, and the events.
+//! Running results of the pairs: the smallest values of each road user, and the events.
 
 use super::{Measures, Meeting, Mover, PairBounds, PairScores, PairTotals, is_excluded, log, look_at};
 use crate::STEP_S;
@@ -8,14 +8,14 @@ use crate::score::input::{Actor, PairChoice, ScoreInput};
 use crate::score::pet::post_encroachment_s;
 use crate::score::report::{BoxOverlap, Collision, Encounter, NearMiss};
 
-/// A least value of one road user, and the other road user of that pair.
+/// A smallest value of one road user, and the other road user of that pair.
 #[derive(Clone, Copy, Debug)]
 struct Least {
     value: f64,
     with: usize,
 }
 
-/// The least values of one road user over its pairs.
+/// The smallest values of one road user over its pairs.
 #[derive(Clone, Copy, Debug, Default)]
 struct Leasts {
     ttc_s: Option<Least>,
@@ -29,19 +29,19 @@ impl Leasts {
     }
 }
 
-/// A pair that overlaps or meets.
+/// A pair that overlaps or interacts.
 #[derive(Clone, Debug)]
 struct PairEvent {
     pair: (usize, usize),
-    /// The boxes overlap at a step, however little.
+    /// Whether the boxes overlap at a step, however little.
     overlaps: bool,
     meeting: Option<Meeting>,
     in_log: bool,
-    /// Where the pair meets, with its measures and those of its recording.
+    /// Place of the interaction, with its measures and those of its recording.
     measured: Option<(Vec2, Measures, Option<Measures>)>,
 }
 
-/// Totals over pairs so far. The order of the pairs changes nothing.
+/// Totals over pairs so far, independent of the order of the pairs.
 #[derive(Clone, Debug, Default)]
 pub(in crate::score) struct PairTally {
     leasts: Vec<Leasts>,
@@ -49,7 +49,7 @@ pub(in crate::score) struct PairTally {
 }
 
 impl PairTally {
-    /// Of all pairs that the input asks for.
+    /// The tally of all pairs that the input selects.
     pub(in crate::score) fn of_all(input: &ScoreInput<'_>, movers: &[&Mover]) -> Self {
         let mut tally = Self { leasts: vec![Leasts::default(); movers.len()], events: Vec::new() };
         for i in 0..movers.len() {
@@ -60,8 +60,8 @@ impl PairTally {
         tally
     }
 
-    /// Of all pairs where some road users have changed, left or come. `was` says which one of this tally's each of
-    /// the input's is, where it is as it was; their order has not changed.
+    /// The tally after some road users have changed, left or entered. `was` gives the index in this tally of
+    /// each unchanged one; their order has not changed.
     pub(in crate::score) fn changed(
         &self,
         input: &ScoreInput<'_>,
@@ -107,7 +107,7 @@ impl PairTally {
         tally
     }
 
-    /// What cannot change a score of these two any more.
+    /// Bounds beyond which nothing can change the score of these two.
     fn known(&self, (i, j): (usize, usize)) -> PairBounds {
         let larger = |of: fn(&Leasts) -> Option<Least>, most: f64| {
             let value = |k: usize| of(&self.leasts[k]).map_or(most, |l| l.value);
@@ -119,7 +119,7 @@ impl PairTally {
         }
     }
 
-    /// Looks at one pair; what happens in it is noted only where that is not known already.
+    /// Evaluates one pair; its events are recorded only if they are not known already.
     fn add(&mut self, input: &ScoreInput<'_>, movers: &[&Mover], pair: (usize, usize), note: bool) {
         let (i, j) = pair;
         let known = self.known(pair);
@@ -139,7 +139,7 @@ impl PairTally {
             let values = [found.min_ttc_s, found.min_distance_m, pet_s];
             for (least, value) in leasts.all_mut().into_iter().zip(values) {
                 let Some(value) = value else { continue };
-                // Of equal values the first pair's, whatever the order of the pairs.
+                // Among equal values the first pair's, whatever the order of the pairs.
                 if least.is_none_or(|l| value < l.value || value == l.value && with < l.with) {
                     *least = Some(Least { value, with });
                 }
@@ -148,7 +148,7 @@ impl PairTally {
         let meeting = Meeting::of(&found, input.steps.start);
         if note && (found.overlaps || meeting.is_some()) {
             let in_log = meeting.is_some() && log::is_in_log(input, a, b, &found);
-            // Boxes may meet between two steps: the one after it shows them met.
+            // Boxes may touch between two steps; the following step shows it.
             let steps = |m: Meeting| (m.time_s() / STEP_S - 1e-6).ceil() as usize;
             let step = meeting.map(|m| steps(m).saturating_sub(input.steps.start));
             let measured = step.and_then(|step| measured(input, (a, movers[i]), (b, movers[j]), step));
@@ -156,7 +156,7 @@ impl PairTally {
         }
     }
 
-    /// What all pairs come to.
+    /// The results of all pairs.
     pub(in crate::score) fn scores(self, input: &ScoreInput<'_>) -> PairScores {
         let value = |least: Option<Least>| least.map(|l| l.value);
         let totals = |l: &Leasts| PairTotals {
@@ -205,7 +205,8 @@ impl PairTally {
     }
 }
 
-/// Between the two at a step of their meeting, with the measures of their motions and of their recordings.
+/// Midpoint of the two at a step of their interaction, with the measures of their motions and of their
+/// recordings.
 fn measured(
     input: &ScoreInput<'_>,
     (a, mover_a): (&Actor<'_>, &Mover),

@@ -32,8 +32,8 @@ fn parked(id: &'static str, x: f64, y: f64) -> Actor<'static> {
 #[test]
 fn rear_end_collision() {
     let found = plain(vec![car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0)]);
-    // 20 m between the bumpers, 10 m/s: contact after 2 s, and the first quarter step
-    // in which they share area is at 2.025 s.
+    // 20 m between the bumpers at 10 m/s: contact after 2 s, and the first quarter step in which they share
+    // area is at 2.025 s.
     assert_eq!(found.collisions.len(), 1);
     let crash = &found.collisions[0];
     assert_eq!((crash.a.as_str(), crash.b.as_str(), crash.time_s), ("a", "b", 2.025));
@@ -45,12 +45,12 @@ fn rear_end_collision() {
 
 #[test]
 fn collision_between_two_steps() {
-    // Two walkers' boxes pass through a corner of each other between steps: only the substep sees it.
+    // Two walkers' boxes pass through a corner of each other between steps: only the substep detects it.
     let fast = |id, x: f64, y: f64, h| straight(id, Pedestrian, (x, y), h, 40.0);
     let found = plain(vec![fast("a", -2.0, 0.0, 0.0), fast("b", 0.0, -2.0, FRAC_PI_2)]);
     assert_eq!(found.collisions.len(), 1);
     assert_eq!(found.collisions[0].time_s, 0.05);
-    // At no step were they about to meet.
+    // At no step were they on a collision course.
     assert_eq!(found.agents.iter().map(|a| a.min_ttc_s).collect::<Vec<_>>(), [Some(0.0); 2]);
 }
 
@@ -96,7 +96,7 @@ fn recorded<'a>(actor: &'a Actor<'a>) -> Actor<'a> {
     Actor { generated: false, log: Some(&actor.track), ..actor.clone() }
 }
 
-/// Made motion over a recording.
+/// Generated motion over a recording.
 fn made<'a>(actor: &Actor<'a>, log: &'a Actor<'a>) -> Actor<'a> {
     Actor { log: Some(&log.track), ..actor.clone() }
 }
@@ -133,7 +133,7 @@ fn a_made_near_miss_is_in_the_log_only_where_the_recording_shows_it_too() {
 fn people_who_walk_in_company_do_not_collide() {
     let walk = |id, x, y, h, v| straight(id, Pedestrian, (x, y), h, v);
     let hits = |actors| plain(actors).collisions.len();
-    // Side by side, behind each other, a group of three, two that stand and talk: their boxes touch.
+    // Side by side, behind each other, a group of three, two standing in conversation: their boxes touch.
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4)]), 0);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", -1.0, 0.0, 0.0, 1.45)]), 0);
     let third = walk("c", -0.5, 0.4, 0.0, 1.4);
@@ -164,10 +164,10 @@ fn a_truck_and_its_trailer_do_not_collide() {
     };
     let (mut a, mut b) = (recorded(&truck), recorded(&trailer));
     assert_eq!(hits(&a, &b), 0);
-    // In made motion they are still a truck and its trailer.
+    // In generated motion they are still a truck and its trailer.
     (a.generated, b.generated) = (true, true);
     assert_eq!(hits(&a, &b), 0);
-    // Two cars of a queue that stands are not: made to drive on, one hits the other.
+    // Two cars of a standing queue are not: generated motion makes one hit the other.
     let (front, back) = (parked("a", 4.3, 0.0), parked("b", 0.0, 0.0));
     assert_eq!(hits(&recorded(&front), &made(&car("b", 0.0, 0.0, 0.0, 3.0), &back)), 1);
 }
@@ -209,13 +209,13 @@ fn a_bus_that_stands_or_crawls_beside_a_walker_is_no_near_miss() {
         (found.near_misses.len(), found.collisions.len())
     };
     assert_eq!((misses(0.6).0, misses(1.3).0), (0, 0));
-    // Rolling past at 4 m/s, a walker in its way is touched.
+    // Rolling past at 4 m/s, it touches a walker in its way.
     assert_eq!(misses(4.0), (0, 1));
 }
 
 #[test]
 fn a_car_that_turns_goes_round_those_ahead_of_it() {
-    // East at 6 m/s, a quarter turn to the left, then north, past the nose of one that waits to go on.
+    // East at 6 m/s, a quarter turn to the left, then north, past the front of one that waits.
     let turning = |i: usize| {
         let way = 6.0 * STEP_S * i as f64 - 12.0;
         let h = (way / 10.0).clamp(0.0, FRAC_PI_2);
@@ -258,7 +258,7 @@ fn only_regenerated_pairs() {
 
 #[test]
 fn a_light_touch_is_a_collision_and_never_a_near_miss() {
-    // b crosses behind a: up to 2 m of a's rear corner are in the way of its front.
+    // b crosses behind a: up to 2 m of a's rear corner are in front of b.
     let crossing = |y: f64, iou: f64| {
         let actors = vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, y, FRAC_PI_2, 10.0)];
         scored(actors, |input| input.thresholds.iou = iou)
@@ -362,7 +362,7 @@ fn gaps_in_a_track_are_skipped() {
     assert!(found.agents[0].min_ttc_s.unwrap() > 2.5);
 }
 
-/// The shortcuts change nothing: every step of every pair looked at in full gives the same figures.
+/// The shortcuts change nothing: a full evaluation of every step of every pair gives the same figures.
 #[test]
 fn shortcuts_are_exact() {
     let names = ["a", "b", "c", "d", "e", "f", "g", "h"];
@@ -398,13 +398,13 @@ fn shortcuts_are_exact() {
     }
 }
 
-/// The same of the course: those left out are steps at which the two do not touch.
+/// The same for courses: the two do not touch at the skipped steps.
 #[test]
 fn a_course_is_looked_at_wherever_they_may_touch() {
     let (mut meet, mut pass) = (0, 0);
     for seed in 0..400 {
         let some = |k: f64, range: f64| ((f64::from(seed) + 0.7) * k).sin() * range;
-        // Two that come towards each other, more or less, each on a bend: the heading turns with each step.
+        // Two on roughly opposite courses, each in a bend: the heading turns with each step.
         let mover = |k: f64, x_m: f64, heading_rad: f64| {
             let (x_m, y_m) = (x_m + some(k, 8.0), some(k * 7.3, 6.0));
             let mut actor = car("a", x_m, y_m, heading_rad + some(k * 3.1, 0.5), some(k * 5.7, 12.0).abs());
@@ -431,7 +431,7 @@ fn a_course_is_looked_at_wherever_they_may_touch() {
 
 #[test]
 fn a_box_whose_front_and_back_are_exchanged_does_not_turn() {
-    // Beside each other with a metre between, and long: half a turn would sweep over the other one.
+    // Side by side with a metre between them, and long: half a turn would sweep over the other.
     let mut flips = car("a", 0.0, 0.0, 0.0, 0.0);
     for state in flips.track.to_mut().states.iter_mut().flatten().skip(1).step_by(2) {
         state.heading_rad = PI;

@@ -2,7 +2,7 @@ use super::{OURS, STEPS, StoreError, take};
 use rusqlite::Connection;
 use std::path::Path;
 
-/// A step as a later version could add one; it leaves a trace each time that it runs.
+/// A step of a later version; it leaves a trace each time it runs.
 const NEXT: &str = "CREATE TABLE IF NOT EXISTS trace (step TEXT); INSERT INTO trace VALUES ('next');";
 const LAST: &str = "ALTER TABLE scenes ADD COLUMN stars INTEGER NOT NULL DEFAULT 0;
     INSERT INTO trace VALUES ('last');";

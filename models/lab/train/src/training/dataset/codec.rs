@@ -1,4 +1,4 @@
-//! Little-endian numbers to and from bytes.
+//! Little-endian encoding of numbers.
 
 /// Bytes being written.
 #[derive(Default)]
@@ -86,7 +86,7 @@ impl<'a> Cursor<'a> {
         Ok(self.array::<1>()?[0])
     }
 
-    /// Nothing may be left.
+    /// Checks that nothing is left.
     pub(super) fn end(&self) -> Result<(), String> {
         match self.bytes.len() - self.at {
             0 => Ok(()),

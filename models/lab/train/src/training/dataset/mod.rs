@@ -1,13 +1,17 @@
 //! Training records on disk and in memory.
 //!
-//! A file is: the magic bytes, ten `u32` dimensions (so that a file of other features is refused),
-//! then blocks of one tag byte, a `u32` length and that many bytes: `M` a scene's map pieces, `R` a
-//! record of the scene before it, one `P` with where they come from ([`crate::provenance`], JSON), and one `E` with the counts and the BLAKE3 hash of all before it.
+//! A file begins with the magic bytes and ten `u32` dimensions, so that a file of other features is refused.
+//! Blocks of one tag byte, a `u32` length and that many bytes follow:
+//! - `M`: a scene's map pieces.
+//! - `R`: a record of the preceding scene.
+//! - `P`: the provenance of the records ([`crate::provenance`], JSON), once.
+//! - `E`: the counts and the BLAKE3 hash of everything before it, at the end.
+//!
 //! Numbers are little endian; arrays are `f32` in the order of the structs' fields.
 //!
-//! Not safetensors: its header comes first and names every tensor's length, so scenes could not be appended as they
-//! are read, and records (0 to 24 neighbours, 0 to 48 pieces, paths of 2 to 160 points) would be padded or cut into
-//! tensors with tables of offsets of their own.
+//! Safetensors is no alternative. Its header comes first and has every tensor's length, so scenes could not
+//! be appended as they are read. Records (0 to 24 neighbours, 0 to 48 pieces, paths of 2 to 160 points) would
+//! be padded or cut into tensors with offset tables.
 
 mod codec;
 mod read;
@@ -22,31 +26,30 @@ use experts::planning::{INSTANTS, MODES, RESIDUAL};
 
 /// Most neighbours with recorded boxes for the overlap energy.
 pub const BOXES: usize = 16;
-/// Most points of an anchor's path, one a metre.
+/// Most points of an anchor's path, one per metre.
 pub const PATH_POINTS: usize = 160;
 
 const MAGIC: &[u8; 8] = b"DTRECS4\n";
-/// First bytes of files from the version before, which do not say where a road user is in its scene.
+/// First bytes of files of the previous version, which lack the position of a road user in its scene.
 const MAGIC_BEFORE: &[u8; 8] = b"DTRECS3\n";
 const DIMENSIONS: [usize; 10] =
     [MODES, INSTANTS, RESIDUAL, OWN, PIECES, PIECE, PIECE_POSE, NEIGHBOURS, NEIGHBOUR, ANCHOR];
 
-/// A neighbour as it was recorded, in the road user's frame at t = 0.
+/// A recorded neighbour, in the road user's frame at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedBox {
-    /// Centre x, centre y, cosine and sine of the heading at each instant; all zero where nothing
-    /// was recorded.
+    /// Centre x, centre y, cosine and sine of the heading at each instant; all zero if nothing was recorded.
     pub poses: [[f32; 4]; INSTANTS],
     /// Half length and half width, metres.
     pub half: [f32; 2],
-    /// Number of the road user in its scene.
+    /// Index of the road user in its scene.
     pub number: u32,
 }
 
-/// The path of an anchor, one point a metre, in the road user's frame at t = 0.
+/// The path of an anchor, one point per metre, in the road user's frame at t = 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnchorPath {
-    /// TrainProgress of the first point, metres on the scale of [`GroundTruth::base_along`]; may be negative.
+    /// Progress of the first point, metres on the scale of [`GroundTruth::base_along`]; may be negative.
     pub start: f32,
     /// At least two and at most [`PATH_POINTS`] points (x, y).
     pub points: Vec<[f32; 2]>,
@@ -55,13 +58,13 @@ pub struct AnchorPath {
 /// One road user under one choice of conditions.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Number of the road user in its scene.
+    /// Index of the road user in its scene.
     pub number: u32,
-    /// Its frame at t = 0 in the scene's: x and y, cosine and sine of the heading.
+    /// Its frame at t = 0 in the scene: x and y, cosine and sine of the heading.
     pub place: [f32; 4],
     /// Inputs of the expert.
     pub agent: AgentFeatures,
-    /// Map pieces that a baseline sees. Indices are those of the scene's pieces.
+    /// Map pieces that a baseline sees, by their indices in the scene.
     pub pieces: Vec<SeenPiece>,
     /// Recorded future.
     pub target: GroundTruth,
@@ -69,11 +72,11 @@ pub struct Record {
     pub boxes: Vec<LoggedBox>,
     /// The road user's own half length and half width, metres.
     pub half: [f32; 2],
-    /// Metres from the point that follows the path forward to the centre of the box.
+    /// Distance from the point that follows the path forward to the centre of the box, metres.
     pub centre_ahead: f32,
-    /// One path a mode.
+    /// One path per mode.
     pub paths: Box<[AnchorPath; MODES]>,
-    /// Relative chance of being drawn in training, above 0; 1 for an ordinary record.
+    /// Relative probability of being drawn in training, above 0; 1 for an ordinary record.
     pub weight: f32,
 }
 

@@ -1,4 +1,4 @@
-//! Files into records.
+//! Reads files of records.
 
 use super::codec::Cursor;
 use super::{AnchorPath, BOXES, DIMENSIONS, LoggedBox, MAGIC, MAGIC_BEFORE, PATH_POINTS, Record, check};
@@ -92,7 +92,7 @@ pub struct Records {
 }
 
 impl Records {
-    /// Reads files whole and checks their hashes and every record.
+    /// Reads complete files and checks their hashes and every record.
     ///
     /// # Errors
     /// When a file cannot be read, is damaged, or was written for other features.
@@ -231,7 +231,7 @@ impl Records {
     /// Decodes a record.
     ///
     /// # Errors
-    /// Never for an index below [`Records::len`]: all were checked when they were loaded.
+    /// Never for an index below [`Records::len`]: all records were checked when they were loaded.
     pub fn get(&self, index: usize) -> Result<Record, TrainError> {
         let entry = &self.entries[index];
         decode(&self.files[entry.file][entry.at.clone()]).map_err(TrainError::Invalid)

@@ -1,4 +1,4 @@
-//! Records into a file.
+//! Writes records to a file.
 
 use super::codec::Sink;
 use super::{DIMENSIONS, MAGIC, Record, check};
@@ -48,8 +48,8 @@ impl RecordWriter {
         self.provenance.merge(more);
     }
 
-    /// Adds a scene. `key` decides, by its hash, whether the scene is held out for validation: scenes that
-    /// must stay together (cut from one place) share a key. Pieces that no road user sees are dropped.
+    /// Adds a scene. The hash of `key` decides whether the scene is held out for validation: scenes that must
+    /// stay together (windows of one place) share a key. Pieces that no road user sees are dropped.
     ///
     /// # Errors
     /// When a record breaks the limits of its struct, or the file cannot be written.
