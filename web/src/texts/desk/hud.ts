@@ -25,7 +25,7 @@ export const TEXTS = table('hud', {
   stepsOfOther: (n: number) =>
     plural(n, { one: `Steps of ${n} other scene deleted. `, other: `Steps of ${n} other scenes deleted. ` }),
   stillNoSpace: 'Still no space: export this scene.',
-  savedAgain: 'This scene is saved again.',
+  savedAgain: 'Saving works again.',
   noRoomLeftOn: 'No space left on this computer for saving.',
   export: 'Export',
   freeSpace: 'Free space',

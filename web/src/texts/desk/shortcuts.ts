@@ -2,9 +2,9 @@ import { table } from '../table';
 
 export const TEXTS = table('shortcuts', {
   addOneOrTake: 'Add or remove one',
-  marqueeSelect: 'Marquee select',
+  marqueeSelect: 'Select in a rectangle',
   dragOverTheGround: 'drag over the ground',
-  addOrSubtractMarquee: 'Add or subtract marquee',
+  addOrSubtractMarquee: 'Add or remove those in a rectangle',
   pan: 'Pan',
   zoom: 'Zoom',
   dragACopy: 'Drag a copy',
@@ -48,7 +48,7 @@ export const TEXTS = table('shortcuts', {
   withAGoalOrVia: 'With a goal that breaks a rule, or a via point',
   whileRounds: 'While rounds are open',
   whileVariants: 'While variants or cases are open',
-  whileMap: 'While a map is made, or without road users',
+  whileMap: 'While making a map, or without road users',
   click: 'click',
   drag: 'drag',
   wheel: 'wheel',

@@ -23,8 +23,8 @@ export const TEXTS = table('agent', {
   /** Before the name of a field, where the context does not name the goal. */
   ofTheGoal: 'Goal ',
   time: 'Time',
-  timeAtTheGoal: 'Time at the goal in seconds',
-  undo: (words: string) => `${words}: undo`,
+  timeAtTheGoal: 'Goal time in seconds',
+  undo: (words: string) => `Undo: ${words}`,
   position: 'Position',
   positionWithin: 'position',
   fixed: (word: string, label: string) => `${word} ${label} fixed`,

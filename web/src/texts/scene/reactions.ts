@@ -11,6 +11,6 @@ export const TEXTS = table('reactions', {
   slowsTo: (speed: string, whom: string, behind: boolean) => `slows to ${speed} ${behind ? 'behind' : 'for'} ${whom}`,
   stopsBriefly: (whom: string, behind: boolean) => `stops briefly ${behind ? 'behind' : 'for'} ${whom}`,
   speedsUpFor: (name: string) => `speeds up ahead of ${name}`,
-  staysOut: (name: string) => `does not appear, ${name} is in its place`,
+  staysOut: (name: string) => `does not appear: ${name} is in its place`,
   keepsClearOf: (name: string, behind: boolean) => (behind ? `stays behind ${name}` : `keeps clear of ${name}`),
 });

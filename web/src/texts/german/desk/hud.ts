@@ -30,7 +30,7 @@ export const german: Said<typeof TEXTS> = {
       other: `Schritte von ${n} anderen Szenen gelöscht. `,
     }),
   stillNoSpace: 'Noch immer kein Speicherplatz: diese Szene exportieren.',
-  savedAgain: 'Diese Szene wird wieder gesichert.',
+  savedAgain: 'Das Sichern ist wieder möglich.',
   noRoomLeftOn: 'Auf diesem Rechner ist kein Speicherplatz mehr frei.',
   export: 'Exportieren',
   freeSpace: 'Platz schaffen',

@@ -5,7 +5,7 @@ export const german: Said<typeof TEXTS> = {
   addOneOrTake: 'Einen hinzufügen oder entfernen',
   marqueeSelect: 'Mit Rahmen auswählen',
   dragOverTheGround: 'über freie Fläche ziehen',
-  addOrSubtractMarquee: 'Rahmen hinzufügen oder abziehen',
+  addOrSubtractMarquee: 'Im Rahmen hinzufügen oder entfernen',
   pan: 'Verschieben',
   zoom: 'Vergrößern',
   dragACopy: 'Kopie ziehen',

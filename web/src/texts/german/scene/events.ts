@@ -22,7 +22,7 @@ export const german: Said<typeof TEXTS> = {
   nearMiss: 'Beinahe-Unfall',
   goalMissed: 'Ziel verfehlt',
   ttc: (ttc) => `TTC ${ttc} s`,
-  closingAt: (extent) => `Aufprall mit ${extent}`,
+  closingAt: (extent) => `Annäherung mit ${extent}`,
   at: (extent) => `mit ${extent}`,
   inTheLog: (words) => `${words} · in der Aufzeichnung`,
   ttcTo: (ttc, other) => `TTC ${ttc} s zu ${other}`,
