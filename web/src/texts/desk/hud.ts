@@ -79,7 +79,7 @@ export const TEXTS = table('hud', {
   computingFutures: 'Computing futures …',
   loadingTheScene: 'Loading the scene …',
   youCanKeepDragging: ' You can keep dragging.',
-  thisTakesLonger: (ms: string, keep: string) => `This takes longer than usual (${ms} s).${keep}`,
+  thisTakesLonger: (ms: string, keep: string) => `This is taking longer than usual (${ms} s).${keep}`,
   generatorOfflineWaiting: (n: number) =>
     plural(n, { one: `Generator offline · ${n} change waiting`, other: `Generator offline · ${n} changes waiting` }),
   generatorOffline: 'Generator offline',

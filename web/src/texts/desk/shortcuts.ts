@@ -19,7 +19,7 @@ export const TEXTS = table('shortcuts', {
   nudge1M: 'Nudge 1 m',
   chooseFuture: 'Choose future A to F',
   alongTheLane1: '1 m along the lane',
-  toTheNextLane: 'Move to the next lane',
+  toTheNextLane: 'Move to the left, right lane',
   turn1: 'Turn 1°',
   turn15: 'Turn 15°',
   slowerFaster: 'Slower, faster',

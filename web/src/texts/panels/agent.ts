@@ -78,7 +78,7 @@ export const TEXTS = table('agent', {
   reached: 'Reached',
   at: (name: string, placeWord: string, time: string) => `${name}: ${placeWord} at ${time}`,
   playheadTo: (at: string) => `Playhead to ${at}`,
-  snapToNearest: 'Snap to nearest lane',
+  snapToNearest: 'Move to the nearest lane',
   futuresAreOut: 'Futures are out of date',
   computedAgainLater: 'They are computed again once the generator answers.',
   thereIsNoLane: 'No lane here',

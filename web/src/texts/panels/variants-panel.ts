@@ -72,7 +72,7 @@ export const TEXTS = table('variants-panel', {
   of: (done: number, ofIt: number) => `${done} of ${ofIt}`,
   resume: 'Resume',
   pause: 'Pause',
-  stopKeep: (done: number) => `Stop, keep ${done}`,
+  stopKeep: (done: number) => `Stop and keep ${done}`,
   stop: 'Stop',
   numberOfVariants: 'Number of variants',
   new: 'new',

@@ -16,7 +16,7 @@ export const TEXTS = table('events', {
   failsToYield: 'Fails to yield',
   forcesBraking: 'Forces hard braking',
   waited: 'Pedestrian delay',
-  otherBrakes: 'Braking of the other road user',
+  otherBrakes: 'Forced braking',
   nearMiss: 'Near miss',
   goalMissed: 'Goal missed',
   ttc: (ttc: string) => `TTC ${ttc} s`,

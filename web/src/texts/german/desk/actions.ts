@@ -162,7 +162,7 @@ export const german: Said<typeof TEXTS> = {
   previousCard: 'Voriger Vorschlag',
   nextCard: 'Nächster Vorschlag',
   nextRound: 'Nächste Runde',
-  keepOrReject: 'Erst einen Vorschlag behalten oder verwerfen, oder einen Wunsch angeben.',
+  keepOrReject: 'Erst einen Vorschlag behalten oder verwerfen oder einen Wunsch angeben.',
   takeThisCard: 'Diesen Vorschlag übernehmen',
   endRounds: 'Runden beenden',
   keepAsVariants: 'Als Varianten behalten',

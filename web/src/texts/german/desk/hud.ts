@@ -14,7 +14,7 @@ export const german: Said<typeof TEXTS> = {
     }),
   keepEditingChangesWill: 'Weiterarbeiten ist möglich: Änderungen werden auf diesem Rechner gesichert.',
   tryingAgainIn: (changes: string) => `${changes} Neuer Versuch in`,
-  theGenerator: 'Der Generator antwortet nicht. Nichts ist verloren.',
+  theGenerator: 'Der Generator antwortet nicht. Nichts geht verloren.',
   tryNow: 'Jetzt versuchen',
   nothingIsOverwritten: 'Bis zur Wahl wird nichts überschrieben.',
   thisSceneWas: 'Diese Szene wurde anderswo geändert.',

@@ -18,7 +18,7 @@ export const german: Said<typeof TEXTS> = {
   failsToYield: 'Vorrang missachtet',
   forcesBraking: 'Zwingt zu starkem Bremsen',
   waited: 'Wartezeit des Fußgängers',
-  otherBrakes: 'Bremsung des anderen',
+  otherBrakes: 'Erzwungenes Bremsen',
   nearMiss: 'Beinahe-Unfall',
   goalMissed: 'Ziel verfehlt',
   ttc: (ttc) => `TTC ${ttc} s`,
