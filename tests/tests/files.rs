@@ -394,9 +394,9 @@ fn a_recording_of_a_folder_is_read_with_its_tables_and_map() {
     let converted = run(&["convert", &at("00_tracks.csv"), "-o", &at("out.json")]);
     let said = String::from_utf8_lossy(&converted.stderr).into_owned();
     assert_eq!(converted.status.code(), Some(0), "{said}");
-    let files = "files-beside: 3 files of the same folder are read with the table: 00_recordingMeta.csv, 00_tracksMeta.csv, \
+    let files = "files-beside: 3 files from the same folder are read with the table: 00_recordingMeta.csv, 00_tracksMeta.csv, \
                  place.xodr";
-    assert!(said.contains(files) && said.contains("100 % of the vehicle positions"), "{said}");
+    assert!(said.contains(files) && said.contains("100% of the vehicle positions"), "{said}");
     is_whole(&json(at("out.json")));
     std::fs::remove_file(at("out.json")).unwrap();
     // A folder gives its recordings; the map is not a scene of its own.

@@ -46,7 +46,7 @@ fn a_program_that_fails_is_told() {
         command.env(VARIABLE, std::env::current_exe().unwrap());
     });
     assert_eq!(output.status.code(), Some(3));
-    assert!(said(&output).contains("netconvert could not make a network of the file"), "{}", said(&output));
+    assert!(said(&output).contains("netconvert could not make a network from the file"), "{}", said(&output));
 }
 
 #[test]

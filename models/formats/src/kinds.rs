@@ -130,7 +130,7 @@ const KINDS: &[Kind] = &[
         instead: "write its tracks as a table, and import that",
     },
     Kind {
-        what: "an SQLite database that is no log and no map of nuPlan",
+        what: "an SQLite database that is neither a log nor a map of nuPlan",
         ends: &["db", "db3", "sqlite"],
         marks: &[Mark::At(0, b"SQLite format 3\x00")],
         instead: "write its tracks as a table, and import that",

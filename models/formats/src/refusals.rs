@@ -76,7 +76,7 @@ pub mod what {
         SCENE = "scene";
         SCENES = "scenes of 9.1 s in one scenario";
         SECTION_LANES = "lanes in one lane section";
-        SIGNS = "signs, lights and references";
+        SIGNS = "signs, signals and references";
         SPEED = "speed in m/s";
         STATE = "a state of something that is not an array";
         STATES = "states";
@@ -131,7 +131,7 @@ pub mod wanted {
         FINITE_POINTS = "finite points";
         FLAT_COLUMN = "a flat column of numbers or text";
         FRAME_RATE = "frames a second";
-        FUTURE = "a number of a future";
+        FUTURE = "the number of a future";
         HALF = "length_m or width_m in add_half, or one of them with a minus";
         HEADER = "the whole header of a page";
         HEADER_VALUES = "a page header without contradictions";
@@ -201,7 +201,7 @@ pub mod wanted {
         WHOLE_NUMBER = "a protobuf number that ends within its message";
         WHOLE_FROM_0 = "a whole number from 0 on";
         WIDE_COLUMNS = "1 to 256 columns";
-        WIRE_TYPE = "a wire type of protobuf that is no group";
+        WIRE_TYPE = "a wire type of protobuf that is not a group";
         WITHIN_FILE = "columns within the file";
     }
 }
@@ -244,7 +244,7 @@ scene::messages! {
         "near-a-place",
         "--around X,Y,RADIUS (in a call: around) reads the part within RADIUS metres of X,Y in the coordinates of the file";
     netconvert_failed(words: &str) =
-        "netconvert-failed", "netconvert could not make a network of the file: {words}";
+        "netconvert-failed", "netconvert could not make a network from the file: {words}";
     netconvert_missing() =
         "netconvert-missing",
         "an extract of OpenStreetMap is read with SUMO's netconvert, which is not installed: run `pip install eclipse-sumo` and start again";
@@ -259,7 +259,7 @@ scene::messages! {
         "no-lanelets", "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
     no_open_lanelets() =
         "no-open-lanelets",
-        "no lanelets with two sides that a road user may pass: subtypes and participants decide";
+        "no lanelets with two sides that a road user may use: subtypes and participants decide";
     no_projection(key: &str) =
         "no-projection", "the projection is unknown: {key} of the map names no UTM zone";
     no_roads_with_lanes(words: &str) = "no-roads-with-lanes", "no roads with lanes: {words}";

@@ -22,7 +22,7 @@ pub mod json_fault {
     const FAULTS: [(&[&str], Word); 7] = [
         (&["EOF"], Word { code: "cut-off", english: "the text is cut off" }),
         (&["expected value", "expected ident"], Word { code: "no-value", english: "a value is missing" }),
-        (&["trailing comma"], Word { code: "comma", english: "a comma is too many" }),
+        (&["trailing comma"], Word { code: "comma", english: "there is one comma too many" }),
         (&["trailing characters"], Word { code: "text-after", english: "text follows after the end" }),
         (&["key must be a string"], Word { code: "no-quotes", english: "a name has no quotes" }),
         (&["expected "], Word { code: "no-sign", english: "a comma, colon or bracket is missing" }),
@@ -43,8 +43,8 @@ scene::messages! {
     not_a_known_format(formats: &str) = "not-a-known-format", "not a file of a known format ({formats})";
     boxes_across(count: usize) =
         "boxes-across",
-        [count] "The long side of {count} box lies across its motion: length and width may be exchanged",
-        "The long sides of {count} boxes lie across their motion: length and width may be exchanged";
+        [count] "The long side of {count} box lies across its motion: length and width may be swapped",
+        "The long sides of {count} boxes lie across their motion: length and width may be swapped";
     columns_missing(missing: &str, columns: &str) =
         "columns-missing",
         "no column {missing}; there are {columns}. A file of columns can name them (--columns, a part columns of a form)";
@@ -57,12 +57,12 @@ scene::messages! {
         "The table of the recording, which gives frame rate, speed limit and place, is missing";
     rows_in_part(kept: usize, found: usize, before_s: f64) =
         "rows-in-part",
-        "{found} rows are more than are read at once; the {kept} rows before {before_s:.1} s are read. \
+        "The table has {found} rows, more than are read at once: the {kept} rows before {before_s:.1} s are read. \
          \"only\" in a file of columns chooses another part by time_s or agent_id";
     files_beside(count: usize, names: &str) =
         "files-beside",
-        [count] "{count} file of the same folder is read with the table: {names}",
-        "{count} files of the same folder are read with the table: {names}";
+        [count] "{count} file from the same folder is read with the table: {names}",
+        "{count} files from the same folder are read with the table: {names}";
     map_unread(name: &str, why: &str) = "map-unread", "The map {name} cannot be read: {why}";
     speed_limit_of_recording(limit_mps: f64, count: usize) =
         "speed-limit-of-recording",
@@ -80,9 +80,9 @@ scene::messages! {
     agents_outside_network(count: usize, found: usize) =
         "agents-outside-network",
         [count] "{count} of {found} road users lies outside the network: it belongs to another recording, \
-         or positions are degrees (fcd-output.geo) rather than metres",
+         or positions are in degrees (fcd-output.geo) rather than metres",
         "{count} of {found} road users lie outside the network: it belongs to another recording, or \
-         positions are degrees (fcd-output.geo) rather than metres";
+         positions are in degrees (fcd-output.geo) rather than metres";
     areas_too_far(count: usize, within_m: f64) =
         "areas-too-far",
         [count] "{count} drivable area reaches farther than {within_m} m from the centre and is left out",
@@ -105,8 +105,8 @@ scene::messages! {
         "unread-places", "{all} elements are not read: {places} and {more} more";
     elements_unread(count: usize) =
         "elements-unread",
-        [count] "{count} element has no place in a scene and is left out",
-        "{count} elements have no place in a scene and are left out";
+        [count] "{count} element that a scene cannot hold is left out",
+        "{count} elements that a scene cannot hold are left out";
     features_unread(count: usize) =
         "features-unread",
         [count] "{count} map feature of unknown kind or with too few points is left out",
@@ -134,7 +134,7 @@ scene::messages! {
         "Headings are in radians where degrees are usual: {agree} of {moving} moving road users move along them";
     headings_in_degrees(outside: usize, found: usize) =
         "headings-in-degrees",
-        "Headings are in degrees and were converted to radians: those of {outside} of {found} road users exceed a full turn in radians, or the format has degrees";
+        "Headings are converted from degrees: as radians, those of {outside} of {found} road users would exceed a full turn, or the format has degrees";
     headings_wrapped(count: usize) =
         "headings-wrapped",
         [count] "{count} heading exceeds a full turn and was wrapped",
@@ -142,8 +142,8 @@ scene::messages! {
     ids_renumbered() = "ids-renumbered", "Lanes and junctions have numbers instead of SUMO's ids";
     ids_replaced(count: usize, subject: Word) =
         "ids-replaced",
-        [count] "{count} id of {subject} was replaced: an id occurs once and has letters, digits and _ . : -",
-        "{count} ids of {subject} were replaced: an id occurs once and has letters, digits and _ . : -";
+        [count] "{count} id of {subject} was replaced: an id is unique and consists of letters, digits and _ . : -",
+        "{count} ids of {subject} were replaced: an id is unique and consists of letters, digits and _ . : -";
     ids_respelled(count: usize) =
         "ids-respelled",
         [count] "{count} id was respelled or got a suffix",
@@ -184,8 +184,8 @@ scene::messages! {
         "{count} lanes open to no road user (rails, strips) are left out";
     lane_links_derived(count: usize) =
         "lane-links-derived",
-        [count] "{count} link of lanes is not in the file: a lane that ends where another one begins is linked to it",
-        "{count} links of lanes are not in the file: a lane that ends where another one begins is linked to it";
+        [count] "{count} lane link is not in the file: a lane that ends where another one begins is linked to it",
+        "{count} lane links are not in the file: a lane that ends where another one begins is linked to it";
     lane_segments_unusable(count: usize) =
         "lane-segments-unusable",
         [count] "{count} lane segment without two sides is left out",
@@ -206,12 +206,12 @@ scene::messages! {
         "{count} lines have more points than a scene holds and are thinned";
     links_apart(count: usize) =
         "links-apart",
-        [count] "{count} link of lanes is dropped: the ends lie more than a lane's width apart",
-        "{count} links of lanes are dropped: the ends lie more than a lane's width apart";
+        [count] "{count} lane link is dropped: the ends lie more than a lane's width apart",
+        "{count} lane links are dropped: the ends lie more than a lane's width apart";
     links_turned(count: usize) =
         "links-turned",
-        [count] "{count} link of lanes leads backwards: it is turned, as its lanes meet the other way round",
-        "{count} links of lanes lead backwards: they are turned, as their lanes meet the other way round";
+        [count] "{count} lane link leads backwards: it is turned, as its lanes meet the other way round",
+        "{count} lane links lead backwards: they are turned, as their lanes meet the other way round";
     lines_approximated(count: usize) =
         "lines-approximated",
         [count] "{count} painted line has a type or colour that a scene does not support",
@@ -230,7 +230,7 @@ scene::messages! {
         "{count} lanes of no length";
     loss_lights_over_room(most: usize) =
         "loss-lights-over-room",
-        "a record has room for {most} lights per step";
+        "a record has room for {most} signals per step";
     loss_lines_sampled(apart_m: f64) =
         "loss-lines-sampled",
         "lines as points {apart_m} m apart, without lane graph and speed limits";
@@ -247,11 +247,11 @@ scene::messages! {
         "{count} map points; a record has room for {most}";
     loss_rollouts(count: usize, most: usize) =
         "loss-rollouts",
-        [count] "{count} of the {most} rollouts that the challenge takes: generate as many samples",
-        "{count} of the {most} rollouts that the challenge takes: generate as many samples";
+        [count] "{count} of the {most} rollouts that the challenge takes: generate that many samples",
+        "{count} of the {most} rollouts that the challenge takes: generate that many samples";
     loss_single_precision(off_um: f64) =
         "loss-single-precision",
-        "numbers are of single precision: off by up to {off_um:.0} um";
+        "numbers are in single precision: off by up to {off_um:.0} um";
     loss_steps_over_room(past: usize, future: usize) =
         "loss-steps-over-room",
         "states more than {past} steps before the current one or {future} after it";
@@ -271,12 +271,12 @@ scene::messages! {
         "map-missing", "The scenario has no map file (log_map_archive_*.json): the scene has no lanes";
     map_elsewhere(percent: f64) =
         "map-elsewhere",
-        "Only {percent:.0} % of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference";
+        "Only {percent:.0}% of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference";
     map_chosen(name: &str, maps: usize) =
         "map-chosen", "Of {maps} maps, that of {name} has the most vehicles on its lanes";
     map_laid(percent: f64) =
         "map-laid",
-        "{percent:.0} % of the vehicle positions are on lanes of the map";
+        "{percent:.0}% of the vehicle positions are on lanes of the map";
     moved_by_metadrive() =
         "moved-by-metadrive", "MetaDrive moved and turned the file; the place of the recording is unknown";
     network_missing() =
@@ -320,8 +320,8 @@ scene::messages! {
         "{count} links of signals have no program and are left out";
     signals_empty(count: usize) =
         "signals-empty",
-        [count] "{count} signal without a lane or without states is left out",
-        "{count} signals without a lane or without states are left out";
+        [count] "{count} signal without a lane or without phases is left out",
+        "{count} signals without a lane or without phases are left out";
     signals_held(count: usize) =
         "signals-held",
         [count] "{count} signal responds to traffic; it keeps the times of its plan",

@@ -234,7 +234,7 @@ fn tables_and_maps_may_stand_beside_a_table() {
         (told.code, told.detail.as_str()),
         (
             "files-beside",
-            "4 files of the same folder are read with the table: 00_recordingMeta.csv, 00_tracksMeta.csv, here.osm, \
+            "4 files from the same folder are read with the table: 00_recordingMeta.csv, 00_tracksMeta.csv, here.osm, \
              nothing.xodr"
         )
     );

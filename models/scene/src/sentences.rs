@@ -32,7 +32,7 @@ pub mod wanted {
 }
 
 crate::messages! {
-    agents_over_limit(agents: usize, most: usize) = "agents-over-limit", "{agents} agents; at most {most}";
+    agents_over_limit(agents: usize, most: usize) = "agents-over-limit", "{agents} road users; at most {most}";
     appears_twice(what: Word, id: &str) = "appears-twice", "{what} \"{id}\" appears twice";
     at_most(found: impl Placeholder, what: Word, most: impl Placeholder) = "at-most", "{found} {what} found, at most {most} expected";
     expected(expected: impl Placeholder) = "expected", "{expected} expected";

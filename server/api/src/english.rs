@@ -56,7 +56,7 @@ scene::messages! {
     no_state(id: &str, at: usize) = "no-ego-state", "\"{id}\", state {at}: the position or the speed is out of range";
     step_order(got: usize, next: usize) = "step-order", "step {got} found, step {next} expected";
     setting_of_snapshot(member: &str) = "setting-of-snapshot", "the snapshot has its own {member}";
-    snapshot_of_another_scene() = "snapshot-of-another-scene", "the snapshot is of another scene";
+    snapshot_of_another_scene() = "snapshot-of-another-scene", "the snapshot belongs to another scene";
     snapshot_broken(at: usize) = "snapshot-broken", "not a snapshot: byte {at} is wrong";
     too_many_runs() = "too-many-runs", "no room for another run; delete one, or wait";
     too_many_requests(most: usize) =

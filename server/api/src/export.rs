@@ -85,7 +85,7 @@ pub fn write(
         ExportOptions { motion, gzip: false, sample, label, continued, most_bytes, cancel: cancel.clone() };
     let exported = found.export(&[copy.as_ref().unwrap_or(scene)], &options).map_err(|error| {
         if cancel.is_cancelled() {
-            return Problem::new(Code::Cancelled, "Nobody waits for the file any more.");
+            return Problem::new(Code::Cancelled, "No client waits for the file any more.");
         }
         let message = error.get_ref().and_then(|fault| fault.downcast_ref::<Message>());
         let code = if is_too_long(&error) { Code::ReplyTooLarge } else { Code::CannotRepresent };

@@ -377,7 +377,7 @@ impl Reading {
             };
             let frame = tokio::time::timeout_at(began + Duration::from_secs(allowed_s), body.frame());
             let Some(frame) = frame.await.map_err(late)? else { break };
-            let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body broke off."))?;
+            let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body was cut off."))?;
             let Ok(data) = frame.into_data() else { continue };
             size += data.len() as u64;
             if size > limit {
@@ -420,7 +420,7 @@ fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
 }
 
 fn too_large(limit: u64) -> Problem {
-    Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).limit(limit)
+    Problem::new(Code::BodyTooLarge, format!("The body may have at most {limit} bytes.")).limit(limit)
 }
 
 /// A body that is decoded while it is read, within its limits.
@@ -465,11 +465,11 @@ impl<'a> Unfolding<'a> {
         let (Some(size), bounds) = (&mut self.decoded, self.bounds) else { return Ok(count) };
         *size += count as u64;
         if *size > bounds.decoded {
-            let detail = format!("The body may decode to {} bytes.", bounds.decoded);
+            let detail = format!("The body may decode to at most {} bytes.", bounds.decoded);
             return Err(Problem::new(Code::DecodedTooLarge, detail).limit(bounds.decoded));
         }
         if *size > FREE_EXPANSION && *size > bounds.ratio.saturating_mul(self.encoded) {
-            let detail = format!("The body may grow {} times when decoded.", bounds.ratio);
+            let detail = format!("The body may grow by a factor of at most {} when decoded.", bounds.ratio);
             return Err(Problem::new(Code::ExpansionTooHigh, detail).limit(bounds.ratio));
         }
         Ok(count)

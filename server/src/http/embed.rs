@@ -38,7 +38,7 @@ pub async fn fallback(
         };
     }
     if method != Method::GET && method != Method::HEAD {
-        let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
+        let problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are allowed here.");
         return Refusal::from(problem.fact(ALLOWED, "GET, HEAD")).into_response();
     }
     let name = path.strip_prefix('/').unwrap_or(path);

@@ -53,6 +53,8 @@ const CONTROL_BURST: f64 = 64.0;
 const CONTROL_RATE: f64 = 10.0;
 /// Longest reason: a control frame holds 125 bytes, two of them its code (RFC 6455, 5.5).
 const REASON_BYTES: usize = 123;
+/// Reason and refusal once the server shuts down.
+const SHUTTING_DOWN: &str = "The server is shutting down.";
 
 /// A message of the client: a request, or the number of a request to cancel.
 #[derive(Deserialize)]
@@ -95,7 +97,7 @@ impl ServerMessage {
 
     /// The last message of a request that arrives during shutdown.
     fn closing(ask: u64) -> Result<Bytes, axum::Error> {
-        Self::failed(ask, Problem::new(Code::ShuttingDown, "The server ends."))
+        Self::failed(ask, Problem::new(Code::ShuttingDown, SHUTTING_DOWN))
     }
 
     /// The last message of a request that failed, at once or midway.
@@ -349,7 +351,7 @@ impl Line {
                     replies.push_back(Outgoing::Ping);
                     continue;
                 }
-                () = std::future::ready(()), if is_over => break parting(CloseCode::Away, "The server ends."),
+                () = std::future::ready(()), if is_over => break parting(CloseCode::Away, SHUTTING_DOWN),
             };
             match heard {
                 Some(Ok(Message::Text(said))) => match self.hear(&said, &mut questions, &pieces) {

@@ -54,7 +54,7 @@ impl<T: Send> Ending for ReplySlot<T> {
 
 /// The refusal of a call that a newer revision has superseded.
 pub fn superseded(by: u64) -> Problem {
-    let detail = format!("Revision {by} of the same client took over.");
+    let detail = format!("Revision {by} of the same client has replaced this one.");
     Problem::new(Code::Superseded, detail).with(|m| m.by_revision = Some(by))
 }
 

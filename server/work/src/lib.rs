@@ -115,7 +115,7 @@ impl Pool {
         // During shutdown, documents of open calls are still read and written.
         let refused = state.closing && lane != PoolLane::Document;
         if refused || self.stopped.load(Ordering::Relaxed) {
-            return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
+            return Err(Problem::new(Code::ShuttingDown, "The server is shutting down.").retry_after(5));
         }
         let id = caller.job.unwrap_or_else(id::fresh);
         if state.jobs.contains_key(&id) {
@@ -215,7 +215,7 @@ impl Pool {
         self.stopped.store(true, Ordering::Relaxed);
         let jobs = lock(&self.state).close();
         for job in jobs {
-            job.fail(Problem::new(Code::ShuttingDown, "The server is stopping.").retry_after(5));
+            job.fail(Problem::new(Code::ShuttingDown, "The server is shutting down.").retry_after(5));
         }
         self.arrived.iter().for_each(Condvar::notify_all);
     }

@@ -546,7 +546,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
     expect(await marks()).toEqual(['ok', 'ok', 'ok', 'rule', 'ok', 'short']);
     expect(await d.text('.leave')).toContain('Crossing allowed');
-    await d.page.getByRole('button', { name: 'Crossing allowed: undo' }).click();
+    await d.page.getByRole('button', { name: 'Undo: Crossing allowed' }).click();
     await d.settled();
     expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);

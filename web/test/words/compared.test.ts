@@ -32,14 +32,14 @@ describe('compared with the log', () => {
     ]);
     expect(distances(gaps).at(-1)).toBeCloseTo(90, 6);
     const said = comparedWithLog(of(gaps), own, 9)!;
-    expect(said.words).toBe('Travels 9 m less than in the recording.');
+    expect(said.words).toBe('Covers 9 m less than in the recording.');
     expect(said.d).toBeCloseTo(9, 1);
   });
 
   it('counts only the time in which both are present', () => {
-    expect(comparedWithLog(of(seen(200, [[0, 200]])), own, 9)!.words).toBe('Travels 9 m less than in the recording.');
+    expect(comparedWithLog(of(seen(200, [[0, 200]])), own, 9)!.words).toBe('Covers 9 m less than in the recording.');
     // Recorded from 4.5 s on it has half of the time to fall behind.
-    expect(comparedWithLog(of(seen(91, [[45, 91]])), own, 9)!.words).toBe('Travels 5 m less than in the recording.');
+    expect(comparedWithLog(of(seen(91, [[45, 91]])), own, 9)!.words).toBe('Covers 5 m less than in the recording.');
   });
 
   it('reports no delay because a recording lasts longer', () => {

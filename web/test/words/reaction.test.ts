@@ -87,7 +87,7 @@ describe('a change', () => {
     const out = { kind: 'stays_out', cause: '1', delay_s: 0, time_s: 2, x_m: 20, y_m: 0, speed_mps: 0 } as const;
     expect(poseAt(nowhere, 2)).toBeNull();
     expect(changes(nowhere, out)).toMatchObject([
-      { words: 'does not appear, Car 1 is in its place', place: { x: 20 } },
+      { words: 'does not appear: Car 1 is in its place', place: { x: 20 } },
     ]);
   });
 

@@ -90,7 +90,7 @@ describe('verdicts', () => {
     expect(word(fault('speeding', { extent: 5 }))).toBe('18 km/h over the limit');
     expect(word(fault('running', { extent: 3 }))).toBe('runs at 3.0 m/s');
     expect(word(fault('askew', { extent: 0.52 }))).toBe('ends at 30° to the lane');
-    expect(word(fault('fails_to_yield', { extent: 3, with: '7' }))).toMatch(/^does not give way to /);
+    expect(word(fault('fails_to_yield', { extent: 3, with: '7' }))).toMatch(/^does not yield to /);
     expect(word(fault('forces_braking', { extent: 3.4, with: '7' }))).toMatch(/^forces .* to brake at 3\.4 m\/s²$/);
     expect(['off_map', 'on_carriageway', 'speeding'].map((k) => word(fault(k as never)))).toEqual([
       'off the map',

@@ -111,7 +111,7 @@ impl<'o> ImportProgress<'o> {
         match faults.first().filter(|_| faults.len() == files.len()) {
             None => Ok(ImportedBody::Several(ImportedFiles { files: told })),
             Some((code, _)) => {
-                let detail = format!("Not one of the {} files can be read.", files.len());
+                let detail = format!("None of the {} files can be read.", files.len());
                 let errors = faults.iter().map(|(_, error)| error.clone()).collect();
                 Err(Problem::new(*code, detail).with(|m| m.errors = Some(errors)))
             }

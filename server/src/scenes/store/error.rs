@@ -92,7 +92,7 @@ impl From<StoreError> for Problem {
             }
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if is_of_the_disk(e.code) => {
                 tracing::error!(error = text, "the disk of the store fails");
-                let detail = "The disk refuses to read or write saved scenes.";
+                let detail = "The disk cannot read or write saved scenes.";
                 Self::new(Code::StoreUnavailable, detail).retry_after(2)
             }
             _ => Self::internal(text),

@@ -261,7 +261,7 @@ journeys('fingers', (stage) => {
     await select({ e, f });
     await e.page.locator('[data-field="goal-time"]').tap();
     await fits(e, 'a field in use');
-    await e.page.getByRole('button', { name: 'Time at the goal in seconds, less' }).tap();
+    await e.page.getByRole('button', { name: 'Goal time in seconds, less' }).tap();
     await e.settled();
     assert.equal(await e.value('goal-time'), 8.9);
     assert.equal(await e.page.locator('[data-field="goal-time"]').getAttribute('inputmode'), 'decimal');

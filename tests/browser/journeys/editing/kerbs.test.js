@@ -73,7 +73,7 @@ journeys('kerbs', (stage) => {
     await e.key('Alt+Enter');
     await e.settled();
     assert.deepEqual(e.wire.last().body.conditions[car.id].goal.may_cross, edges);
-    await e.page.getByRole('button', { name: /^Crossing allowed: undo$/ }).click();
+    await e.page.getByRole('button', { name: /^Undo: Crossing allowed$/ }).click();
     await e.settled();
     assert.equal(await e.page.locator('.leave').count(), 0);
     await leave.waitFor();

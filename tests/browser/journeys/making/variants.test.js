@@ -306,7 +306,7 @@ journeys('variants', (stage) => {
       await fill('step', '2');
       assert.match(await range.innerText(), /Make 16 variants/);
       await fill('step', '1');
-      assert.match(await range.innerText(), /31 values; there is room for 30/);
+      assert.match(await range.innerText(), /31 values; room for 30/);
       assert.equal(await range.getByRole('button').count(), 0);
       // Without a goal there is no goal time.
       await by.selectOption('by goal time');

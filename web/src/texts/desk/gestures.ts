@@ -13,7 +13,7 @@ export const TEXTS = table('gestures', {
   startOfMoved: (name: string) => `Start of ${name} moved`,
   goalTimeOfChanged: (name: string, time: string) => `Goal time of ${name} changed to ${time}`,
   signalAt: (phase: string, place: string) => `Signal: ${phase}${place ? ` · ${place}` : ''}.`,
-  phases: { red: 'red', amber: 'amber', green: 'green', unknown: 'state unknown' },
+  phases: { red: 'red', amber: 'amber', green: 'green', unknown: 'phase unknown' },
   until: (time: string) => ` until ${time} s`,
   stopLine: (place: string) => `Stop sign${place ? ` · ${place}` : ''}.`,
   crosswalk: (signals: boolean): string =>

@@ -25,7 +25,7 @@ export const TEXTS = table('hud', {
   stepsOfOther: (n: number) =>
     plural(n, { one: `Steps of ${n} other scene deleted. `, other: `Steps of ${n} other scenes deleted. ` }),
   stillNoSpace: 'Still no space: export this scene.',
-  savedAgain: 'This scene is saved again.',
+  savedAgain: 'Saving works again.',
   noRoomLeftOn: 'No space left on this computer for saving.',
   export: 'Export',
   freeSpace: 'Free space',
@@ -79,7 +79,7 @@ export const TEXTS = table('hud', {
   computingFutures: 'Computing futures …',
   loadingTheScene: 'Loading the scene …',
   youCanKeepDragging: ' You can keep dragging.',
-  thisTakesLonger: (ms: string, keep: string) => `This takes longer than usual (${ms} s).${keep}`,
+  thisTakesLonger: (ms: string, keep: string) => `This is taking longer than usual (${ms} s).${keep}`,
   generatorOfflineWaiting: (n: number) =>
     plural(n, { one: `Generator offline · ${n} change waiting`, other: `Generator offline · ${n} changes waiting` }),
   generatorOffline: 'Generator offline',

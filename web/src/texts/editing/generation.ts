@@ -15,7 +15,7 @@ export const TEXTS = table('generation', {
     plural(waiting, { one: ` ${waiting} change computed.`, other: ` ${waiting} changes computed.` }),
   theGenerator: (done: string) => `The generator is back.${done}`,
   waitingChanges: 'Waiting changes',
-  thisTakesLonger: 'This takes longer than usual.',
+  thisTakesLonger: 'This is taking longer than usual.',
   sixFutures: (shown: string, rank: number) => `Six futures. Shown: ${shown}, rank ${rank}.`,
   aValueIsOutside: (min: string, max: string) => `A value is outside ${min} to ${max}.`,
   toS: (window: number, min: number) => `${window} to ${min} s`,

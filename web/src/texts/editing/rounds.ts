@@ -5,7 +5,7 @@ export const TEXTS = table('rounds', {
   theGenerator: 'The generator is not answering.',
   theWholeScene: 'the whole scene',
   roundsOf: (name: string) => `Rounds of ${name}.`,
-  keepOrReject: 'Keep or reject one first, or add a preference.',
+  keepOrReject: 'Keep or reject a card first, or add a preference.',
   noCardsCame: 'No cards received.',
   roundA: (round: number, count: number, name: string) =>
     plural(count, {

@@ -22,7 +22,7 @@ export const TEXTS = table('share', {
   withTheView: 'with the current view',
   history: 'History',
   staysHereToo: 'stays here: too large for a link',
-  nothingUploaded: 'Making the link uploads nothing.',
+  nothingUploaded: 'Nothing is uploaded to make the link.',
   whateverTheAccess: 'Anyone with the link can view the scene, even without access.',
   saveAsFile: 'Save as file',
   linkTooLong: 'The link is too long.',

@@ -28,8 +28,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'agents-outside-network': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} of ${v.found} road users lies outside the network: it belongs to another recording, or positions are degrees (fcd-output.geo) rather than metres`,
-        other: `${v.count} of ${v.found} road users lie outside the network: it belongs to another recording, or positions are degrees (fcd-output.geo) rather than metres`,
+        one: `${v.count} of ${v.found} road users lies outside the network: it belongs to another recording, or positions are in degrees (fcd-output.geo) rather than metres`,
+        other: `${v.count} of ${v.found} road users lie outside the network: it belongs to another recording, or positions are in degrees (fcd-output.geo) rather than metres`,
       }),
     'areas-too-far': (v: Values) =>
       plural(Number(v.count), {
@@ -38,19 +38,19 @@ export const SENTENCES = table('file-messages', {
       }),
     'boxes-across': (v: Values) =>
       plural(Number(v.count), {
-        one: `The long side of ${v.count} box lies across its motion: length and width may be exchanged`,
-        other: `The long sides of ${v.count} boxes lie across their motion: length and width may be exchanged`,
+        one: `The long side of ${v.count} box lies across its motion: length and width may be swapped`,
+        other: `The long sides of ${v.count} boxes lie across their motion: length and width may be swapped`,
       }),
     'columns-recognised': (v: Values) =>
       `The columns are read as those of the data set ${v.sets}; --columns names others`,
     'agents-table-missing': 'The table of road users, which gives their types, is missing',
     'recording-table-missing': 'The table of the recording, which gives frame rate, speed limit and place, is missing',
     'rows-in-part': (v: Values) =>
-      `${v.found} rows are more than are read at once; the ${v.kept} rows before ${v.before_s} s are read. "only" in a file of columns chooses another part by time_s or agent_id`,
+      `The table has ${v.found} rows, more than are read at once: the ${v.kept} rows before ${v.before_s} s are read. "only" in a file of columns chooses another part by time_s or agent_id`,
     'files-beside': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} file of the same folder is read with the table: ${v.names}`,
-        other: `${v.count} files of the same folder are read with the table: ${v.names}`,
+        one: `${v.count} file from the same folder is read with the table: ${v.names}`,
+        other: `${v.count} files from the same folder are read with the table: ${v.names}`,
       }),
     'map-unread': (v: Values) => `The map ${v.name} cannot be read: ${v.why}`,
     'map-chosen': (v: Values) => `Of ${v.maps} maps, that of ${v.name} has the most vehicles on its lanes`,
@@ -60,7 +60,7 @@ export const SENTENCES = table('file-messages', {
         other: `${v.count} lanes without a speed limit have that of the recording, ${v.limit_mps} m/s`,
       }),
     'columns-missing': (v: Values) =>
-      `No column ${v.missing}; there are ${v.columns}. A file of columns can name them.`,
+      `No column ${v.missing}; the table has ${v.columns}. A file of columns can name them.`,
     'crossing-areas': 'Drivable areas overlap too often to find the edges of the road',
     'crossing-lanelets': 'Lanelets overlap too often to find the edges of the road',
     'crossing-roads': 'Roads overlap too often to find their edges',
@@ -75,8 +75,8 @@ export const SENTENCES = table('file-messages', {
     'unread-places': (v: Values) => `${v.all} elements are not read: ${v.places} and ${v.more} more`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} element has no place in a scene and is left out`,
-        other: `${v.count} elements have no place in a scene and are left out`,
+        one: `${v.count} element that a scene cannot hold is left out`,
+        other: `${v.count} elements that a scene cannot hold are left out`,
       }),
     'empty-file': 'The file is empty',
     'features-unread': (v: Values) =>
@@ -105,7 +105,7 @@ export const SENTENCES = table('file-messages', {
     'headings-along-radians': (v: Values) =>
       `Headings are in radians where degrees are usual: ${v.agree} of ${v.moving} moving road users move along them`,
     'headings-in-degrees': (v: Values) =>
-      `Headings are in degrees and were converted to radians: those of ${v.outside} of ${v.found} road users exceed a full turn in radians, or the format has degrees`,
+      `Headings are converted from degrees: as radians, those of ${v.outside} of ${v.found} road users would exceed a full turn, or the format has degrees`,
     'headings-wrapped': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} heading exceeds a full turn and was wrapped`,
@@ -114,8 +114,8 @@ export const SENTENCES = table('file-messages', {
     'ids-renumbered': "Lanes and junctions have numbers instead of SUMO's ids",
     'ids-replaced': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} id of ${v.subject} was replaced: an id occurs once and has letters, digits and _ . : -`,
-        other: `${v.count} ids of ${v.subject} were replaced: an id occurs once and has letters, digits and _ . : -`,
+        one: `${v.count} id of ${v.subject} was replaced: an id is unique and consists of letters, digits and _ . : -`,
+        other: `${v.count} ids of ${v.subject} were replaced: an id is unique and consists of letters, digits and _ . : -`,
       }),
     'ids-respelled': (v: Values) =>
       plural(Number(v.count), {
@@ -166,8 +166,8 @@ export const SENTENCES = table('file-messages', {
     'json-syntax': (v: Values) => `Not valid JSON: ${v.fault}.`,
     'lane-links-derived': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} link of lanes is not in the file: a lane that ends where another one begins is linked to it`,
-        other: `${v.count} links of lanes are not in the file: a lane that ends where another one begins is linked to it`,
+        one: `${v.count} lane link is not in the file: a lane that ends where another one begins is linked to it`,
+        other: `${v.count} lane links are not in the file: a lane that ends where another one begins is linked to it`,
       }),
     'lane-segments-unusable': (v: Values) =>
       plural(Number(v.count), {
@@ -193,13 +193,13 @@ export const SENTENCES = table('file-messages', {
       }),
     'links-apart': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} link of lanes is dropped: the ends lie more than a lane's width apart`,
-        other: `${v.count} links of lanes are dropped: the ends lie more than a lane's width apart`,
+        one: `${v.count} lane link is dropped: the ends lie more than a lane's width apart`,
+        other: `${v.count} lane links are dropped: the ends lie more than a lane's width apart`,
       }),
     'links-turned': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} link of lanes leads backwards: it is turned, as its lanes meet the other way round`,
-        other: `${v.count} links of lanes lead backwards: they are turned, as their lanes meet the other way round`,
+        one: `${v.count} lane link leads backwards: it is turned, as its lanes meet the other way round`,
+        other: `${v.count} lane links lead backwards: they are turned, as their lanes meet the other way round`,
       }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
@@ -215,7 +215,7 @@ export const SENTENCES = table('file-messages', {
       `lanes are within ${v.off_mm} mm of their lines when their points are set again; stop lines and stop signs are where lanes begin and end`,
     'loss-lanes-without-length': (v: Values) =>
       plural(Number(v.count), { one: `${v.count} lane of no length`, other: `${v.count} lanes of no length` }),
-    'loss-lights-over-room': (v: Values) => `a record has room for ${v.most} lights per step`,
+    'loss-lights-over-room': (v: Values) => `a record has room for ${v.most} signals per step`,
     'loss-lines-sampled': (v: Values) => `lines as points ${v.apart_m} apart, without lane graph and speed limits`,
     'loss-longer': (v: Values) => `nothing is cut: ${v.steps} steps, where the scene has ${v.known}`,
     'loss-motion-extrapolated': (v: Values) =>
@@ -230,10 +230,10 @@ export const SENTENCES = table('file-messages', {
       }),
     'loss-rollouts': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} of the ${v.most} rollouts that the challenge takes: generate as many samples`,
-        other: `${v.count} of the ${v.most} rollouts that the challenge takes: generate as many samples`,
+        one: `${v.count} of the ${v.most} rollouts that the challenge takes: generate that many samples`,
+        other: `${v.count} of the ${v.most} rollouts that the challenge takes: generate that many samples`,
       }),
-    'loss-single-precision': (v: Values) => `numbers are of single precision: off by up to ${v.off_um} µm`,
+    'loss-single-precision': (v: Values) => `numbers are in single precision: off by up to ${v.off_um} µm`,
     'loss-steps-over-room': (v: Values) =>
       `states more than ${v.past} steps before the current one or ${v.future} after it`,
     'loss-users-off-lanes': (v: Values) =>
@@ -252,8 +252,8 @@ export const SENTENCES = table('file-messages', {
     'map-lacks-lanelets': 'The file has no lanelets: the scene has no map',
     'map-missing': 'The scenario has no map file (log_map_archive_*.json): the scene has no lanes',
     'map-elsewhere': (v: Values) =>
-      `Only ${v.percent} % of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference`,
-    'map-laid': (v: Values) => `${v.percent} % of the vehicle positions are on lanes of the map`,
+      `Only ${v.percent}% of the vehicle positions are on lanes of the map: it belongs to another place or frame of reference`,
+    'map-laid': (v: Values) => `${v.percent}% of the vehicle positions are on lanes of the map`,
     'moved-by-metadrive': 'MetaDrive moved and turned the file; the place of the recording is unknown',
     'network-missing': 'The recording has no network file: the scene has no lanes and no signals',
     'not-a-known-format': (v: Values) => `Not a file of a known format (${v.formats}).`,
@@ -308,8 +308,8 @@ export const SENTENCES = table('file-messages', {
       }),
     'signals-empty': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} signal without a lane or without states is left out`,
-        other: `${v.count} signals without a lane or without states are left out`,
+        one: `${v.count} signal without a lane or without phases is left out`,
+        other: `${v.count} signals without a lane or without phases are left out`,
       }),
     'signals-held': (v: Values) =>
       plural(Number(v.count), {

@@ -61,11 +61,11 @@ export const SENTENCES = table('messages', {
     },
     'relation-no-lane-left': {
       title: (v: Values) => `Lane ${v.number} to the left of road user ${v.agent} does not exist`,
-      rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
+      rest: (v: Values) => `This applies to its position at ${v.time_s}.`,
     },
     'relation-no-lane-right': {
       title: (v: Values) => `Lane ${v.number} to the right of road user ${v.agent} does not exist`,
-      rest: (v: Values) => `This holds for its place at ${v.time_s}.`,
+      rest: (v: Values) => `This applies to its position at ${v.time_s}.`,
     },
     'relation-not-passed': {
       title: (v: Values) => `Road user ${v.agent} does not pass the goal`,

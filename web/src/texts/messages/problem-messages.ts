@@ -24,14 +24,14 @@ export const SENTENCES = table('problem-messages', {
     'no-part': (v: Values) =>
       `a file of format ${v.format} is read whole; maps of SUMO, OpenDRIVE, Lanelet2 and OpenStreetMap are read in part`,
     'no-columns': (v: Values) => `a file of format ${v.format} has no columns to name`,
-    'unknown-format': (v: Values) => `No format is named \"${v.format}\"; there are ${v.formats}.`,
+    'unknown-format': (v: Values) => `No format is named \"${v.format}\"; the formats are ${v.formats}.`,
     'ego-absent': (v: Values) => `\"${v.id}\" is not in the scene at the start`,
     'ego-once': (v: Values) => `\"${v.id}\" must be named exactly once`,
     'not-an-ego': (v: Values) => `\"${v.id}\" is not an ego`,
     'no-ego-state': (v: Values) => `\"${v.id}\", state ${v.at}: the position or the speed is out of range`,
     'step-order': (v: Values) => `step ${v.got} found, step ${v.next} expected`,
     'setting-of-snapshot': (v: Values) => `the snapshot has its own ${v.member}`,
-    'snapshot-of-another-scene': 'the snapshot is of another scene',
+    'snapshot-of-another-scene': 'the snapshot belongs to another scene',
     'snapshot-broken': (v: Values) => `not a snapshot: byte ${v.at} is wrong`,
     'too-many-runs': 'no room for another run; delete one, or wait',
     'too-many-requests': (v: Values) =>

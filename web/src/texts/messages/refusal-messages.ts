@@ -40,7 +40,7 @@ export const SENTENCES = table('refusal-messages', {
     'map-too-wide': (v: Values) => `${v.width_m} x ${v.height_m}; a map reaches ${v.most_m} from its middle`,
     needs: (v: Values) => `${v.what} needs ${v.expected}`,
     'nested-deeper': (v: Values) => `nested deeper than ${v.most} levels`,
-    'netconvert-failed': (v: Values) => `netconvert could not make a network of the file: ${v.words}`,
+    'netconvert-failed': (v: Values) => `netconvert could not make a network from the file: ${v.words}`,
     'netconvert-missing':
       "an extract of OpenStreetMap is read with SUMO's netconvert, which is not installed: run `pip install eclipse-sumo` and start again",
     'near-a-place':
@@ -48,9 +48,9 @@ export const SENTENCES = table('refusal-messages', {
     'network-too-large': (v: Values) => `more than ${v.most} ${v.what}`,
     'nothing-around': (v: Values) =>
       `no lane lies within ${v.radius_m} of ${v.x}, ${v.y}; the file has x ${v.x_range} and y ${v.y_range}`,
-    'no-column': (v: Values) => `no column "${v.column}"; there are ${v.columns}`,
+    'no-column': (v: Values) => `no column "${v.column}"; the table has ${v.columns}`,
     'no-lanelets': 'no lanelets: if it is an extract of OpenStreetMap, it is read as osm',
-    'no-open-lanelets': 'no lanelets with two sides that a road user may pass: subtypes and participants decide',
+    'no-open-lanelets': 'no lanelets with two sides that a road user may use: subtypes and participants decide',
     'no-roads-with-lanes': (v: Values) => `no roads with lanes: ${v.words}`,
     'no-projection': (v: Values) => `the projection is unknown: ${v.key} of the map names no UTM zone`,
     'no-table': (v: Values) => `the database has no table ${v.table}`,

@@ -23,7 +23,7 @@ export const TEXTS = table('inspector', {
   otherObjects: 'Other objects',
   lanes: (n: number) => plural(n, { one: `${n} lane`, other: `${n} lanes` }),
   crosswalks: (n: number) => plural(n, { one: `${n} crosswalk`, other: `${n} crosswalks` }),
-  bikeLanes: (n: number) => plural(n, { one: `${n} bike lane`, other: `${n} bike lanes` }),
+  bikeLanes: (n: number) => plural(n, { one: `${n} cycle lane`, other: `${n} cycle lanes` }),
   stopSigns: 'stop signs',
   noSignals: 'no signals',
   licence: (licence: string) => `Licence: ${licence}`,

@@ -13,7 +13,7 @@ export const TEXTS = table('map-item', {
   atTime: (time: string) => `at ${time} s`,
   remove: (light: string) => `Remove: ${light}`,
   add: (light: string, time: string) => `${light} from ${time} s`,
-  howToAdd: 'Drag the edges on the timeline; a double click there adds one.',
+  howToAdd: 'Drag the edges on the timeline; double-click there to add one.',
   close: 'Close',
   speedLimit: 'Speed limit',
   notGiven: 'not given',
@@ -28,7 +28,7 @@ export const TEXTS = table('map-item', {
   limitChanged: (place: string) => `Speed limit changed: ${place}`,
   usersChanged: (place: string) => `Lane use changed: ${place}`,
   priority: 'Priority',
-  pedestriansFirst: 'Pedestrians go first; vehicles and cyclists yield',
+  pedestriansFirst: 'Pedestrians have priority; vehicles and cyclists yield',
   bySignals: 'By the signals; turning vehicles yield to pedestrians',
-  everyoneStops: 'All stop here, then yield to those on the other road',
+  everyoneStops: 'All stop here, then yield to traffic on the other road',
 });

@@ -60,7 +60,7 @@ export const TEXTS = table('several-panel', {
   heading: 'Heading',
   headingOfAll: 'Heading of all in degrees',
   time: 'Time',
-  timeAtTheGoal: 'Time at the goal of all in seconds',
+  timeAtTheGoal: 'Goal time of all in seconds',
   goalTime: 'Goal time',
   countAt: (count: number, low: string, unit: string) => `${count} at ${low} ${unit}`,
   to: (low: string, high: string, unit: string) => `${low} to ${high} ${unit}`,

@@ -4,7 +4,7 @@ export const TEXTS = table('comparison', {
   events: 'Events',
   minPet: 'Minimum PET',
   minTtc: 'Minimum TTC',
-  goes: (way: string) => `travels ${way}`,
+  goes: (way: string) => `covers ${way}`,
   stoppedS: (waits: string) => `stopped ${waits} s`,
   waitsS: (waits: string) => `waits ${waits} s`,
   turnsLeft: 'turns left',

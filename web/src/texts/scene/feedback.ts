@@ -71,7 +71,7 @@ export const TEXTS = table('feedback', {
   calm: 'calm',
   smooth: 'smooth',
   waits: 'waits',
-  clear: 'clear',
+  clear: 'path clear',
   meanSpeed: 'Mean speed',
   gapOf: 'Gap',
   waitingTime: 'Waiting time',

@@ -29,7 +29,7 @@ export const TEXTS = table('places', {
   /** Of a lane; places beside the lanes have their own preposition: `off the lanes`. */
   on: (lane: string) => `on ${lane}`,
   arm: (compass: string) => `${compass} arm`,
-  bikeLane: (arm: string) => `${arm}, bike lane`,
+  bikeLane: (arm: string) => `${arm}, cycle lane`,
   busLane: (arm: string) => `${arm}, bus lane`,
   leftTurnLane: (arm: string) => `${arm}, left-turn lane`,
   rightTurnLane: (arm: string) => `${arm}, right-turn lane`,

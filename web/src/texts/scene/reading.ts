@@ -1,7 +1,7 @@
 import { table } from '../table';
 
 export const TEXTS = table('reading', {
-  aColumnIsBroken: 'a column is broken',
+  aColumnIsBroken: 'a column is invalid',
   thisIsNotAScene: 'This is not a scene: it has no list of road users.',
   thisSceneWas: (version: undefined | number) =>
     `This scene was saved by a newer version (${version}). This program reads versions up to 1.`,

@@ -14,7 +14,7 @@ export const german: Said<typeof TEXTS> = {
   startOfMoved: (name) => `Start von ${name} verschoben`,
   goalTimeOfChanged: (name, time) => `Zeit am Ziel von ${name} auf ${time} geändert`,
   signalAt: (phase, place) => `Ampel: ${phase}${place ? ` · ${place}` : ''}.`,
-  phases: { red: 'rot', amber: 'gelb', green: 'grün', unknown: 'Zustand unbekannt' },
+  phases: { red: 'rot', amber: 'gelb', green: 'grün', unknown: 'Phase unbekannt' },
   until: (time) => ` bis ${time.replace('.', ',')} s`,
   stopLine: (place) => `Stoppschild${place ? ` · ${place}` : ''}.`,
   crosswalk: (signals) =>

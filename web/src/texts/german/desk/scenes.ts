@@ -8,7 +8,7 @@ export const german: Said<typeof TEXTS> = {
   findAScene: 'Szene suchen',
   dropSceneFiles: 'Dateien hierher ziehen',
   chooseFiles: 'Dateien wählen',
-  supportedFormats: 'lesbare Formate',
+  supportedFormats: 'unterstützte Formate',
   noSceneOfThat: 'Keine Szene mit diesem Namen.',
   loading: 'Lädt …',
   recent: 'Zuletzt',
@@ -19,7 +19,7 @@ export const german: Said<typeof TEXTS> = {
   roadUsers: (n: number) => `${n} Teilnehmer`,
   noRoadUsers: 'leer',
   or: 'oder ',
-  recordedWithin: 'Aufnahme',
+  recordedWithin: 'aufgezeichnet',
   example: 'Beispiel',
   own: 'eigene',
 };

@@ -24,7 +24,7 @@ export const german: Said<typeof TEXTS> = {
   keepCurve: 'Tempokurve behalten',
   curveIsOff: 'Die Tempokurve gilt nicht mehr.',
   collisionWith: (other, time) => ` Zusammenstoß mit ${other} bei ${time}.`,
-  noOtherAffected: ' Niemand sonst ist betroffen.',
+  noOtherAffected: ' Kein anderer Verkehrsteilnehmer ist betroffen.',
   othersChangedAndHit: (n, step, hit) =>
     plural(n, { one: `${step}. ${n} weiterer betroffen.${hit}`, other: `${step}. ${n} weitere betroffen.${hit}` }),
   collisionAnd: (name, name2, time) => `Zusammenstoß, ${name} und ${name2}, ${time} Sekunden.`,

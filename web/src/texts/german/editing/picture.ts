@@ -41,7 +41,7 @@ export const german: Said<typeof TEXTS> = {
   besideTheRoad: 'neben der Straße',
   onABikeLane: 'auf dem Radfahrstreifen',
   onTheRoad: 'auf der Straße',
-  toAdd: (n) => `${n} mehr`,
+  toAdd: (n) => `${n} einzusetzen`,
   parked: 'parkt',
   lane: 'Spur',
   east: 'Osten',

@@ -43,5 +43,5 @@ export const german: Said<typeof TEXTS> = {
   outsideOf: (least, most) => `Möglich sind ${least} bis ${most}`,
   ring: (name) => `Das Ziel von ${name} hängt von diesem ab`,
   row: (most) => `Höchstens ${most} Ziele in Folge können sich aufeinander beziehen`,
-  setPlace: 'Zuerst ein Ziel setzen: den Ort, den beide passieren',
+  setPlace: 'Erst ein Ziel setzen: den Ort, den beide passieren',
 };

@@ -7,7 +7,7 @@ export const german: Said<typeof TEXTS> = {
   theGenerator: 'Der Generator antwortet nicht.',
   theWholeScene: 'die ganze Szene',
   roundsOf: (name) => `Runden: ${name}.`,
-  keepOrReject: 'Erst einen behalten oder verwerfen oder einen Wunsch angeben.',
+  keepOrReject: 'Erst einen Vorschlag behalten oder verwerfen oder einen Wunsch angeben.',
   noCardsCame: 'Keine Vorschläge erhalten.',
   roundA: (round, count, name) =>
     plural(count, {

@@ -3,8 +3,8 @@ import { plural } from '../plural';
 import type { Said } from '../../table';
 
 export const german: Said<typeof TEXTS> = {
-  asPlainVehicles: (all) => `${all}: als einfache Fahrzeuge exportiert`,
-  kindsInTheFile: 'die Datei kennt nur Fahrzeug, Fußgänger und Radfahrer',
+  asPlainVehicles: (all) => `${all}: als Fahrzeuge ohne nähere Art exportiert`,
+  kindsInTheFile: 'das Format hat nur Fahrzeug, Fußgänger und Radfahrer',
   goalsAsMotion: (many) => `${many}: als feste Bewegung exportiert`,
   startsAsMotion: 'Starts: als feste Bewegung exportiert',
   namesAndTags: (many) => `${many}, Namen und Schlagwörter`,
@@ -49,7 +49,7 @@ export const german: Said<typeof TEXTS> = {
   nearestType: 'durch die nächstliegende Art ersetzt',
   speedLimits: 'Tempolimits',
   ofAllLanes: 'aller Spuren',
-  someSignalStates: 'Einige Ampelzustände',
+  someSignalStates: 'Einige Ampelphasen',
   allButRedYellow: 'alle außer Rot, Gelb und Grün',
   heights: 'Höhen',
   mapIsFlat: 'die Karte ist eben',

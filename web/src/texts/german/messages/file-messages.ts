@@ -39,15 +39,15 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'boxes-across': (v: Values) =>
       plural(Number(v.count), {
-        one: `Die lange Seite von ${v.count} Box liegt quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
-        other: `Die langen Seiten von ${v.count} Boxen liegen quer zur Bewegung: Länge und Breite sind vielleicht vertauscht`,
+        one: `Die lange Seite von ${v.count} Box liegt quer zur Bewegung: möglicherweise sind Länge und Breite vertauscht`,
+        other: `Die langen Seiten von ${v.count} Boxen liegen quer zur Bewegung: möglicherweise sind Länge und Breite vertauscht`,
       }),
     'columns-recognised': (v: Values) =>
       `Die Spalten werden als die des Datensatzes ${v.sets} gelesen; --columns nennt andere`,
-    'agents-table-missing': 'Die Tabelle der Verkehrsteilnehmer fehlt, die ihre Typen nennt',
+    'agents-table-missing': 'Die Tabelle der Verkehrsteilnehmer fehlt, die ihre Arten nennt',
     'recording-table-missing': 'Die Tabelle der Aufzeichnung fehlt, die Bildrate, Tempolimit und Ort nennt',
     'rows-in-part': (v: Values) =>
-      `${v.found} Zeilen sind mehr, als auf einmal gelesen werden; gelesen sind die ${v.kept} Zeilen vor ${v.before_s} s. „only“ in einer Spaltendatei wählt einen anderen Teil nach time_s oder agent_id`,
+      `Die Tabelle hat ${v.found} Zeilen, mehr, als auf einmal gelesen werden: Gelesen sind die ${v.kept} Zeilen vor ${v.before_s} s. „only“ in einer Spaltendatei wählt einen anderen Teil nach time_s oder agent_id`,
     'files-beside': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Datei desselben Ordners wird mit der Tabelle gelesen: ${v.names}`,
@@ -61,7 +61,7 @@ export const german: Said<typeof SENTENCES> = {
         other: `${v.count} Spuren ohne Tempolimit haben das der Aufzeichnung, ${v.limit_mps} m/s`,
       }),
     'columns-missing': (v: Values) =>
-      `Keine Spalte ${v.missing}; vorhanden sind ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
+      `Keine Spalte ${v.missing}; die Tabelle hat ${v.columns}. Eine Datei mit Spalten kann sie benennen.`,
     'crossing-areas': 'Befahrbare Flächen überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-lanelets': 'Lanelets überlappen sich zu oft, um die Ränder der Straße zu bestimmen',
     'crossing-roads': 'Straßen überlappen sich zu oft, um ihre Ränder zu bestimmen',
@@ -77,8 +77,8 @@ export const german: Said<typeof SENTENCES> = {
     'unread-places': (v: Values) => `${v.all} Elemente werden nicht gelesen: ${v.places} und ${v.more} weitere`,
     'elements-unread': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Element hat in einer Szene keinen Platz und entfällt`,
-        other: `${v.count} Elemente haben in einer Szene keinen Platz und entfallen`,
+        one: `${v.count} Element, das eine Szene nicht darstellen kann, entfällt`,
+        other: `${v.count} Elemente, die eine Szene nicht darstellen kann, entfallen`,
       }),
     'empty-file': 'Die Datei ist leer',
     'features-unread': (v: Values) =>
@@ -107,7 +107,7 @@ export const german: Said<typeof SENTENCES> = {
     'headings-along-radians': (v: Values) =>
       `Richtungen stehen in Radiant, wo Grad üblich sind: ${v.agree} von ${v.moving} bewegten Verkehrsteilnehmern folgen ihnen`,
     'headings-in-degrees': (v: Values) =>
-      `Richtungen stehen in Grad und wurden in Radiant umgerechnet: Die von ${v.outside} von ${v.found} Verkehrsteilnehmern überschreiten in Radiant eine volle Umdrehung, oder das Format verwendet Grad`,
+      `Richtungen wurden aus Grad umgerechnet: In Radiant wären die von ${v.outside} von ${v.found} Verkehrsteilnehmern größer als eine volle Umdrehung, oder das Format verwendet Grad`,
     'headings-wrapped': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Richtung überschreitet eine volle Umdrehung und wurde umgerechnet`,
@@ -168,8 +168,8 @@ export const german: Said<typeof SENTENCES> = {
     'json-syntax': (v: Values) => `Kein gültiges JSON: ${v.fault}.`,
     'lane-links-derived': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Verbindung von Spuren fehlt in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
-        other: `${v.count} Verbindungen von Spuren fehlen in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
+        one: `${v.count} Spurverbindung fehlt in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
+        other: `${v.count} Spurverbindungen fehlen in der Datei: Eine Spur, die endet, wo eine andere beginnt, wird mit ihr verbunden`,
       }),
     'lane-segments-unusable': (v: Values) =>
       plural(Number(v.count), {
@@ -195,8 +195,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'links-apart': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Verbindung von Spuren entfällt: Die Enden liegen mehr als eine Spurbreite auseinander`,
-        other: `${v.count} Verbindungen von Spuren entfallen: Die Enden liegen mehr als eine Spurbreite auseinander`,
+        one: `${v.count} Spurverbindung entfällt: Die Enden liegen mehr als eine Spurbreite auseinander`,
+        other: `${v.count} Spurverbindungen entfallen: Die Enden liegen mehr als eine Spurbreite auseinander`,
       }),
     'links-turned': (v: Values) =>
       plural(Number(v.count), {
@@ -205,8 +205,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'lines-approximated': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Markierung hat eine Art oder Farbe, die eine Szene nicht kennt`,
-        other: `${v.count} Markierungen haben eine Art oder Farbe, die eine Szene nicht kennt`,
+        one: `${v.count} Markierung hat eine Art oder Farbe, die es in einer Szene nicht gibt`,
+        other: `${v.count} Markierungen haben eine Art oder Farbe, die es in einer Szene nicht gibt`,
       }),
     'loss-lane-lines': (v: Values) =>
       plural(Number(v.count), {
@@ -311,8 +311,8 @@ export const german: Said<typeof SENTENCES> = {
       }),
     'signals-empty': (v: Values) =>
       plural(Number(v.count), {
-        one: `${v.count} Ampel ohne Spur oder ohne Zustände entfällt`,
-        other: `${v.count} Ampeln ohne Spur oder ohne Zustände entfallen`,
+        one: `${v.count} Ampel ohne Spur oder ohne Phasen entfällt`,
+        other: `${v.count} Ampeln ohne Spur oder ohne Phasen entfallen`,
       }),
     'signals-held': (v: Values) =>
       plural(Number(v.count), {

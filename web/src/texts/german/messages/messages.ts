@@ -16,7 +16,7 @@ export const german: Said<typeof SENTENCES> = {
       rest: (v: Values) => (v.need_mps2 ? `Nötig wären ${v.need_mps2}.` : ''),
     },
     'goal-above-top-speed': {
-      title: (v: Values) => `Schneller, als ${v.kind} fahren oder gehen kann`,
+      title: (v: Values) => `Zu schnell für ${v.kind}: über der Höchstgeschwindigkeit`,
       rest: (v: Values) => (v.need_mps ? `Nötig wären ${v.need_mps}.` : ''),
     },
     'goal-too-near': {

@@ -8,8 +8,7 @@ export const german: Said<typeof SENTENCES> = {
     'unknown-agent': (v: Values) => `Die Szene hat keinen Verkehrsteilnehmer „${v.id}“`,
     'not-asked': (v: Values) =>
       `Verkehrsteilnehmer „${v.id}“ fehlt in agents: dort ergänzen oder diese Vorgabe weglassen`,
-    'no-agents-named':
-      '„all“ oder mindestens eine Kennung wird erwartet, oder mindestens ein Verkehrsteilnehmer, der reagiert',
+    'no-agents-named': 'Erwartet: „all“, mindestens eine Kennung oder mindestens ein Verkehrsteilnehmer, der reagiert',
     'too-many-regenerated': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Verkehrsteilnehmer neu zu erzeugen; höchstens ${v.most}`,
@@ -32,14 +31,14 @@ export const german: Said<typeof SENTENCES> = {
     'not-an-ego': (v: Values) => `„${v.id}“ ist kein Ego-Fahrzeug`,
     'no-ego-state': (v: Values) => `„${v.id}“, Zustand ${v.at}: Ort oder Tempo liegt außerhalb der Grenzen`,
     'step-order': (v: Values) => `Schritt ${v.got} erhalten; erwartet wird Schritt ${v.next}`,
-    'setting-of-snapshot': (v: Values) => `Der Schnappschuss hat sein eigenes ${v.member}`,
+    'setting-of-snapshot': (v: Values) => `Der Schnappschuss legt ${v.member} selbst fest`,
     'snapshot-of-another-scene': 'Der Schnappschuss stammt aus einer anderen Szene',
     'snapshot-broken': (v: Values) => `Kein Schnappschuss: Byte ${v.at} ist falsch`,
     'too-many-runs': 'Für einen weiteren Lauf ist kein Platz; einen löschen oder warten',
     'too-many-requests': (v: Values) =>
       plural(Number(v.most), {
-        one: `mehr als ${v.most} Anfrage in der Sekunde von diesem Aufrufer`,
-        other: `mehr als ${v.most} Anfragen in der Sekunde von diesem Aufrufer`,
+        one: `Mehr als ${v.most} Anfrage in der Sekunde von diesem Aufrufer`,
+        other: `Mehr als ${v.most} Anfragen in der Sekunde von diesem Aufrufer`,
       }),
     defect: 'Im Server ist ein Fehler aufgetreten. Mehr steht in seinem Protokoll.',
     'exactly-one': (v: Values) => `Nötig ist genau eines von ${v.first} und ${v.second}`,

@@ -17,8 +17,9 @@ export const german: Said<typeof SENTENCES> = {
     'relation-ring': (v: Values) => `Die Ziele beziehen sich im Kreis aufeinander: ${v.row}`,
     'relation-row': (v: Values) => `Mehr als ${v.most} Ziele beziehen sich in Folge aufeinander`,
     'relation-to-itself': 'Das Ziel bezieht sich auf denselben Verkehrsteilnehmer',
-    'relation-unknown': (v: Values) => `Das Ziel bezieht sich auf „${v.id}“, das nicht in der Szene ist`,
-    'state-expected': (v: Values) => `Zustand ${v.step}: erwartet: ${v.expected}`,
+    'relation-unknown': (v: Values) =>
+      `Das Ziel bezieht sich auf „${v.id}“; dieser Verkehrsteilnehmer ist nicht in der Szene`,
+    'state-expected': (v: Values) => `Erwartet in Zustand ${v.step}: ${v.expected}`,
     'track-beyond-scene': (v: Values) => `Die Trajektorie endet nach Schritt ${v.end}, die Szene hat ${v.steps}`,
     'both-or-neither': (v: Values) => `${v.first} ist festgelegt, ${v.second} nicht; beide oder keines festlegen`,
     'cannot-decompress': (v: Values) => `Nicht zu entpacken oder zu lesen: ${v.words}`,
@@ -38,12 +39,12 @@ export const german: Said<typeof SENTENCES> = {
     'index-beyond': (v: Values) => `Gefunden: ${v.index}; erwartet: eine Zahl ab 0 und unter ${v.below}`,
     'inflates-too-much': (v: Values) => `Entpackt mehr als ${v.most}-mal so groß`,
     'lane-outside': (v: Values) =>
-      `Spur „${v.lane}“, ${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+      `Spur „${v.lane}“, ${v.what}: ${v.found} gefunden, ${v.least} bis ${v.most} erwartet`,
     'lanelets-in-extract': 'Die Datei hat Lanelets: eine Lanelet2-Karte, die als lanelet2 gelesen wird',
     'map-too-wide': (v: Values) => `${v.width_m} x ${v.height_m}; eine Karte reicht bis ${v.most_m} um ihre Mitte`,
     needs: (v: Values) => `${v.what} braucht: ${v.expected}`,
     'nested-deeper': (v: Values) => `Tiefer als ${v.most} Ebenen verschachtelt`,
-    'netconvert-failed': (v: Values) => `netconvert konnte aus der Datei kein Netz machen: ${v.words}`,
+    'netconvert-failed': (v: Values) => `netconvert konnte aus der Datei kein Netz erzeugen: ${v.words}`,
     'netconvert-missing':
       'Ein OpenStreetMap-Auszug wird mit netconvert von SUMO gelesen, das hier fehlt: mit `pip install eclipse-sumo` installieren und neu starten',
     'near-a-place':
@@ -51,7 +52,7 @@ export const german: Said<typeof SENTENCES> = {
     'network-too-large': (v: Values) => `Mehr als ${v.most} ${v.what}`,
     'nothing-around': (v: Values) =>
       `Keine Spur liegt im Umkreis von ${v.radius_m} um ${v.x}, ${v.y}; die Datei hat x ${v.x_range} und y ${v.y_range}`,
-    'no-column': (v: Values) => `Keine Spalte „${v.column}“; vorhanden sind ${v.columns}`,
+    'no-column': (v: Values) => `Keine Spalte „${v.column}“; die Tabelle hat ${v.columns}`,
     'no-lanelets': 'Keine Lanelets: Ein OpenStreetMap-Auszug wird als osm gelesen',
     'no-open-lanelets':
       'Keine Lanelets mit zwei Seiten, die ein Verkehrsteilnehmer befahren darf: Subtypen und Teilnehmer entscheiden',
@@ -72,21 +73,21 @@ export const german: Said<typeof SENTENCES> = {
     'pickle-calls': (v: Values) =>
       `Byte ${v.byte}: Das Pickle verlangt ${v.name}; gelesen werden Zahlen, Texte, Listen und Arrays, aufgerufen wird nichts`,
     'pickle-holds': (v: Values) =>
-      `Byte ${v.byte}: gefunden: ${v.what}; gelesen werden Zahlen, Texte, Listen und Arrays`,
+      `Byte ${v.byte}: ${v.what} gefunden; gelesen werden Zahlen, Texte, Listen und Arrays`,
     'positions-over-limit': (v: Values) =>
       `Mehr als ${v.most} ${v.what} in ${v.within_s}: weniger aufzeichnen (fcd-output.filter-edges.input-file, device.fcd.probability)`,
-    'range-outside': (v: Values) => `${v.what}: gefunden: ${v.found}; erwartet: ${v.least} bis ${v.most}`,
+    'range-outside': (v: Values) => `${v.what}: ${v.found} gefunden, ${v.least} bis ${v.most} erwartet`,
     'road-over-limit': (v: Values) => `Straße „${v.road}“ hat ${v.records} Einträge, zu viele für ihre Länge`,
     'roads-over-memory': (v: Values) =>
       `${v.lanes_m} Spuren und ${v.elements} Elemente brauchen mehr Speicher, als eine Datei dieser Größe darf`,
-    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km; eine Karte hat einige Kilometer`,
+    'roads-too-far': (v: Values) => `Straßen über ${v.reach_km} km; eine Karte umfasst wenige Kilometer`,
     'too-far-from-start': (v: Values) => `${v.what} liegt ${v.distance_m} vom Start, höchstens ${v.most_m} erwartet`,
     'unequal-columns': (v: Values) =>
       plural(Number(v.count), {
         one: `${v.count} Wert, erwartet werden so viele wie ${v.like} (${v.expected})`,
         other: `${v.count} Werte, erwartet werden so viele wie ${v.like} (${v.expected})`,
       }),
-    'unknown-map': 'Hier ist keine Karte mit diesem Hash bekannt: die Karte selbst senden',
+    'unknown-map': 'Der Server hat keine Karte mit diesem Hash: die Karte selbst senden',
     unreadable: (v: Values) => `Nicht als ${v.format} lesbar: ${v.words}`,
     'unsupported-version': (v: Values) => `Version ${v.found} gefunden, bekannt sind Versionen bis ${v.known}`,
     'zip-without': (v: Values) => `Ein ZIP ohne Datei, deren Name auf ${v.first} oder ${v.second} endet`,

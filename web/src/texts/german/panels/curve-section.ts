@@ -11,7 +11,7 @@ export const german: Said<typeof TEXTS> = {
   actual: (speed: string) => `Ist: ${speed}`,
   point: 'Punkt',
   stop: 'Halt',
-  via: 'Ort',
+  via: 'Zwischenpunkt',
   stopsTitle: 'Halte',
   stops: (place) => `Hält ${place ?? 'hier'}`,
   after: (way, lasts) => `nach ${way}, ${lasts} lang`,

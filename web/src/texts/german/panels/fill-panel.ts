@@ -35,7 +35,7 @@ export const german: Said<typeof TEXTS> = {
   arrivals: 'Zufluss, Fahrzeuge je Stunde',
   vehiclesAnHour: (arm) => `${arm}, Fahrzeuge je Stunde`,
   parked: ', parkt',
-  arrivesAt: (time) => `, kommt bei ${time}`,
+  arrivesAt: (time) => `, trifft bei ${time} ein`,
   theWholeMapDraw: 'Füllt die ganze Karte. Für weniger eine Fläche umfahren.',
   removed: (gone) => `${gone} entfernt. `,
 };

@@ -31,5 +31,5 @@ export const german: Said<typeof TEXTS> = {
   priority: 'Vorrang',
   pedestriansFirst: 'Fußgänger haben Vorrang; Fahrzeuge und Radfahrer warten',
   bySignals: 'Durch die Ampel geregelt; Abbieger lassen Fußgänger vor',
-  everyoneStops: 'Alle halten hier und lassen dann den Querverkehr vor',
+  everyoneStops: 'Alle halten hier und lassen dann den Verkehr der anderen Straße vor',
 };

@@ -36,7 +36,7 @@ export const german: Said<typeof TEXTS> = {
   wholeScene: 'Ganze Szene',
   roundTitle: 'Runde',
   generatingSix: 'Berechnet sechs …',
-  tryAgain: 'Noch einmal',
+  tryAgain: 'Noch einmal versuchen',
   futuresOfTheScene: (many) => `${many} Zukünfte der Szene`,
   futuresOf: (many, subject) => `${many} Zukünfte von ${subject}`,
   roundOpened: (round) => `Runde ${round}`,

@@ -10,8 +10,8 @@ export const german: Said<typeof TEXTS> = {
   editsApplyToAll: 'gilt für alle, +5 addiert 5',
   lockedAreNotChanged: (locked) =>
     plural(locked, {
-      one: `${locked} gesperrter wird nicht geändert.`,
-      other: `${locked} gesperrte werden nicht geändert.`,
+      one: `${locked} gesperrter Verkehrsteilnehmer wird nicht geändert.`,
+      other: `${locked} gesperrte Verkehrsteilnehmer werden nicht geändert.`,
     }),
   roadUsers: (count) => `${count} Teilnehmer`,
   applyChangesTo: 'Änderungen gelten für',

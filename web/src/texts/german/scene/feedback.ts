@@ -70,7 +70,7 @@ export const german: Said<typeof TEXTS> = {
   calm: 'ruhig',
   smooth: 'sanft',
   waits: 'wartet',
-  clear: 'frei',
+  clear: 'Weg frei',
   meanSpeed: 'Mittleres Tempo',
   gapOf: 'Zeitlücke',
   waitingTime: 'Wartezeit',

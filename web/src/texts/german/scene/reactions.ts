@@ -12,6 +12,6 @@ export const german: Said<typeof TEXTS> = {
   slowsTo: (speed, whom, behind) => `bremst auf ${speed} ${behind ? 'hinter' : 'wegen'} ${whom}`,
   stopsBriefly: (whom, behind) => `hält kurz ${behind ? 'hinter' : 'wegen'} ${whom}`,
   speedsUpFor: (name) => `beschleunigt vor ${name}`,
-  staysOut: (name) => `erscheint nicht, dort ist ${name}`,
-  keepsClearOf: (name, behind) => (behind ? `bleibt hinter ${name}` : `weicht ${name} aus`),
+  staysOut: (name) => `erscheint nicht: dort ist ${name}`,
+  keepsClearOf: (name, behind) => (behind ? `bleibt hinter ${name}` : `hält Abstand zu ${name}`),
 };

@@ -10,7 +10,7 @@ const EXAMPLES: Readonly<Record<string, string>> = {
 };
 
 export const german: Said<typeof TEXTS> = {
-  aColumnIsBroken: 'eine Spalte ist defekt',
+  aColumnIsBroken: 'eine Spalte ist ungültig',
   thisIsNotAScene: 'Das ist keine Szene: es fehlt die Liste der Verkehrsteilnehmer.',
   thisSceneWas: (version) =>
     `Diese Szene wurde mit einer neueren Version (${version}) gesichert. Lesbar sind Versionen bis 1.`,
