@@ -11,7 +11,8 @@ class DragTrafficError(Exception):
     """The engine refused a call, or could not read a file.
 
     The message is a sentence for people. ``code`` never changes and is for programs (``out-of-range``,
-    ``unknown-agent``, ...: docs/api.md lists them). ``errors`` are the single faults, with ``pointer`` and ``detail``.
+    ``unknown-agent``, ...: ``/docs/problems`` of a server explains them). ``errors`` are the single faults, with
+    ``pointer`` and ``detail``.
     """
 
     def __init__(self, message: str, code: str, errors: Sequence[dict[str, Any]] = ()) -> None:

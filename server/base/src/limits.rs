@@ -33,10 +33,10 @@ limits! {
     json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
     import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
     import_decoded_bytes = 256 << 20, "uploaded file after Content-Encoding is undone";
-    memory_bytes = 1_536 << 20, "memory of the server (--memory): less 256 MiB for the program itself, the budget of bodies, lines, imports, exports, long replies, runs, open scenes and maps; what does not fit is refused";
+    memory_bytes = 1_536 << 20, "memory of the server (--memory): 256 MiB for the program itself, the rest for bodies, WebSocket messages, imports, exports, long replies, runs, open scenes and maps; what does not fit is refused";
     body_bytes = 512 << 20, "all bodies that are in memory: uploads as they arrived, others after Content-Encoding is undone too, long replies of imports";
     uploads = 4, "files that are uploaded or imported at the same time; one party has at most half of them";
-    imports = 2, "files that are imported at the same time; one place is never taken by large ones";
+    imports = 2, "files that are imported at the same time; one place is reserved for small ones";
     expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
     header_bytes = 16 << 10, "names and values of all header fields";
     header_fields = 64, "header fields of a request";
@@ -50,17 +50,17 @@ limits! {
     queue = 16, "calls that wait, and as many long ones beside them; in a full queue the newest call of the party with most of them is refused";
     generate_s = 60, "wall time of a generation and of other work";
     stream_s = 120, "wall time of a reply, waiting included";
-    stalled_s = 15, "time a reader may leave an event waiting";
+    stalled_s = 15, "time that a reader may leave an event unread";
     buffered_events = 8, "events kept for a slow reader before steps are dropped";
-    heartbeat_s = 10, "time between signs of life in a stream";
+    heartbeat_s = 10, "time between keep-alive messages of a stream";
     header_read_s = 10, "time for a request's head, and between requests of a connection";
-    body_read_s = 30, "time for a JSON body, and for a message of an open line";
+    body_read_s = 30, "time for a JSON body, and for a message of a WebSocket";
     import_read_s = 120, "time for an upload";
     body_grace_s = 5, "time before a body must come at least at `body_rate`";
     body_rate = 10_000, "bytes a second, on average, that a body must come at";
-    line_bytes = 1 << 20, "one question over an open line";
-    line_questions = 8, "questions of an open line at the same time; the next one waits to be heard";
-    connections = 256, "open connections, as far as the process may have descriptors; a refused one makes room first, then the longest idle one, of parties with over a quarter before others";
+    line_bytes = 1 << 20, "one message of a WebSocket";
+    line_questions = 8, "requests of a WebSocket that are worked on at the same time; the next ones wait";
+    connections = 256, "open connections, within the descriptors of the process; a refused one makes room first, then the longest idle one, of parties with over a quarter before others";
     party_rate = 5_000, "requests of one party a second, on average; 0 is no bound";
     party_burst = 20_000, "requests of one party at once, ahead of its rate";
     clients = 1_024, "clients whose revisions are remembered";
@@ -69,13 +69,13 @@ limits! {
     user_scenes = 2_000, "scenes of one user, where scenes have owners (--owners)";
     user_bytes = 1 << 30, "scenes of one user as they are stored, without maps";
     store_bytes = 4 << 30, "size of the store's file";
-    map_keep_s = 86_400, "time an unused map is kept";
+    map_keep_s = 86_400, "time that an unused map is kept";
     cached_map_bytes = 128 << 20, "memory of maps that are kept";
     cached_scene_bytes = 128 << 20, "memory of open scenes: saved and held ones, and as much for demos and the data folder; the party with most of them makes room";
     runs = 64, "runs that clients step; one party has at most half of them";
     run_bytes = 256 << 20, "memory of runs and their scenes";
     run_idle_s = 600, "time after which a run that is not used is forgotten";
-    shutdown_s = 10, "time running work gets when the server stops";
+    shutdown_s = 10, "time that running work gets when the server stops";
 }
 
 /// Limits that must not be zero, because nothing could be answered.

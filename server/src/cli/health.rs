@@ -26,7 +26,7 @@ pub struct HealthArgs {
     /// Ask whether the process answers (/healthz), in place of whether it takes work (/readyz).
     #[arg(long)]
     alive: bool,
-    /// Most time to connect, and to wait for the reply, seconds.
+    /// Longest time to connect, and to wait for the reply, seconds.
     #[arg(long, value_name = "S", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=600))]
     timeout: u64,
 }

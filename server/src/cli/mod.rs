@@ -84,19 +84,19 @@ enum Command {
     /// Generate futures of road users, towards goals or freely.
     #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
     Generate(Box<generate::GenerateArgs>),
-    /// Generate many scenes by a plan, in chunks that several processes share and that an interrupted run keeps.
+    /// Generate many scenes by a plan; several processes share the work, and an interrupted run resumes.
     #[command(after_help = examples!("dragtraffic batch plan.toml -o out/", "dragtraffic batch plan.toml -o out/ --shard 0/8"))]
     Batch(batch::BatchArgs),
-    /// Make results of a batch again from their references: scenes with futures, byte for byte.
+    /// Reproduce results of a batch from their references: scenes with futures, byte for byte.
     #[command(after_help = examples!("dragtraffic replay out/ S63D1R -o scene.json", "dragtraffic replay out/ --kept -o cases/"))]
     Replay(batch::ReplayArgs),
-    /// List what moving road users do in recorded scenes, as a table to choose scenes by.
+    /// Make a table of what moving road users do in recorded scenes, to choose scenes by.
     #[command(after_help = examples!("dragtraffic index logs/ -o index.parquet", "dragtraffic index 'logs/**/*.tfrecord*' -o index.parquet --force"))]
     Index(index::IndexArgs),
     /// Tag what happens in recorded scenes: near misses, cut-ins, hard braking, red lights and the like.
     #[command(after_help = examples!("dragtraffic mine logs/ -o events.parquet", "dragtraffic mine 'logs/**/*.tfrecord*' --json"))]
     Mine(mine::MineArgs),
-    /// Look for the places of maps where a pattern fits, and make a scene for each.
+    /// Find the places of maps where a pattern fits, and make a scene for each.
     #[command(name = "match", after_help = examples!("dragtraffic match CCFtap town.json -o turns/", "dragtraffic match all maps/ --json"))]
     Match(matching::MatchArgs),
     /// Create a map from a template: junctions, roundabouts, merges, roads, car parks.
@@ -111,13 +111,13 @@ enum Command {
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
     #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --sample all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
     Score(score::ScoreArgs),
-    /// Let a language model work on scenes: the operations as tools of the Model Context Protocol, over standard input and output.
+    /// Offer the operations to a language model, as tools of the Model Context Protocol.
     #[command(after_help = examples!("dragtraffic mcp", "dragtraffic mcp --folder recordings/ --folder out/"))]
     Mcp(mcp::McpArgs),
     /// Copy the saved scenes of a server, even while it runs.
     #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
     Backup(backup::BackupArgs),
-    /// Put a copy that backup made in the place of the store.
+    /// Replace the store by a copy that backup made.
     #[command(after_help = examples!("dragtraffic restore scenes-monday.sqlite --force", "dragtraffic restore copies/scenes.sqlite --db scenes.sqlite"))]
     Restore(restore::RestoreArgs),
     /// Write every saved scene of a store as a file.
@@ -126,7 +126,7 @@ enum Command {
     /// Ask a running server whether it works: exit code 0 or 1.
     #[command(after_help = examples!("dragtraffic health", "dragtraffic health http://127.0.0.1:9090 --timeout 2"))]
     Health(health::HealthArgs),
-    /// Look for what this machine lacks to serve.
+    /// Check whether this machine has what the server needs.
     #[command(after_help = examples!("dragtraffic doctor", "dragtraffic doctor --config server.toml --json"))]
     Doctor(Box<doctor::DoctorArgs>),
     /// Print version, weights, limits and formats as JSON.

@@ -13,10 +13,10 @@ pub struct RestoreArgs {
     /// Copy that backup made.
     #[arg(value_name = "COPY")]
     copy: PathBuf,
-    /// Database file to put it at; no server may use it. Default: that of serve.
+    /// Database file to replace; no server may use it. Default: that of serve.
     #[arg(long, env = "DRAGTRAFFIC_DB", value_name = "FILE")]
     db: Option<PathBuf>,
-    /// Replace the store that is there, with all its scenes.
+    /// Replace an existing store, with all its scenes.
     #[arg(long)]
     force: bool,
 }

@@ -36,7 +36,7 @@ pub struct ServeArgs {
     /// Port to listen on; 0 takes a free port.
     #[arg(long, env = "DRAGTRAFFIC_PORT", default_value_t = 8080)]
     pub(super) port: u16,
-    /// Listen on a unix socket instead: unix:PATH. The socket of a server that has ended is replaced.
+    /// Listen on a unix socket instead: unix:PATH. A stale socket is replaced.
     #[arg(long, env = "DRAGTRAFFIC_LISTEN", value_name = "unix:PATH")]
     pub(super) listen: Option<String>,
     /// Mode of the unix socket, octal.
@@ -52,7 +52,7 @@ pub struct ServeArgs {
     /// user's data folder.
     #[arg(long, env = "DRAGTRAFFIC_DB", value_name = "FILE")]
     pub(super) db: Option<PathBuf>,
-    /// Folder of scenario files to list, read-only.
+    /// Folder of recorded scenes to list, read-only.
     #[arg(long, env = "DRAGTRAFFIC_DATA", value_name = "DIR")]
     pub(super) data: Option<PathBuf>,
     /// Additional Host header to accept, with its port, such as scenes.example:8080.
@@ -87,17 +87,17 @@ pub struct ServeArgs {
     /// this machine may call it.
     #[arg(long, env = "DRAGTRAFFIC_GRPC", value_name = "PORT")]
     pub(super) grpc: Option<u16>,
-    /// File for the audit log, a JSON object a line: changes of scenes, refusals of tokens and rights. - is standard
-    /// output.
+    /// File for the audit log, one JSON object per line: changes of scenes, refusals of tokens and rights. - is
+    /// standard output.
     #[arg(long, env = "DRAGTRAFFIC_AUDIT", value_name = "FILE")]
     audit: Option<String>,
-    /// Bytes of an audit file before it makes way; five older ones stay.
+    /// Size at which an audit file is rotated, bytes; five older ones are kept.
     #[arg(long, env = "DRAGTRAFFIC_AUDIT_BYTES", value_name = "N", default_value_t = 100_000_000)]
     audit_bytes: u64,
-    /// TOML file with options by their names, such as port = 9000; the command line and the environment precede it.
+    /// TOML file with options by name, such as port = 9000; the command line and the environment override it.
     #[arg(long, env = "DRAGTRAFFIC_CONFIG", value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Print what the server would do, or every fault of the options, and end.
+    /// Print what the server would do, or every fault of the options, and exit.
     #[arg(long)]
     check: bool,
     /// Open the editor in the browser.

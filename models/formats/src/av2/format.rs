@@ -27,8 +27,8 @@ impl Format for Argoverse {
             export: true,
             many: false,
             takes_net: true,
-            notes: "Motion of road users, with the map by `--net` or alone. Sizes are by type, as the format \
-                 has none; what is written has no map.",
+            notes: "Motion of road users, with the map by `--net`, or a map alone. Sizes follow from the \
+                 type, as the format has none; a written scenario has no map.",
             loses: &[
                 loss::code::NO_CONDITIONS,
                 loss::code::NO_GENERATED,

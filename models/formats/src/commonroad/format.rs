@@ -23,11 +23,11 @@ impl Format for CommonRoad {
             export: true,
             many: false,
             takes_net: false,
-            notes: "2018b and 2020a are read, 2020a is written: lanelets, signs, lights with their cycles, \
-                 obstacles, planning problems, of which the first is the ego with a goal, of regions the \
-                 middle. Other steps than 0.1 s are resampled. Out, the ego (else the first road user \
-                 with a goal) is the planning problem; who comes late is beside the schema; origin and \
-                 licence are in the file.",
+            notes: "2018b and 2020a are read, 2020a is written: lanelets, signs, signals with their cycles, \
+                 obstacles, planning problems. The first planning problem is the ego with its goal, at \
+                 the middle of a goal region. Other steps than 0.1 s are resampled. In a written file, \
+                 the ego (else the first road user with a goal) is the planning problem; origin and licence \
+                 are kept. CommonRoad's readers take road users that appear late, its schema does not.",
             loses: &[
                 loss::code::NO_CONDITIONS,
                 loss::code::NO_GENERATED,

@@ -31,18 +31,18 @@ pub(crate) static GPUDRIVE: EngineFormat = EngineFormat {
     id: "gpudrive",
     name: "GPUDrive scenario (JSON)",
     flavour: Flavour::GpuDrive,
-    notes: "Road users and lights; lanes are lines without a graph: those that end where others \
-         begin are joined. Moving road users decide whether headings are degrees; \
-         written in radians, with heights and ids.",
+    notes: "Road users and signals; lanes are lines without a graph, and those that end where others begin \
+         are joined. Moving road users decide whether headings are read as degrees; written in radians, \
+         with heights and ids.",
 };
 /// Nocturne.
 pub(crate) static NOCTURNE: EngineFormat = EngineFormat {
     id: "nocturne",
     name: "Nocturne scenario (JSON)",
     flavour: Flavour::Nocturne,
-    notes: "Road users and lights; lanes are lines without a graph: those that end where others \
-         begin are joined. Moving road users decide whether headings are degrees; \
-         written in degrees, in the plane.",
+    notes: "Road users and signals; lanes are lines without a graph, and those that end where others begin \
+         are joined. Moving road users decide whether headings are read as degrees; written in degrees, \
+         in the plane.",
 };
 
 /// Flavour of a file, by its beginning.

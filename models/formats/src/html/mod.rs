@@ -28,7 +28,7 @@ impl Format for Page {
             export: true,
             many: false,
             takes_net: false,
-            notes: "The scene playing, with names and lights; it needs no server and no network.",
+            notes: "The scene as it plays, with names and signals; the page needs no server and no network.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_MODES,

@@ -14,8 +14,8 @@ pub(crate) static LANELET2: MapFile = MapFile {
     extensions: &["osm", "osm.gz"],
     root: "osm",
     source: "lanelet2",
-    notes: "Lanelets with their links, paint, road edges, crosswalks, stop signs, by `local_x` and \
-         `local_y` or degrees; lights get fixed times; no road users. Plain or gzip.",
+    notes: "Lanelets with their links, paint, road edges, crosswalks and stop signs, in `local_x` and \
+         `local_y` or degrees. Signals get fixed times; no road users. Plain or gzip.",
     loses: &[],
     read: import::read,
     write: None,

@@ -27,10 +27,11 @@ impl Format for NuPlanLog {
             export: false,
             many: true,
             takes_net: true,
-            notes: "Each scene of a log: road users as the lidar saw them, the ego, lights by connector; lanes with \
-                 links and limits, crossings, boundaries, stop signs and ground 100 m round it by `--net map.gpkg`, \
-                 or a part of a map alone. 20 Hz is resampled; kinds of situations are tags. After the published \
-                 schema: no file of the set was at hand.",
+            notes: "Each scene of a log: road users as the lidar saw them, the ego, and signals by \
+                 connector. `--net map.gpkg` adds lanes with links and limits, crossings, boundaries, \
+                 stop signs and ground within 100 m. Parts of a map are read alone. 20 Hz is resampled; \
+                 situation types are tags. Written after the published schema, not tested on files of the \
+                 data set.",
             loses: &[],
         }
     }

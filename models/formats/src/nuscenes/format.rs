@@ -24,10 +24,10 @@ impl Format for NuScenesTables {
             export: false,
             many: true,
             takes_net: false,
-            notes: "The tables of a version, such as `v1.0-mini/*.json`, and `maps/expansion/*.json` in one zip: \
-                 each scene with its annotated road users, the ego, and lanes with links, crossings, dividers \
-                 and ground round them; keyframes at 2 Hz are resampled; no lights. After the published \
-                 schema: no file of the set was at hand.",
+            notes: "The tables of a version, such as `v1.0-mini/*.json`, and `maps/expansion/*.json` in one \
+                 zip. Each scene has its annotated road users, the ego, and nearby lanes with links, \
+                 crossings, dividers and ground; no signals. Keyframes at 2 Hz are resampled. Written \
+                 after the published schema, not tested on files of the data set.",
             loses: &[],
         }
     }

@@ -12,10 +12,10 @@ pub(crate) static OPENDRIVE: MapFile = MapFile {
     extensions: &["xodr", "xodr.gz"],
     root: "OpenDRIVE",
     source: "opendrive",
-    notes: "1.4 to 1.9 in, 1.7 out: lanes with their links, paint, road edges and medians, \
-         crosswalks, stop signs, left-hand traffic; signals get fixed times, as the format has \
-         none; flat across; no road users. Out, each lane is a road of its own, within 0.02 m, \
-         with crosswalks, heads and signs. Plain or gzip.",
+    notes: "1.4 to 1.9 are read, 1.7 is written. Read: lanes with their links, paint, road edges and \
+         medians, crosswalks, stop signs, left-hand traffic. Signals get fixed times, as the format has \
+         none; cross slopes are flat; no road users. In a written map each lane is a road of its own, \
+         within 0.02 m, with crosswalks, signal heads and signs. Plain or gzip.",
     loses: &[
         code::NO_ROAD_USERS,
         code::NO_SIGNALS,

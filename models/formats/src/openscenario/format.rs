@@ -43,10 +43,10 @@ impl Format for OpenScenario {
             export: true,
             many: false,
             takes_net: true,
-            notes: "XML 1.2 with its OpenDRIVE map: every road user follows its track to the tenth of a \
-                 second, comes and leaves when it does; lights by their states. In, 1.0 to 1.3, alone or in a \
-                 zip with map and catalogs: initial states, parameters, catalogs, polylines with times and phases \
-                 of lights; manoeuvres are listed by their place.",
+            notes: "1.2 is written with its OpenDRIVE map: every road user follows its track at every 0.1 s, \
+                 and appears and disappears at its times; signals have their states. 1.0 to 1.3 are read, \
+                 alone or in a zip with map and catalogs: initial states, parameters, catalogs, polylines \
+                 with times, and phases of signals. Paths of unread manoeuvres are listed.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_GENERATED,

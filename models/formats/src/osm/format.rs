@@ -106,11 +106,11 @@ impl Format for OsmExtract {
             export: false,
             many: false,
             takes_net: false,
-            notes: "Some kilometres as saved from the website: SUMO's `netconvert` makes junctions, turn \
-                 lanes, pavements, crossings, cycle lanes and signals of it (`pip install eclipse-sumo` \
-                 brings it; `DRAGTRAFFIC_NETCONVERT` names it where it is not on the path). Traffic keeps \
-                 to the left where it does there; the licence ODbL and its attribution stay with the \
-                 scene. No road users. Plain or gzip.",
+            notes: "An extract of some kilometres, as saved from the website. SUMO's `netconvert` makes \
+                 junctions, turn lanes, pavements, crossings, cycle lanes and signals from it (`pip \
+                 install eclipse-sumo` installs it; `DRAGTRAFFIC_NETCONVERT` names it if it is not on the \
+                 path). Countries with left-hand traffic are recognised. The licence ODbL and its \
+                 attribution stay with the scene. No road users. Plain or gzip.",
             loses: &[],
         }
     }

@@ -25,9 +25,9 @@ impl Format for ScenarioNet {
             export: true,
             many: false,
             takes_net: false,
-            notes: "Road users, lanes, lights, in single precision; one file a scene, without the lists of a \
-                 data set. Read by a machine that calls nothing: a pickle that asks for more than arrays \
-                 is refused by name (`pickle-refused`).",
+            notes: "Road users, lanes and signals, in single precision; one file per scene, without the \
+                 lists of a data set. The reader executes no calls: a pickle that asks for more than \
+                 arrays is refused (`pickle-refused`).",
             loses: &[
                 loss::code::NO_CONDITIONS,
                 loss::code::NO_GENERATED,

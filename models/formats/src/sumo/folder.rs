@@ -57,8 +57,8 @@ impl Format for SumoFolder {
             export: true,
             many: true,
             takes_net: false,
-            notes: "Network, trips and recording with their configuration: `sumo -c` drives the trips, the \
-                 recording is the motion itself. Read from the network and the recording.",
+            notes: "Network, trips and recording with their configuration: `sumo -c` drives the trips, and \
+                 the recording has the motion itself. Network and recording are read.",
             loses: &[
                 loss::code::NO_CONDITIONS,
                 loss::code::NO_GENERATED,

@@ -28,9 +28,9 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
     extensions: &["net.xml", "net.xml.gz"],
     root: "net",
     source: SOURCE,
-    notes: "Lanes, crossings, sidewalks, kerbs, signals of static programs from time 0; no road \
-         users. Out, lanes side by side are an edge, ways through junctions keep their course, \
-         with right of way and lights as they change. Plain or gzip.",
+    notes: "Lanes, crossings, sidewalks, kerbs, and signals of static programs from time 0; no road users. \
+         In a written network, lanes side by side form an edge, and paths through junctions keep their \
+         shape, with right of way and changing signals. Plain or gzip.",
     loses: &[
         code::NO_ROAD_USERS,
         code::NO_NOTES,
@@ -86,9 +86,9 @@ impl Format for SumoFcd {
             export: true,
             many: true,
             takes_net: true,
-            notes: "Who is where at each step, XML or CSV in, XML out; scenes of 9.1 s at 0.1 s. Sizes are \
-                 by the name of the type, which what is written says in metres; lanes and signals come \
-                 with the network alone (`--net`). Plain or gzip.",
+            notes: "Positions of road users at each step. XML or CSV is read, XML is written; scenes of 9.1 \
+                 s at 0.1 s. Sizes follow from the name of the type, and a written type has its size in \
+                 metres. Lanes and signals come only from the network (`--net`). Plain or gzip.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_GENERATED,

@@ -49,9 +49,10 @@ impl Format for TableFormat {
                 export: true,
                 many: true,
                 takes_net: true,
-                notes: "A row for each road user, future and step, units in the columns' names, in the source's \
-                     frame; tables of others by `--columns`, the map of their place by `--net`. Plain or gzip; recordings \
-                     of several tables, and their maps, in a folder or a zip.",
+                notes: "A row for each road user, future and step, with units in the column names, in the \
+                     source's frame. `--columns` reads other tables, `--net` adds the map of their place. \
+                     Plain or gzip. Recordings of several tables, with their maps, are read from a folder \
+                     or a zip.",
                 loses: write::LOSES,
             },
             Self::Parquet => Info {
@@ -63,8 +64,9 @@ impl Format for TableFormat {
                 export: true,
                 many: true,
                 takes_net: true,
-                notes: "A row for each road user, future and step, units in the columns' names, in the source's \
-                     frame; tables of others by `--columns`, the map of their place by `--net`. What is said of the scene is in the file.",
+                notes: "A row for each road user, future and step, with units in the column names, in the \
+                     source's frame. `--columns` reads other tables, `--net` adds the map of their place. \
+                     Attributes of the scene are in the file.",
                 loses: write::LOSES,
             },
         }

@@ -51,7 +51,7 @@ impl Format for WomdExample {
             takes_net: false,
             notes: "The flat form of the same: `state/...`, `roadgraph_samples/...`, \
                  `traffic_light_state/...` in the dataset's shapes, for 128 road users, 91 steps, 16 \
-                 lights and 30 000 points. Plain or gzip.",
+                 signals and 30 000 points. Plain or gzip.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_GENERATED,

@@ -27,8 +27,8 @@ impl Format for Womd {
             export: true,
             many: true,
             takes_net: false,
-            notes: "Road users with their states, lanes and what lies beside them, lights, who is to be \
-                 predicted. Checksums are checked. Plain or gzip.",
+            notes: "Road users with their states, lanes with their surroundings, signals, and the road users \
+                 to be predicted. Checksums are verified. Plain or gzip.",
             loses: &[
                 loss::code::NO_CONDITIONS,
                 loss::code::NO_GENERATED,

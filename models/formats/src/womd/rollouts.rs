@@ -39,7 +39,7 @@ impl Format for SimAgents {
             many: true,
             takes_net: false,
             notes: "Each sample of a scene is a rollout of 80 steps: `generate --samples 32` makes as many \
-                 as the challenge takes. Who submits it is yours to fill in.",
+                 as the challenge takes. Fill in the submitter yourself.",
             loses: &[
                 code::NO_CONDITIONS,
                 code::NO_MODES,

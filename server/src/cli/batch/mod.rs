@@ -41,7 +41,7 @@ pub struct BatchRunArgs {
     #[arg(value_name = "PLAN.toml", required = true)]
     plan: Option<PathBuf>,
     /// Folder of the results, or a URL in an object store: s3://, gs://, az://. The same command continues an
-    /// interrupted run: chunks that are there are not made again.
+    /// interrupted run: existing chunks are not made again.
     #[arg(short, long, value_name = "DIR|URL", required = true)]
     output: Option<PathBuf>,
     /// Work on one of N equal shares of the chunks: I/N, I from 0 to N - 1. Default: the share of a Slurm array
@@ -62,10 +62,10 @@ enum BatchCommand {
     /// Make some units again and compare them with the results, byte by byte.
     #[command(after_help = examples!("dragtraffic batch verify out/", "dragtraffic batch verify out/ --units 200 --seed 7"))]
     Verify(inspect::VerifyArgs),
-    /// Write manifest.json, cases.jsonl and cases.parquet from the chunks that are there.
+    /// Write manifest.json, cases.jsonl and cases.parquet from the existing chunks.
     #[command(after_help = examples!("dragtraffic batch merge out/", "dragtraffic batch merge out/ --per-bucket 5"))]
     Merge(merge::MergeArgs),
-    /// Count what the results cover, and write coverage.json and index.html, a page of the cases without network.
+    /// Count what the results cover, and write coverage.json and index.html, an offline page of the cases.
     #[command(after_help = examples!("dragtraffic batch report out/", "dragtraffic batch report out/ --full 20 --cases 2000"))]
     Report(report::ReportArgs),
 }

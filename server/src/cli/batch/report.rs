@@ -24,10 +24,10 @@ pub struct ReportArgs {
     /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Kept results that make a bucket full.
+    /// Number of kept results from which a bucket is full.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = whole(1, 1_000_000))]
     full: u64,
-    /// Most cases on the page; of more, those with the least times to collision are shown.
+    /// Most cases on the page; if there are more, those with the least times to collision are shown.
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, 100_000))]
     cases: u64,
 }
