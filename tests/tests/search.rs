@@ -60,6 +60,24 @@ fn tries_come_as_events_and_are_made_again_by_their_requests() {
 }
 
 #[test]
+fn figures_of_a_pair_are_those_with_the_named_road_user() {
+    let server = Server::start(&[]).unwrap();
+    let gaps = |with: Value| {
+        let mut asked = body(&json!({"where": "pair.gap_m < 5 && pair.other_first == 0", "tries": 4}));
+        asked["situation"]["with"] = with;
+        let tries = server.post("/v1/search", &asked).unwrap().json()["tries"].clone();
+        let of = |one: &Value| (one["other"].clone(), one["figures"]["pair.gap_m"].as_f64());
+        tries.as_array().unwrap().iter().map(of).collect::<Vec<_>>()
+    };
+    let (near, far, any) = (gaps(json!("5")), gaps(json!("1")), gaps(Value::Null));
+    assert_eq!([near.len(), far.len(), any.len()], [4, 4, 4]);
+    assert!(near.iter().all(|(other, _)| *other == "5") && any.iter().all(|(other, _)| other.is_null()));
+    assert!(near.iter().zip(&far).any(|(near, far)| near.1 != far.1), "{near:?} {far:?}");
+    // Without a name it is the hardest pair, which is nobody's other figure.
+    assert!(any.iter().any(|(_, gap_m)| gap_m.is_some()), "{any:?}");
+}
+
+#[test]
 fn a_search_ends_with_what_was_wanted_or_when_its_client_leaves() {
     let server = Server::start(&[]).unwrap();
     // Every result satisfies this condition.

@@ -160,7 +160,8 @@ mod tests {
         for later in [-3.8, 1.2] {
             assert!(recording.goal(&of(&BTreeMap::from([("goal.later_s", later)]))).is_none());
         }
-        assert!(RecordedMotion::new(&agent, &graph, 50, 5.0).start(&|_| None).is_none());
+        let pushed = BTreeMap::from([("start.ahead_m", 1.0)]);
+        assert!(RecordedMotion::new(&agent, &graph, 50, 5.0).start(&of(&pushed)).is_none());
     }
 
     #[test]

@@ -181,6 +181,9 @@ mod tests {
             "actor.min_ttc_s",
             "goal_error.position_m",
             "near_misses",
+            "actor.red_lights",
+            "pair.pet_s",
+            "pair.other_first",
         ] {
             assert!(known.iter().any(|n| n == name), "{name}: {known:?}");
         }
