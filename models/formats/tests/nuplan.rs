@@ -412,7 +412,7 @@ fn broken_databases_are_refused_and_wal_is_read() {
         "auto",
         &ImportOptions::default(),
     );
-    assert!(words.unwrap_err().to_string().contains("no log and no map of nuPlan"));
+    assert!(words.unwrap_err().to_string().contains("neither a log nor a map of nuPlan"));
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn drives(read: Result<Imported, ReadError>, kind: Subtype, at_1_s: [f64; 2], he
     assert_eq!(scene.map.lanes.len(), 1);
     let said = warnings.iter().find(|warning| warning.code.starts_with("map-")).unwrap();
     assert_eq!(said.code, "map-laid", "{}", said.detail);
-    assert!(said.detail.starts_with("100 % "), "{}", said.detail);
+    assert!(said.detail.starts_with("100% "), "{}", said.detail);
     scene
 }
 
@@ -142,7 +142,7 @@ fn maps_in_degrees_meet_tables_in_metres_and_in_degrees() {
     );
     let (scene, warnings) = read(&pneuma, "pneuma", &lanelet(athens)).unwrap();
     let laid = warnings.iter().find(|warning| warning.code.starts_with("map-")).unwrap();
-    assert!(laid.code == "map-laid" && laid.detail.starts_with("100 % "), "{}", laid.detail);
+    assert!(laid.code == "map-laid" && laid.detail.starts_with("100% "), "{}", laid.detail);
     let lane = &scene.map.lanes[0].points.xy;
     let car = scene.agents[0].track.at(10).unwrap();
     assert_eq!(scene.agents[0].subtype, Subtype::Car);
@@ -158,7 +158,7 @@ fn a_map_of_another_place_is_said() {
     let (scene, warnings) = read(&cars, "interaction", &road(-50.0, 0.0, 0.0)).unwrap();
     assert!(!scene.map.lanes.is_empty());
     let said = warnings.iter().find(|warning| warning.code == "map-elsewhere").unwrap();
-    assert!(said.detail.contains("Only 0 %"), "{}", said.detail);
+    assert!(said.detail.contains("Only 0%"), "{}", said.detail);
     let error = read(&cars, "interaction", "no map").unwrap_err();
     assert_eq!(error.problems[0].pointer, "/net");
 }

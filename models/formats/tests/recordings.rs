@@ -162,7 +162,7 @@ fn meta_tables_say_classes_frame_rate_and_place() {
             assert_eq!((cyclist.agent_type, cyclist.subtype), (AgentType::Cyclist, Subtype::Bicycle));
             assert_eq!(scene.meta.origin.crs.as_deref(), Some("+proj=utm +zone=32 +datum=WGS84 +units=m"));
             assert_eq!((scene.name.as_str(), scene.time.steps), ("7", 21));
-            assert!(said(&warnings, "map-laid").unwrap().starts_with("100 % "), "{warnings:?}");
+            assert!(said(&warnings, "map-laid").unwrap().starts_with("100% "), "{warnings:?}");
             assert!(said(&warnings, "map-chosen").unwrap().contains("b_here"), "{warnings:?}");
             assert!((scene.map.lanes[0].speed_limit_mps.unwrap() - 13.888_89).abs() < 1e-9);
             assert_eq!(said(&warnings, "tables-missing"), None);
@@ -192,7 +192,7 @@ fn maps_in_the_frame_of_the_tables_or_of_the_zone_fit() {
         ]);
         let (scene, warnings) = read_one(&zip, Some("ind"));
         assert!(
-            said(&warnings, "map-laid").is_some_and(|said| said.starts_with("100 % ")),
+            said(&warnings, "map-laid").is_some_and(|said| said.starts_with("100% ")),
             "{map} {warnings:?}"
         );
         drives(&scene, Vec2::new(utm.0 + 20.0, utm.1 - 2.0));
@@ -301,7 +301,7 @@ fn maps_beyond_the_bounds_are_left_out_and_said() {
         drives(&scene, Vec2::new(utm.0 + 20.0, utm.1 - 2.0));
         let unread: Vec<_> = warnings.iter().filter(|warning| warning.code == "map-unread").collect();
         assert!(unread.len() == 1 && unread[0].detail.starts_with(why), "{unread:?}");
-        assert!(said(&warnings, "map-laid").unwrap().starts_with("100 % "), "{warnings:?}");
+        assert!(said(&warnings, "map-laid").unwrap().starts_with("100% "), "{warnings:?}");
     }
 }
 
@@ -399,7 +399,7 @@ fn vehicles_and_pedestrians_of_two_tables_are_one_scene() {
             assert_eq!(by_id("P1").agent_type, AgentType::Pedestrian);
             assert!((by_id("P1").track.at(10).unwrap().x_m - 11.0).abs() < 1e-6);
             assert_eq!(scene.name, name);
-            assert!(said(&warnings, "map-laid").unwrap().starts_with("100 % "), "{warnings:?}");
+            assert!(said(&warnings, "map-laid").unwrap().starts_with("100% "), "{warnings:?}");
         }
     }
 }
