@@ -74,7 +74,7 @@ fn the_documented_task_runs_and_repeats() {
         assert!(told.contains("brake: ") && told.contains("no road user fits"), "{told}");
         // A line for each scene and template, whatever the seeds.
         let without = 4 * told.matches("no road user fits").count();
-        assert!(part.contains(&format!("In {without} no road user fits")), "{told}");
+        assert!(part.contains(&format!("In {without} cases no road user fits")), "{told}");
     }
     let [first, second] = [folders[0].path(), folders[1].path()];
     let manifest = std::fs::read_to_string(first.join("found/manifest.csv")).unwrap();
