@@ -264,6 +264,6 @@ def test_a_recording_is_opened_with_what_lies_beside_it(tmp_path: Path) -> None:
         assert scene.name == "08" and scene.document["agents"][0]["subtype"] == "truck"
         assert len(scene.document["map"]["lanes"]) == 1
         said = {warning["code"]: warning["detail"] for warning in scene.warnings}
-        assert said["files-beside"].endswith("08_tracksMeta.csv, place.net.xml") and "100 %" in said["map-laid"]
+        assert said["files-beside"].endswith("08_tracksMeta.csv, place.net.xml") and "100%" in said["map-laid"]
     with pytest.raises(dragtraffic.DragTrafficError, match="no scene 2"):
         dragtraffic.open(tmp_path, index=2)
