@@ -16,7 +16,7 @@ use api::{GenerateRequest, Operations, Problem, Subject};
 use experts::{Cancel, Field, Limiting, ReachReport, Resolved, Source};
 use formats::native::{ConditionsDoc, Members};
 use scene::scenarios::Casting;
-use scene::score::meeting::MeetingSearch;
+use scene::score::meeting::{MeetingPair, MeetingSearch};
 use scene::score::{Score, ScoreInput};
 use scene::{Conditions, Scene};
 use std::collections::BTreeMap;
@@ -185,13 +185,10 @@ impl<'a> UnitEngine<'a> {
                 return UnitEnd { row, conditions: BTreeMap::new(), motion: None };
             }
         };
-        let actor = roles.actor.as_deref();
         let drivable = self.operations.generator.maps().drivable(&answer.scene.map);
         let input = ScoreInput::of_sample(&answer.scene, answer.samples.first(), &drivable);
         let search = MeetingSearch::new(&input);
         let score = answer.scores.as_ref().and_then(|scores| scores.first());
-        let pair = actor.and_then(|actor| search.of(actor, roles.other.as_deref()));
-        let figures = score.map(|score| Figures::new(score, actor, pair.as_ref()));
         let sample = answer.samples.first();
         let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
         row.code = Some(answer.code.clone());
@@ -201,29 +198,35 @@ impl<'a> UnitEngine<'a> {
         row.goal = Some(goal.unwrap_or(GOAL_WORDS[0]).to_owned());
         row.reacting = Some(reacting as u64);
         (row.actor, row.other, row.what) = (roles.actor, roles.other, roles.what);
-        let motion = happened(&mut row, &input, &search, score);
+        let (motion, hardest) = happened(&mut row, &input, &search, score).unzip();
+        let pair = match (&row.actor, &row.other) {
+            (Some(actor), Some(other)) => search.of(actor, Some(other)),
+            (Some(_), None) => hardest.flatten(),
+            (None, _) => None,
+        };
+        let figures = score.map(|score| Figures::new(score, row.actor.as_deref(), pair.as_ref()));
         row.figures = figures.as_ref().map(|figures| figures.all().clone()).unwrap_or_default();
         row.miss = self.filter.as_ref().zip(figures.as_ref()).map(|(filter, figures)| filter.miss(figures));
         let is_left_out = self.filter.is_some() && row.miss != Some(0.0);
         row.outcome = if is_left_out { UnitOutcome::LeftOut } else { UnitOutcome::Kept };
-        UnitEnd { row, conditions: roles.conditions, motion }
+        UnitEnd { row, conditions: roles.conditions, motion: motion.flatten() }
     }
 }
 
 /// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives the
-/// motion.
+/// motion and the hardest pair of this road user.
 fn happened(
     row: &mut BatchRow,
     input: &ScoreInput<'_>,
     search: &MeetingSearch<'_>,
     score: Option<&Score>,
-) -> Option<CaseMotion> {
+) -> Option<(Option<CaseMotion>, Option<MeetingPair>)> {
     let hardest = || score?.scene.min_ttc_pair.as_ref().map(|pair| &pair[0]);
     let id = row.actor.as_ref().or_else(hardest)?;
     let of = input.actors.iter().position(|actor| actor.id == id)?;
     let (facts, pair) = CaseFacts::of(input, search, of)?;
     row.facts = facts;
-    CaseMotion::of(&row.unit, input, of, pair.as_ref())
+    Some((CaseMotion::of(&row.unit, input, of, pair.as_ref()), pair))
 }
 
 /// Has a road user a goal that was requested?
