@@ -36,8 +36,8 @@ fn main() -> Result<(), String> {
     npm(web, &["run", "build"])
 }
 
-/// Installs packages unless those that are there are as new as the lock file. `cargo xtask` asks the same: were one of
-/// the two to install again, it would take the packages away from a test that runs beside it.
+/// Installs the packages unless the installed ones are as new as the lock file. `cargo xtask` applies the same rule:
+/// a second installation would remove the packages under a test that runs at the same time.
 fn install(web: &Path) -> Result<(), String> {
     let changed = |path: &str| web.join(path).metadata().and_then(|file| file.modified()).ok();
     let (locked, installed) = (changed("package-lock.json"), changed("node_modules/.package-lock.json"));

@@ -73,7 +73,7 @@ fn figures_of_a_pair_are_those_with_the_named_road_user() {
     assert_eq!([near.len(), far.len(), any.len()], [4, 4, 4]);
     assert!(near.iter().all(|(other, _)| *other == "5") && any.iter().all(|(other, _)| other.is_null()));
     assert!(near.iter().zip(&far).any(|(near, far)| near.1 != far.1), "{near:?} {far:?}");
-    // Without a name it is the hardest pair, which is nobody's other figure.
+    // Without a name, the figures are those of the hardest pair.
     assert!(any.iter().any(|(_, gap_m)| gap_m.is_some()), "{any:?}");
 }
 

@@ -213,8 +213,8 @@ impl<'a> UnitEngine<'a> {
     }
 }
 
-/// Writes what happens into a row, about the actor or about one of the pair with the least time to collision; gives the
-/// motion and the hardest pair of this road user.
+/// Writes the facts of a result into its row: those of the actor, else of one of the pair with the least time to
+/// collision. Returns the motion and the hardest pair of this road user.
 fn happened(
     row: &mut BatchRow,
     input: &ScoreInput<'_>,

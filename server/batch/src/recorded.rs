@@ -1,4 +1,4 @@
-//! Conditions that begin at a road user's own recording or start: where it was, pushed by drawn numbers.
+//! Goals and starts derived from a road user's recording or start: shifted by the drawn numbers.
 
 use experts::planning::world::AgentAtStart;
 use formats::native::{GoalDoc, StartDoc};
@@ -14,7 +14,7 @@ pub const MOST_SHIFT_S: f64 = 20.0;
 /// Greatest multiple of a recorded speed.
 pub const MOST_TIMES: f64 = 5.0;
 
-/// A road user's recording, the lanes that it is on, and the time that is generated.
+/// A road user's recording, the lanes of its map, and the generated time.
 pub struct RecordedMotion<'a> {
     agent: &'a Agent,
     graph: &'a LaneGraph,
@@ -22,7 +22,7 @@ pub struct RecordedMotion<'a> {
     end_s: f64,
 }
 
-/// A recorded state, pushed by the drawn numbers of a goal.
+/// A recorded state, shifted by the drawn numbers of a goal.
 fn pushed(state: &State, of: &dyn Fn(&str) -> Option<f64>) -> State {
     let number = |name: &str| of(name).unwrap_or_default();
     let (ahead_m, left_m) = (number("goal.ahead_m"), number("goal.left_m"));
@@ -67,8 +67,8 @@ impl<'a> RecordedMotion<'a> {
         })
     }
 
-    /// The start with the conditions of the scene, pushed by the drawn numbers: `ahead_m` is along the lane. What the
-    /// numbers do not concern stays as it is in the scene. `None` where they push a start that nothing tells.
+    /// The start in the scene, shifted by the drawn numbers: `ahead_m` is along the lane. Fields without a drawn
+    /// number keep the scene's conditions. `None` if a shift is drawn and the scene has no start.
     pub fn start(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<StartDoc> {
         let of = |name: &str| of(&format!("start.{name}"));
         let Start { mut position, mut heading_rad, mut speed_mps } = self.agent.conditions.start;

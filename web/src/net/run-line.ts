@@ -6,7 +6,7 @@ import type { Client } from './client';
 import { Refused } from './client';
 import type { Head } from './http-transport';
 import { Multiplexer } from './multiplexer';
-import { waitOf } from './problem';
+import { whenFree } from './when-free';
 import { connection, readMessage } from './socket-transport';
 
 export type StepReply = Schemas['StepReply'];
@@ -61,22 +61,9 @@ export class RunLine {
    */
   step(number: number, ego: Omit<EgoJson, 'plan'>): Promise<StepReply> {
     const body = JSON.stringify({ number, egos: [ego] });
-    const step = this.#last.then(() => this.#stepWhenFree(body));
+    const step = this.#last.then(() => whenFree(() => this.#stepNow(body), this.#over.signal));
     this.#last = step;
     return step;
-  }
-
-  async #stepWhenFree(body: string): Promise<StepReply> {
-    for (;;) {
-      try {
-        return await this.#stepNow(body);
-      } catch (e) {
-        const wait = e instanceof Refused ? waitOf(e.problem) : null;
-        if (wait === null) throw e;
-        await new Promise((later) => setTimeout(later, wait));
-        this.#over.signal.throwIfAborted();
-      }
-    }
   }
 
   async #stepNow(body: string): Promise<StepReply> {

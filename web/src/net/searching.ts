@@ -3,7 +3,7 @@ import type { Schemas } from '../model/base/schemas';
 import type { SceneJson } from '../model/document/scene-json';
 import { Refused, type Client } from './client';
 import { parseLines, readLines } from './lines';
-import { waitOf } from './problem';
+import { whenFree } from './when-free';
 
 /** Body of a search, without its scene. */
 export type SearchOptions = Omit<Schemas['SearchBody'], 'scene' | 'scene_id' | 'etag'>;
@@ -36,21 +36,13 @@ export async function* triesOf(
 const lacksMap = ({ problem }: Refused): boolean =>
   problem.code === 'unknown-map' || (problem.errors ?? []).some((e) => e.code === 'unknown-map');
 
-/** A busy server is asked until it has room. */
-async function ask(client: Client, scene: SceneJson, options: SearchOptions, signal: AbortSignal): Promise<Response> {
-  for (;;) {
-    try {
-      return await client.request('/v1/search', {
-        method: 'POST',
-        body: JSON.stringify({ scene, ...options }),
-        headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
-        signal,
-      });
-    } catch (e) {
-      const wait = e instanceof Refused ? waitOf(e.problem) : null;
-      if (wait === null) throw e;
-      await new Promise((later) => setTimeout(later, wait));
-      signal.throwIfAborted();
-    }
-  }
+function ask(client: Client, scene: SceneJson, options: SearchOptions, signal: AbortSignal): Promise<Response> {
+  const send = () =>
+    client.request('/v1/search', {
+      method: 'POST',
+      body: JSON.stringify({ scene, ...options }),
+      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
+      signal,
+    });
+  return whenFree(send, signal);
 }

@@ -117,8 +117,8 @@ impl Figures {
         Self(all)
     }
 
-    /// Of a score and the motions that it scores: the figures of a pair are those of the actor with `other`, or without
-    /// one with whom it comes nearest to a collision.
+    /// Of a score and the motions that it scores. The figures of a pair are those of the actor with `other`; without
+    /// `other`, those of its hardest pair.
     pub fn of(score: &Score, input: &ScoreInput<'_>, actor: Option<&str>, other: Option<&str>) -> Self {
         let pair = actor.and_then(|id| MeetingSearch::new(input).of(id, other));
         Self::new(score, actor, pair.as_ref())
