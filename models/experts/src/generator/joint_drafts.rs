@@ -12,6 +12,8 @@ use crate::request::ShownLast;
 /// Alternatives of a road user in a run that are weighed beside the motion it drives: with all six, no
 /// more of them reach their goals without a fault, and a step takes longer by a third.
 const ALTERNATIVES: usize = 3;
+/// So many of these are weighed first, and the others only where the first ones do not do.
+const FIRST_ALTERNATIVES: usize = 1;
 
 /// The drafts of one sample, with the agents that they are compared with.
 #[derive(Clone, Copy)]
@@ -51,5 +53,12 @@ impl<'a> JointDrafts<'a> {
         let goes_on = under_way || setting.request.under_way && actor.kept.is_some();
         let weighed = if goes_on { ALTERNATIVES } else { MODES };
         Material { actor, drafts, moves, tuning, shown: self.shown_last(actor), under_way, weighed }
+    }
+
+    /// The material of the candidates that are weighed first, and whether there are others.
+    pub(super) fn first_material(&self, i: usize) -> (Material<'a>, bool) {
+        let material = self.material(i);
+        let saves = material.weighed < MODES;
+        (Material { weighed: if saves { FIRST_ALTERNATIVES } else { material.weighed }, ..material }, saves)
     }
 }

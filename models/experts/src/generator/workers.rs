@@ -1,8 +1,8 @@
 //! Parallel work over a few threads, with results in the order of the items.
 
-use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A fixed number of threads that belong to one generator, started on first use.
 pub(super) struct WorkerPool {
@@ -42,7 +42,7 @@ impl WorkerPool {
     ) -> Vec<R> {
         match self.pool() {
             Some(pool) if items.len() >= many && !is_in_another(pool) => {
-                pool.install(|| items.par_iter().map(f).collect())
+                shared(pool, self.threads, items, f)
             }
             _ => items.iter().map(f).collect(),
         }
@@ -55,6 +55,34 @@ impl WorkerPool {
         };
         if self.threads > 1 { self.pool.get_or_init(start).as_ref() } else { None }
     }
+}
+
+/// Applies `f` to each item by the caller's thread and the pool's others. The caller begins at once: a thread that
+/// sleeps wakes some fifty microseconds later, as long as a small item takes.
+fn shared<T: Sync, R: Send>(
+    pool: &ThreadPool,
+    threads: usize,
+    items: &[T],
+    f: impl Fn(&T) -> R + Sync + Send,
+) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<R>>> = items.iter().map(|_| Mutex::new(None)).collect();
+    let work = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(i) else { return };
+            let result = f(item);
+            *results[i].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+        }
+    };
+    pool.in_place_scope(|scope| {
+        for _ in 1..threads.min(items.len()) {
+            scope.spawn(|_| work());
+        }
+        work();
+    });
+    let result = |slot: Mutex<Option<R>>| slot.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.into_iter().filter_map(result).collect()
 }
 
 /// Whether the caller's thread belongs to another pool. While it waited for this pool it would start more

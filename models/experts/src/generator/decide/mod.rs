@@ -40,12 +40,12 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let setting = of.setting;
     let judge = window_judge(setting);
     let fixed: Vec<FixedMotion<'_>> = of.others.kept().collect();
-    let candidates = setting.workers().map(&of.indices(), |&i| of.material(i).candidates());
+    let candidates = setting.workers().map(&of.indices(), |&i| of.first_material(i).0.candidates());
     let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
     let mut table = OptionTable { of, judge, choice, candidates };
     table.choice.agents = setting.workers().map(&of.indices(), |&i| table.options(i));
     let mut chosen = match setting.request.stages.shown {
-        Shown::Chosen => table.choice.solve(),
+        Shown::Chosen => table.solved(),
         Shown::Likeliest | Shown::Drawn => {
             let each = of.actors.iter().zip(of.drafts).zip(&table.candidates);
             each.map(|((actor, drafts), all)| own(actor, drafts.leading, all)).collect()
@@ -465,6 +465,33 @@ impl OptionTable<'_> {
             causes[*i] = cause;
         }
         causes
+    }
+
+    /// The joint choice. An actor of a run for which its first candidates do not do has all of them.
+    fn solved(&mut self) -> Vec<usize> {
+        let chosen = self.choice.solve();
+        let of = self.of;
+        let conflict = self.choice.in_conflict(&chosen);
+        let short = |i: &usize| {
+            let (option, candidate) = (&self.choice.agents[*i][chosen[*i]], &self.candidates[*i][chosen[*i]]);
+            let misses = !candidate.origin.is_given() && !candidate.motion.reach.is_reached();
+            of.first_material(*i).1
+                && (conflict[*i] || misses || option.rule_cost > 0.0 || option.burden > 0.0)
+        };
+        let short: Vec<usize> = of.indices().into_iter().filter(short).collect();
+        if short.is_empty() {
+            return chosen;
+        }
+        let all = of.setting.workers().map(&short, |&i| of.material(i).candidates());
+        for (i, all) in short.iter().zip(all) {
+            self.candidates[*i] = all;
+            self.choice.agents[*i] = Vec::new();
+        }
+        let options = of.setting.workers().map(&short, |&i| self.options(i));
+        for (i, options) in short.into_iter().zip(options) {
+            self.choice.agents[i] = options;
+        }
+        self.choice.solve()
     }
 
     /// Where the chosen scene still has conflicts, adds drafts that are guided out of them; the choice takes them only
