@@ -1,16 +1,16 @@
 //! `/v1/jobs`: cancels a generation by its id.
 
 use crate::app::App;
-use crate::http::extract::Id;
+use crate::http::extract::{Connection, Id};
 use axum::extract::State;
 use axum::http::StatusCode;
 
 refusals!(Refused: CHANGES, NotFound);
 
-/// Cancels a generation; an id that is not under way is nothing to do.
+/// Cancels a generation of the same caller (user, token or address); an id that is not under way is nothing to do.
 #[utoipa::path(delete, path = "/v1/jobs/{job}", operation_id = "cancelJob", tag = "generate",
     params(("job" = String, Path)), responses((status = 204, description = "not under way any more"), Refused))]
-pub async fn cancel(State(app): State<App>, Id(job): Id) -> StatusCode {
-    app.pool.cancel(&job);
+pub async fn cancel(State(app): State<App>, connection: Connection, Id(job): Id) -> StatusCode {
+    app.pool.cancel(connection.party, &job);
     StatusCode::NO_CONTENT
 }

@@ -8,6 +8,7 @@ use api::{Code, Problem};
 use base::metrics;
 use base::party::Party;
 use experts::Cancel;
+use std::fmt::Display;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -36,13 +37,14 @@ impl Caller {
     /// WebSocket, or all plain requests of the party together; the connection.
     pub(super) fn names(&self) -> CallerNames {
         let party = self.party.to_string();
-        let share = match (&self.client, self.line) {
-            (Some((client, _)), _) => format!("{party} {client}"),
+        let client = self.client.as_ref().map(|(client, _)| format!("{party} {client}"));
+        let share = match (&client, self.line) {
+            (Some(client), _) => client.clone(),
             (None, Some(number)) => format!("{party} #{number}"),
             (None, None) => format!("{party} "),
         };
         let own = self.connection.map_or_else(|| share.clone(), |number| format!("{share} #{number}"));
-        CallerNames { party, share, own }
+        CallerNames { party, share, own, client }
     }
 }
 
@@ -52,6 +54,13 @@ pub(super) struct CallerNames {
     pub party: String,
     pub share: String,
     pub own: String,
+    /// Its client, which is another one than a client of the same id of another party.
+    pub client: Option<String>,
+}
+
+/// The name of a party's job among those of all parties. Ids have no spaces.
+pub(super) fn job_name(party: impl Display, id: &str) -> String {
+    format!("{party} {id}")
 }
 
 /// A request for a job.
@@ -108,8 +117,10 @@ pub trait Ending: Send + Sync {
 /// Data about the job for its work.
 #[derive(Debug)]
 pub struct Ticket {
-    /// Id, unique among open jobs.
+    /// Id, unique among the open jobs of a party.
     pub id: String,
+    /// Name among the open jobs of all parties.
+    pub(super) name: String,
     /// Client whose newer revisions supersede this one, and this revision.
     pub client: Option<(String, u64)>,
     /// Set when the job is stopped.
@@ -120,8 +131,12 @@ pub struct Ticket {
 }
 
 impl Ticket {
-    pub(super) fn new(id: String, client: Option<(String, u64)>, queue_position: usize) -> Self {
-        Self { id, client, cancel: Cancel::default(), queue_position, asked: Instant::now() }
+    pub(super) fn new(
+        (id, name): (String, String),
+        client: Option<(String, u64)>,
+        queue_position: usize,
+    ) -> Self {
+        Self { id, name, client, cancel: Cancel::default(), queue_position, asked: Instant::now() }
     }
 
     /// Time since it was queued.
@@ -186,7 +201,7 @@ impl Job {
 
     /// Its client.
     pub(super) fn client(&self) -> Option<&str> {
-        self.ticket.client.as_ref().map(|client| client.0.as_str())
+        self.caller.client.as_deref()
     }
 
     /// Working time of the worker so far.

@@ -28,7 +28,8 @@ use api::{Code, Problem};
 use base::id;
 use base::limits::Limits;
 use base::metrics;
-use job::{CallerNames, Job};
+use base::party::Party;
+use job::{CallerNames, Job, job_name};
 use state::PoolState;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -118,29 +119,30 @@ impl Pool {
             return Err(Problem::new(Code::ShuttingDown, "The server is shutting down.").retry_after(5));
         }
         let id = caller.job.unwrap_or_else(id::fresh);
-        if state.jobs.contains_key(&id) {
+        let name = job_name(&names.party, &id);
+        if state.jobs.contains_key(&name) {
             return Err(Problem::new(Code::Exists, "A job with this id is under way."));
         }
         let now = Instant::now();
-        if let Some((client, revision)) = &caller.client {
-            state.clients.check(client, *revision, now).map_err(|highest| {
+        let client = names.client.as_deref().zip(caller.client.as_ref().map(|(_, revision)| *revision));
+        if let Some((client, revision)) = client {
+            state.clients.check(client, revision, now).map_err(|highest| {
                 let detail = format!("Revision {revision} is not above {highest}.");
                 Problem::new(Code::StaleRevision, detail).with(|m| m.highest_revision = Some(highest))
             })?;
         }
-        let client = caller.client.as_ref().map(|client| client.0.as_str());
-        let gives_way = self.check_room(&mut state, lane, client, &names)?;
+        let gives_way = self.check_room(&mut state, lane, &names)?;
         if let Some(job) = gives_way {
             let busy = self.busy(&mut state, lane);
             job.fail(busy);
             state.forget_queued(&job);
         }
-        if let Some((client, revision)) = &caller.client {
-            state.clients.advance(client, *revision, now);
-            state.supersede(client, *revision);
+        if let Some((client, revision)) = client {
+            state.clients.advance(client, revision, now);
+            state.supersede(client, revision);
         }
         let before = state.lane(lane).queue.len() + state.running();
-        let ticket = Arc::new(Ticket::new(id, caller.client, before));
+        let ticket = Arc::new(Ticket::new((id, name), caller.client, before));
         let (ending, work) = make(&ticket);
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, lane, cost, names, ticket, end, work));
@@ -162,10 +164,9 @@ impl Pool {
         &self,
         state: &mut PoolState,
         lane: PoolLane,
-        client: Option<&str>,
         names: &CallerNames,
     ) -> Result<Option<Arc<Job>>, Problem> {
-        if (state.waiting_beside(lane, client) as u64) < self.limits.queue {
+        if (state.waiting_beside(lane, names.client.as_deref()) as u64) < self.limits.queue {
             return Ok(None);
         }
         state.gives_way(lane, names).map(Some).ok_or_else(|| self.busy(state, lane))
@@ -186,13 +187,12 @@ impl Pool {
     /// # Errors
     /// `busy`.
     pub fn expects(&self, caller: &Caller) -> Result<(), Problem> {
-        let client = caller.client.as_ref().map(|client| client.0.as_str());
-        self.check_room(&mut lock(&self.state), PoolLane::Quick, client, &caller.names()).map(drop)
+        self.check_room(&mut lock(&self.state), PoolLane::Quick, &caller.names()).map(drop)
     }
 
-    /// Cancels a job by its id; an unknown id has no effect.
-    pub fn cancel(&self, id: &str) {
-        let job = lock(&self.state).jobs.get(id).cloned();
+    /// Cancels a job of a party by its id; an unknown id has no effect.
+    pub fn cancel(&self, party: Party, id: &str) {
+        let job = lock(&self.state).jobs.get(&job_name(party, id)).cloned();
         if let Some(job) = job {
             job.fail(Problem::new(Code::Cancelled, "The job was cancelled."));
             lock(&self.state).forget_queued(&job);
@@ -257,7 +257,7 @@ impl Pool {
         }
         metrics::work(job.kind.name(), "work", began.elapsed().as_secs_f64());
         let mut state = lock(&self.state);
-        state.jobs.remove(&job.ticket.id);
+        state.jobs.remove(&job.ticket.name);
         state.lane(job.lane).finished(job, job.worked());
         state.show();
     }
@@ -265,7 +265,7 @@ impl Pool {
     /// Called between two steps of a long call: lets waiting jobs whose turn it is ([`Job::lets_go`]) run
     /// first.
     pub fn let_others_go(&self, ticket: &Ticket) {
-        let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
+        let Some(own) = lock(&self.state).jobs.get(&ticket.name).cloned() else { return };
         while own.lane == PoolLane::Patient && !self.stopped.load(Ordering::Relaxed) {
             let Some(job) = lock(&self.state).next(PoolLane::Patient, |job| own.lets_go(job)) else { break };
             job.go_inside();

@@ -10,6 +10,7 @@ use super::sync::{Condvar, Mutex, thread};
 use super::{Handle, Pool, lock};
 use api::Code;
 use base::limits::Limits;
+use base::party::Party;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
@@ -262,7 +263,7 @@ fn a_call_that_is_given_up_leaves_its_place() {
         let (gone, hold) = second;
         let (own, by_id) = (Arc::clone(&pool), thread::spawn(move || drop(hold)));
         // Its id and its reader cancel it at the same time.
-        own.cancel("second");
+        own.cancel(Party::Own, "second");
         by_id.join().unwrap();
         assert_eq!((gone.wait(), gone.runs()), (How::Refused(Code::Cancelled), 0));
         let third = ask(&pool, quick("third", 3), steps).unwrap();
@@ -282,7 +283,7 @@ fn giving_up_meets_working_at_any_moment() {
         let ends: Vec<_> = calls.iter().map(|(end, _)| Arc::clone(end)).collect();
         let leaver = thread::spawn(move || drop(calls));
         let canceller = Arc::clone(&pool);
-        let canceller = thread::spawn(move || canceller.cancel("1"));
+        let canceller = thread::spawn(move || canceller.cancel(Party::Own, "1"));
         for end in &ends {
             let how = end.wait();
             assert!(matches!(how, How::Done | How::Refused(Code::Cancelled)), "{how:?}");

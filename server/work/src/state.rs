@@ -58,7 +58,7 @@ fn most<'a>(names: impl Iterator<Item = &'a String>) -> Option<(&'a String, usiz
 /// All lanes and jobs.
 pub struct PoolState {
     lanes: [LaneQueue; PoolLane::ALL.len()],
-    /// Waiting and running jobs, by id.
+    /// Waiting and running jobs, by name.
     pub jobs: HashMap<String, Arc<Job>>,
     /// Revisions of clients.
     pub clients: Clients,
@@ -126,7 +126,7 @@ impl PoolState {
     /// Adds a waiting job.
     pub fn arrived(&mut self, job: &Arc<Job>) {
         self.lane(job.lane).queue.push_back(Arc::clone(job));
-        self.jobs.insert(job.ticket.id.clone(), Arc::clone(job));
+        self.jobs.insert(job.ticket.name.clone(), Arc::clone(job));
         self.show();
     }
 
@@ -136,12 +136,12 @@ impl PoolState {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
         let turns = |job: &Job| {
-            let CallerNames { party, share, own } = &job.caller;
+            let CallerNames { party, share, own, .. } = &job.caller;
             [party, share, own].map(|name| self.fair_queue.last_turn(name))
         };
         let (at, _) = fitting.min_by_key(|(_, job)| turns(job))?;
         let job = self.lane(lane).queue.remove(at)?;
-        let CallerNames { party, share, own } = &job.caller;
+        let CallerNames { party, share, own, .. } = &job.caller;
         // A caller may be its whole share, and that its whole party.
         let mut names = vec![party, share, own];
         names.dedup();
@@ -167,7 +167,7 @@ impl PoolState {
         let before = queue.len();
         queue.retain(|queued| !Arc::ptr_eq(queued, job));
         if queue.len() < before {
-            self.jobs.remove(&job.ticket.id);
+            self.jobs.remove(&job.ticket.name);
         }
         self.show();
     }

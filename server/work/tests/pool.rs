@@ -338,3 +338,36 @@ async fn a_full_queue_refuses_the_newest_of_the_greediest() {
     assert_eq!(ends, [Ok(()), Ok(()), Err(Code::Busy)]);
     pool.stop();
 }
+
+#[tokio::test]
+async fn parties_with_equal_names_of_jobs_and_clients_leave_each_other_alone() {
+    let pool = pool(Limits { running: 2, ..Limits::default() });
+    let party = |name: &str| Party::named(name);
+    let release = Arc::new(AtomicBool::new(false));
+    let call = |name: &str, revision: u64| {
+        let (pool, release) = (Arc::clone(&pool), Arc::clone(&release));
+        let client = Some(("hand".to_owned(), revision));
+        let caller =
+            Caller { job: Some("job".into()), client, party: Party::named(name), ..Caller::default() };
+        let asked = JobRequest { caller, ..small(JobKind::Generate) };
+        let work = move |cancel: &experts::Cancel| {
+            while !release.load(Ordering::Relaxed) && !cancel.is_cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(())
+        };
+        tokio::spawn(async move { pool.run(asked, work).await.map_err(|problem| problem.code) })
+    };
+    let (ann, bob) = (call("ann", 9), call("bob", 1));
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    // Neither the higher revision of another party nor its DELETE ends a call.
+    pool.cancel(party("eve"), "job");
+    pool.cancel(party("ann"), "job");
+    assert_eq!(ann.await.unwrap(), Err(Code::Cancelled));
+    release.store(true, Ordering::Relaxed);
+    assert_eq!(bob.await.unwrap(), Ok(()));
+    // A party's own older revision is refused.
+    assert_eq!(call("ann", 9).await.unwrap(), Err(Code::StaleRevision));
+    assert_eq!(call("bob", 2).await.unwrap(), Ok(()));
+    pool.stop();
+}
