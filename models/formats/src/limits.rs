@@ -2,6 +2,8 @@
 
 pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 
+/// Most bytes of a short text, such as the role of a road user or the source of a scene.
+pub const MAX_WORD: usize = 256;
 /// Greatest distance of a goal from the start, metres.
 pub const MAX_GOAL_DISTANCE_M: f64 = 1_500.0;
 /// Most scenes of one import.

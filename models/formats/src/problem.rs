@@ -1,6 +1,6 @@
 //! Faults of outside data, in one shape for every format.
 
-use crate::refusals::wanted;
+use crate::refusals::{wanted, what};
 use crate::sentences;
 use scene::message::{Message, Word};
 use scene::sentences::{expected, more_than, out_of_range};
@@ -290,6 +290,13 @@ impl Problems {
     /// Adds an `invalid-field` fault.
     pub fn invalid(&mut self, pointer: impl Into<String>, message: Message) {
         self.push(FieldProblem::new(pointer, code::INVALID_FIELD, message));
+    }
+
+    /// Checks the length of a text, in bytes.
+    pub fn length(&mut self, pointer: &str, most: usize, text: Option<&String>) {
+        if text.is_some_and(|text| text.len() > most) {
+            self.invalid(pointer, more_than(most, what::BYTES));
+        }
     }
 
     /// Checks a number against its range; every number outside it, NaN included, is a fault.

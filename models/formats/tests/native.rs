@@ -193,6 +193,31 @@ fn all_faults_are_listed() {
 }
 
 #[test]
+fn own_members_and_texts_are_bounded() {
+    let changed = |change: &dyn Fn(&mut serde_json::Value)| {
+        let mut doc: serde_json::Value = serde_json::from_slice(JUNCTION).unwrap();
+        change(&mut doc);
+        native::read(&serde_json::to_vec(&doc).unwrap()).map_err(|refused| refused.to_string())
+    };
+    // The bound holds for all own members together.
+    let members = |count: usize| {
+        changed(&|doc| (0..2).for_each(|i| doc[format!("x_{i}")] = serde_json::json!(vec![0; count])))
+    };
+    assert!(members(20_000).is_ok());
+    assert!(members(30_000).unwrap_err().contains("more than 50000 values"));
+    let long = || serde_json::json!("x".repeat(257));
+    let places: [&dyn Fn(&mut serde_json::Value); 4] = [
+        &|doc| doc["agents"][0]["role"] = long(),
+        &|doc| doc["meta"]["parent_id"] = long(),
+        &|doc| doc["meta"]["created_with"] = long(),
+        &|doc| doc["meta"]["origin"]["crs"] = serde_json::json!("x".repeat(8_193)),
+    ];
+    for place in places {
+        assert!(changed(place).unwrap_err().contains("bytes"), "{:?}", changed(place));
+    }
+}
+
+#[test]
 fn free_and_null_are_the_same_and_minus_zero_is_zero() {
     assert!(resolve("{}").unwrap().is_empty());
     assert!(resolve(r#"{"length_m":null,"goal":{"x_m":null,"y_m":null},"start":null}"#).unwrap().is_empty());

@@ -3,7 +3,7 @@
 use super::conditions::ConditionsDoc;
 use super::resolve::{Context, Window};
 use super::value::{id, words};
-use crate::limits::MAX_STEPS;
+use crate::limits::{MAX_STEPS, MAX_WORD};
 use crate::problem::{FieldProblem, Problems};
 use crate::refusals::{self, wanted};
 use scene::{Agent, AgentType, Conditions, Size, State, Subtype, Track};
@@ -224,6 +224,7 @@ impl AgentDoc {
         if let Some(height_m) = self.height_m {
             problems.range(&format!("{pointer}/height_m"), (0.0, 60.0), height_m);
         }
+        problems.length(&format!("{pointer}/role"), MAX_WORD, self.role.as_ref());
         let track = self.track.into_track(&format!("{pointer}/track"), &mut problems);
         let start = track.valid_steps().next().and_then(|step| track.at(step)).copied();
         let context = Context { agent_type: self.agent_type, start, window: Window::default() };

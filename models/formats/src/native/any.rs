@@ -7,33 +7,48 @@ use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Most values (numbers, texts, lists, objects) in one member that is kept as it is.
+/// Most values (numbers, texts, lists, objects) that are kept as they are: in one member, or in all of a scene's own
+/// members together.
 pub const MAX_VALUES: usize = 50_000;
 
-/// Any JSON, kept as it is, up to [`MAX_VALUES`] values; repeated member names are refused.
+/// Any JSON, kept as it is, up to `MOST` values; repeated member names are refused.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
-pub struct AnyDoc(pub Value);
+pub struct AnyDoc<const MOST: usize = MAX_VALUES>(pub Value);
 
-impl<'de> Deserialize<'de> for AnyDoc {
+impl<'de, const MOST: usize> Deserialize<'de> for AnyDoc<MOST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut left = MAX_VALUES;
-        AnyVisitor { left: &mut left }.deserialize(deserializer).map(AnyDoc)
+        AnyValues::up_to(MOST).read().deserialize(deserializer).map(AnyDoc)
+    }
+}
+
+/// A number of values that may still be kept.
+pub(super) struct AnyValues {
+    most: usize,
+    left: usize,
+}
+
+impl AnyValues {
+    pub(super) fn up_to(most: usize) -> Self {
+        Self { most, left: most }
+    }
+
+    /// Reads a member.
+    pub(super) fn read(&mut self) -> AnyVisitor<'_> {
+        AnyVisitor(self)
     }
 }
 
 /// Builds a value while counting down.
-struct AnyVisitor<'a> {
-    left: &'a mut usize,
-}
+pub(super) struct AnyVisitor<'a>(&'a mut AnyValues);
 
 impl<'de> DeserializeSeed<'de> for AnyVisitor<'_> {
     type Value = Value;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
-        *self.left = self.left.checked_sub(1).ok_or_else(|| {
-            D::Error::custom(format_args!("more than {MAX_VALUES} values in a member that is kept as it is"))
-        })?;
+        let most = self.0.most;
+        let more = || D::Error::custom(format_args!("more than {most} values that are kept as they are"));
+        self.0.left = self.0.left.checked_sub(1).ok_or_else(more)?;
         deserializer.deserialize_any(self)
     }
 }
@@ -71,7 +86,7 @@ impl<'de> Visitor<'de> for AnyVisitor<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Value, A::Error> {
         let mut list = Vec::new();
-        while let Some(value) = seq.next_element_seed(AnyVisitor { left: self.left })? {
+        while let Some(value) = seq.next_element_seed(AnyVisitor(self.0))? {
             list.push(value);
         }
         Ok(Value::Array(list))
@@ -83,13 +98,13 @@ impl<'de> Visitor<'de> for AnyVisitor<'_> {
             if members.contains_key(&key) {
                 return Err(A::Error::custom(format_args!("duplicate field `{key}`")));
             }
-            members.insert(key, map.next_value_seed(AnyVisitor { left: self.left })?);
+            members.insert(key, map.next_value_seed(AnyVisitor(self.0))?);
         }
         Ok(Value::Object(members))
     }
 }
 
-impl JsonSchema for AnyDoc {
+impl<const MOST: usize> JsonSchema for AnyDoc<MOST> {
     fn schema_name() -> Cow<'static, str> {
         "Any".into()
     }

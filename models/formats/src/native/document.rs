@@ -5,10 +5,10 @@ use super::any::AnyDoc;
 use super::generated::GeneratedDoc;
 use super::map::{MapDoc, MapField, MapRef};
 use super::value::{Members, PointDoc};
-use crate::limits::{MAX_AGENTS, MAX_STEPS};
+use crate::limits::{MAX_AGENTS, MAX_STEPS, MAX_WORD};
 use crate::lists::bounded;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
-use crate::refusals::{self, expected, wanted, what};
+use crate::refusals::{self, expected, wanted};
 use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Shared, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -313,15 +313,16 @@ impl MetaDoc {
             problems.range(&format!("/meta/origin/{name}"), (-1e9, 1e9), value);
         }
         let texts = [
-            ("source", Some(&self.source), 256),
-            ("source_id", self.source_id.as_ref(), 256),
-            ("licence", self.licence.as_ref(), 256),
+            ("source", Some(&self.source), MAX_WORD),
+            ("source_id", self.source_id.as_ref(), MAX_WORD),
+            ("licence", self.licence.as_ref(), MAX_WORD),
+            ("parent_id", self.parent_id.as_ref(), MAX_WORD),
+            ("created_with", self.created_with.as_ref(), MAX_WORD),
+            ("origin/crs", self.origin.crs.as_ref(), 8_192),
             ("notes", Some(&self.notes), 65_536),
         ];
         for (name, text, most) in texts {
-            if text.is_some_and(|t| t.len() > most) {
-                problems.invalid(format!("/meta/{name}"), refusals::more_than(most, what::BYTES));
-            }
+            problems.length(&format!("/meta/{name}"), most, text);
         }
         let origin = self.origin;
         Meta {

@@ -1,7 +1,7 @@
 //! Parsing of the outermost object. Serde's own flatten would keep every member that it does not know in
 //! memory before it could be refused.
 
-use super::any::AnyDoc;
+use super::any::{AnyDoc, AnyValues, MAX_VALUES};
 use super::document::SceneDoc;
 use super::value::{MAX_MEMBERS, Members};
 use crate::limits::{MAX_AGENTS, MAX_SIGNALS};
@@ -56,7 +56,7 @@ impl<'de> Visitor<'de> for SceneVisitor {
         let (mut meta, mut time, mut map_field, mut generated) = (None, None, None, None);
         let mut signals: Option<Capped<_, { MAX_SIGNALS + 1 }>> = None;
         let mut agents: Option<Capped<_, { MAX_AGENTS + 1 }>> = None;
-        let mut extra: BTreeMap<String, AnyDoc> = BTreeMap::new();
+        let (mut extra, mut values) = (BTreeMap::new(), AnyValues::up_to(MAX_VALUES));
         while let Some(key) = map.next_key::<String>()? {
             match key.as_str() {
                 "format" => once(&mut format, "format", &mut map)?,
@@ -76,8 +76,8 @@ impl<'de> Visitor<'de> for SceneVisitor {
                     if extra.len() >= MAX_MEMBERS {
                         return Err(A::Error::custom(format_args!("more than {MAX_MEMBERS} own members")));
                     }
-                    let value = map.next_value()?;
-                    extra.insert(key, value);
+                    let value = map.next_value_seed(values.read())?;
+                    extra.insert(key, AnyDoc(value));
                 }
                 _ => {
                     map.next_value::<Refused>()?;

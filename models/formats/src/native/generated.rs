@@ -2,6 +2,7 @@
 
 use super::any::AnyDoc;
 use super::value::{Members, check_integer, round_m, round_rad};
+use crate::limits::MAX_WORD;
 use crate::lists::bounded;
 use crate::problem::Problems;
 use crate::refusals::{index_beyond, unequal_columns};
@@ -63,6 +64,9 @@ pub struct AgentFuturesDoc {
     pub reaction: Option<Reaction>,
 }
 
+/// Most values of the score of a sample.
+pub const MAX_SCORE_VALUES: usize = 20_000;
+
 /// One coherent answer for all regenerated road users.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -71,7 +75,7 @@ pub struct SampleDoc {
     pub agents: Members<AgentFuturesDoc>,
     /// Score as the API gave it.
     #[serde(default)]
-    pub score: AnyDoc,
+    pub score: AnyDoc<MAX_SCORE_VALUES>,
 }
 
 /// Futures that the generator added to a scene.
@@ -212,6 +216,11 @@ impl GeneratedDoc {
     pub(crate) fn into_generated(self, pointer: &str, problems: &mut Problems) -> Generated {
         if let Err(problem) = check_integer(&format!("{pointer}/seed"), self.seed) {
             problems.push(problem);
+        }
+        let texts = [("input_sha256", Some(&self.input_sha256)), ("created_at", Some(&self.created_at))];
+        let texts = texts.into_iter().chain([("licence", self.licence.as_ref())]);
+        for (name, text) in texts.chain(self.weights.0.values().map(|hash| ("weights", Some(hash)))) {
+            problems.length(&format!("{pointer}/{name}"), MAX_WORD, text);
         }
         if self.chosen_sample >= self.samples.len() as u64 {
             let message = index_beyond(self.chosen_sample, self.samples.len());
