@@ -6,7 +6,7 @@ use crate::http::idempotency::Sender;
 use crate::http::observe::RequestGate;
 use crate::runs::RunStore;
 use crate::scenes::store::Viewer;
-use crate::scenes::{Catalog, map_bytes};
+use crate::scenes::{Catalog, length};
 use api::{Operations, Problem};
 use axum::extract::FromRef;
 use base::limits::Limits;
@@ -69,7 +69,7 @@ impl App {
     /// A full queue.
     pub async fn map_preparation(&self, map: &Shared<LaneMap>) -> Result<Duration, Problem> {
         let (generator, map) = (Arc::clone(&self.operations.generator), map.clone());
-        self.pool.document(map_bytes(&map), move || Ok(generator.maps().cost(&map).preparation)).await
+        self.pool.document(length::of_map(&map), move || Ok(generator.maps().cost(&map).preparation)).await
     }
 
     /// The operations by lane of the pool.

@@ -20,6 +20,18 @@ pub struct BuildInfo {
     pub profile: &'static str,
 }
 
+/// Versions of what programs rely on: each changes only where older programs or files need a change.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct InterfaceVersions {
+    /// The API: the first part of its addresses, `/v1`.
+    api: u64,
+    /// The scene document.
+    scene: u64,
+    /// The file of saved scenes; absent for a program without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    store: Option<u64>,
+}
+
 /// What this server is and can do.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Info")]
@@ -28,6 +40,8 @@ pub struct ProgramInfo {
     name: &'static str,
     /// Version of the program.
     version: &'static str,
+    /// Versions of what programs rely on.
+    versions: InterfaceVersions,
     build: BuildInfo,
     /// What computes the networks.
     device: &'static str,
@@ -60,6 +74,7 @@ impl ProgramInfo {
         Self {
             name: "dragtraffic",
             version: env!("CARGO_PKG_VERSION"),
+            versions: InterfaceVersions { api: 1, scene: formats::native::VERSION, store: None },
             build,
             device: "cpu",
             weights: generator.weights().clone(),
@@ -71,5 +86,12 @@ impl ProgramInfo {
             formats: import::table(),
             notices: Vec::new(),
         }
+    }
+
+    /// The same of a program that keeps scenes in a file of this version.
+    #[must_use]
+    pub fn with_store(mut self, version: u64) -> Self {
+        self.versions.store = Some(version);
+        self
     }
 }

@@ -1,8 +1,9 @@
 //! File descriptors of the process: each connection takes one.
 
-/// Descriptors for everything except connections: the store, its readers, written files, libraries.
+/// Descriptors for everything except these connections: the store, its readers, written files, libraries, and the
+/// connections of probes.
 #[cfg(target_os = "linux")]
-const OTHERS: u64 = 64;
+const OTHERS: u64 = 96;
 
 /// Number of connections for which there are descriptors, at most `wanted`. Raises the process's own limit if
 /// permitted.

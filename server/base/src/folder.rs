@@ -40,6 +40,15 @@ impl HeldFile {
     }
 }
 
+/// By which a change of a file is recognised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileStamp {
+    /// Its length.
+    pub bytes: u64,
+    /// Time of its last change.
+    pub modified: SystemTime,
+}
+
 /// A file of a folder, opened anew for each reading.
 #[derive(Debug)]
 struct FolderFile {
@@ -174,22 +183,31 @@ impl DataFolder {
         Ok(Self { path })
     }
 
-    /// Time of the last change of a file, if the system has it.
-    pub fn modified(&self, name: &Path) -> Option<SystemTime> {
-        self.file(name).and_then(|file| file.metadata()?.modified()).ok()
+    /// Length and time of the last change of the plain file that a name leads to; `None` without such a file.
+    pub fn stamp(&self, name: &Path) -> Option<FileStamp> {
+        let facts = self.plain_file(name).and_then(|file| file.metadata()).ok()?;
+        Some(FileStamp { bytes: facts.len(), modified: facts.modified().ok()? })
+    }
+
+    /// The names of the files that are read with a file of the folder itself.
+    pub fn beside(&self, name: &Path) -> Vec<String> {
+        let own = name.file_name().and_then(|name| name.to_str());
+        own.and_then(|own| table::beside(own, None, || self.texts()).ok()).unwrap_or_default()
     }
 
     /// The bytes of the file that a name leads to now, and of the files that are read with it. Those are the
     /// other tables of a recording and the maps of its place, if they are plain files of the same folder.
     ///
     /// # Errors
-    /// When the file does not exist below the folder, is not a plain file, or all are too large together.
-    pub fn read(&self, name: &Path) -> io::Result<HeldFile> {
-        let mut left = MOST_BYTES;
+    /// When the file does not exist below the folder, is not a plain file, or all have more than `most` bytes together,
+    /// or more than 256 MiB.
+    pub fn read(&self, name: &Path, most: u64) -> io::Result<HeldFile> {
+        let most = most.min(MOST_BYTES);
+        let mut left = most;
         let mut take = |file: File| {
             let mut bytes = Vec::new();
             file.take(left + 1).read_to_end(&mut bytes)?;
-            let more = || io::Error::other(format!("larger than {MOST_BYTES} bytes"));
+            let more = || io::Error::other(format!("larger than {most} bytes"));
             left = left.checked_sub(bytes.len() as u64).ok_or_else(more)?;
             Ok::<_, io::Error>(bytes)
         };
@@ -276,7 +294,7 @@ mod tests {
         assert!(made.success());
         let opened = DataFolder::open(folder.path()).unwrap();
         let read =
-            |name: &str| opened.read(Path::new(name)).ok().map(|held| String::from_utf8(held.bytes).unwrap());
+            |name: &str| opened.read(Path::new(name), u64::MAX).ok().map(|held| String::from_utf8(held.bytes).unwrap());
         assert_eq!(read("inner/a").as_deref(), Some("inside"));
         assert_eq!(read("beneath").as_deref(), Some("inside"));
         for name in ["out", "up", "magic", "pipe", "inner", "none", "../x", "/etc/hostname"] {
@@ -304,7 +322,7 @@ mod tests {
         assert!(made.success());
         let expected = ["0_tracksMeta.csv", "a.osm", "c.osm"];
         let opened = DataFolder::open(folder.path()).unwrap();
-        let held = opened.read(Path::new("inner/0_tracks.csv")).unwrap();
+        let held = opened.read(Path::new("inner/0_tracks.csv"), u64::MAX).unwrap();
         let names: Vec<&str> = held.others.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, expected);
         assert_eq!(held.others[2].1.as_slice(), b"a.osm");
@@ -318,6 +336,6 @@ mod tests {
         let tracks = ["0_tracks.csv", "1_tracks.csv"].map(|name| inner.join(name));
         assert_eq!(super::recordings(&inner).unwrap(), tracks);
         assert!(super::beside(&inner.join("none/0_tracks.csv"), None).is_none());
-        assert!(held.folder("x").is_some() && opened.read(Path::new("a.osm")).unwrap().folder("x").is_none());
+        assert!(held.folder("x").is_some() && opened.read(Path::new("a.osm"), u64::MAX).unwrap().folder("x").is_none());
     }
 }

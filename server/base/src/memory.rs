@@ -55,11 +55,6 @@ impl Memory {
         self.lenders.lock().unwrap_or_else(PoisonError::into_inner).push(lender);
     }
 
-    /// The same for the whole budget of which this is a part.
-    pub fn lend_whole(&self, lender: Weak<dyn Lender>) {
-        self.above.as_deref().unwrap_or(self).lend(lender);
-    }
-
     /// Takes bytes; `None` if they are not free, even after caches have made room.
     pub fn take(self: &Arc<Self>, bytes: usize) -> Option<MemoryShare> {
         let mut share = self.nothing();

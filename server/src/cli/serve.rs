@@ -10,11 +10,14 @@ use crate::http::body::Room;
 use crate::http::guard::Guard;
 use crate::http::net;
 use crate::http::observe::RequestGate;
+use crate::http::proxies::TrustedProxies;
+use crate::http::stream::Listener;
 use crate::routes::router;
 use crate::runs::RunStore;
 use crate::scenes::store::Store;
 use crate::scenes::{Catalog, Library};
 use api::Operations;
+use base::limits::Limits;
 use base::memory::Memory;
 use base::rates::PartyRates;
 use base::{base_path, descriptors, metrics};
@@ -170,7 +173,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     );
     let pool = Pool::start(&limits)?;
     let memory = Memory::new(limits.budget_bytes());
-    let of_library = memory.part(limits.cached_scene_bytes);
+    let of_library = (&memory, limits.cached_scene_bytes);
     let library = Library::start(args.data.as_deref(), Arc::clone(&pool), of_library)?;
     let audit = args.audit.as_deref().map(|target| AuditLog::open(target, args.audit_bytes));
     let audit =
@@ -295,13 +298,21 @@ fn open_browser(url: &str) {
     }
 }
 
+/// Connections of the address of probes.
+const PROBES: u64 = 16;
+
 /// Answers `/healthz`, `/readyz` and `/metrics` on a separate address, without token.
 async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
     let refused = |error| Failure::new(Exit::Failure, format!("--ops-address {address}: {error}"));
     let listener = TcpListener::bind(address).await.map_err(refused)?;
     tracing::info!(address = %listener.local_addr()?, "answers probes");
-    let router = crate::routes::probes(app);
-    tokio::spawn(async move { axum::serve(listener, router).await });
+    let (router, memory) = (crate::routes::probes(app), Arc::clone(&app.room.memory));
+    let limits = Limits { connections: PROBES, ..Limits::clone(&app.limits) };
+    let served = async move {
+        let (listener, none) = (Listener::Tcp(listener), TrustedProxies::default());
+        net::serve(listener, router, none, (&limits, &memory), std::future::pending(), || ()).await;
+    };
+    tokio::spawn(served);
     Ok(())
 }
 

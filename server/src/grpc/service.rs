@@ -7,7 +7,7 @@ use super::messages::{
 use super::session::TrafficSession;
 use crate::app::App;
 use crate::http::idempotency::Sender;
-use crate::scenes::bytes_of;
+use crate::scenes::length;
 use api::{Code, Problem, english};
 use base::memory::MemoryShare;
 use prost::Message;
@@ -87,7 +87,7 @@ impl TrafficCarrier {
         let base = self.app.catalog_of(&Sender::default()).whole(&request.scene_id).await?;
         let work = move |_: &_| Ok((TrafficSession::begin(&request, &base)?, request.session_uuid));
         let (session, uuid) = self.app.pool.run(asked(QUESTION), work).await?;
-        let bytes = OF_SCENE * bytes_of(session.scene());
+        let bytes = OF_SCENE * length::of_scene(session.scene());
         let full = || Problem::of(Code::TooManyRuns, english::too_many_runs());
         let memory = self.app.runs.room(bytes).ok_or_else(full)?;
         let mut sessions = self.open();

@@ -3,7 +3,7 @@
 use api::{Code, Problem};
 use axum::http::{HeaderMap, header};
 use headers_accept::Accept;
-use mediatype::names::{APPLICATION, EVENT_STREAM, JSON, TEXT};
+use mediatype::names::{APPLICATION, EVENT_STREAM, HTML, JSON, TEXT};
 use mediatype::{MediaType, Name};
 use std::str::FromStr;
 
@@ -43,19 +43,34 @@ impl ReplyFormat {
     /// # Errors
     /// `not-acceptable` if it names none of the three.
     pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
-        let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
-        let lines: Vec<&str> = lines.collect();
-        if lines.iter().all(|line| line.trim().is_empty()) {
-            return Ok(Self::Json);
-        }
-        let accept = Accept::from_str(&without_charset(&lines.join(","))).ok();
-        let best = accept.as_ref().and_then(|accept| accept.negotiate(OFFERED));
+        let Some(accepted) = accepted(headers) else { return Ok(Self::Json) };
+        let best = best(&accepted, OFFERED);
         let form = FORMS.into_iter().zip(OFFERED).find(|(_, offered)| best == Some(*offered));
         form.map(|(form, _)| form).ok_or_else(|| {
             let known = FORMS.map(Self::media_type).join(", ");
             Problem::new(Code::NotAcceptable, format!("Replies come as {known}."))
         })
     }
+}
+
+/// Whether a caller asks for JSON rather than for a page.
+pub fn prefers_json(headers: &HeaderMap) -> bool {
+    const JSON_TYPE: MediaType<'static> = MediaType::new(APPLICATION, JSON);
+    const OFFERED: &[MediaType<'static>] = &[MediaType::new(TEXT, HTML), JSON_TYPE];
+    accepted(headers).is_some_and(|accepted| best(&accepted, OFFERED) == Some(JSON_TYPE))
+}
+
+/// The whole Accept header; `None` without one.
+fn accepted(headers: &HeaderMap) -> Option<String> {
+    let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
+    let lines: Vec<&str> = lines.collect();
+    let is_empty = lines.iter().all(|line| line.trim().is_empty());
+    (!is_empty).then(|| without_charset(&lines.join(",")))
+}
+
+/// The best of the offered types for an Accept header, where one is accepted.
+fn best(accepted: &str, offered: &'static [MediaType<'static>]) -> Option<MediaType<'static>> {
+    Accept::from_str(accepted).ok()?.negotiate(offered).cloned()
 }
 
 /// Accept without the charsets of its types, because all replies are UTF-8.
@@ -99,6 +114,17 @@ mod tests {
         assert_eq!(form("application/json;charset=utf-8"), Some(ReplyFormat::Json));
         assert_eq!(form("application/x-ndjson; Charset=UTF-8; q=0.9, */*;q=0.1"), Some(ReplyFormat::Ndjson));
         assert_eq!(form("image/png;charset=utf-8"), None);
+    }
+
+    #[test]
+    fn a_page_is_for_those_who_do_not_ask_for_json() {
+        let prefers = |accept: &'static str| {
+            super::prefers_json(&HeaderMap::from_iter([(header::ACCEPT, accept.parse().unwrap())]))
+        };
+        assert!(["application/json", "application/json, */*;q=0.1"].into_iter().all(prefers));
+        let browser = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8";
+        assert!(!["*/*", browser, "text/html, application/json", "image/png", ""].into_iter().any(prefers));
+        assert!(!super::prefers_json(&HeaderMap::new()));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The editor, which is embedded in the program.
 
 use super::observe::RequestGate;
-use super::{coding, sign_in};
+use super::{accept, coding, sign_in};
 use api::{Code, Problem};
 use axum::body::Body;
 use axum::extract::State;
@@ -48,7 +48,7 @@ pub async fn fallback(
         None if name.starts_with("assets/") => {
             Refusal::from(Problem::new(Code::NotFound, "The editor has no such file.")).into_response()
         }
-        None if !is_page(path) => {
+        None if !is_page(path) || accept::prefers_json(&headers) => {
             Refusal::from(Problem::new(Code::NotFound, "Nothing has this address.")).into_response()
         }
         None => match Editor::get("index.html") {

@@ -144,6 +144,12 @@ fn broken(error: impl ToString) -> Problem {
 
 /// Limit of the parts of a form, whatever their names.
 const MOST_PARTS: usize = 100;
+/// Limit of the bytes before a form's first part, and of the head of a part: the parser searches all of them again with
+/// each piece.
+const MOST_HEAD: u64 = 64 << 10;
+/// Limit of the parts of a form times its decoded bytes, if it has a coding: each part is then decoded from the form's
+/// start.
+const MOST_DECODED: u64 = 512 << 20;
 
 /// The parts with each of these names in a form, in order, at most `most` per name. The form is read once,
 /// and each part then from its own offset.
@@ -184,6 +190,15 @@ pub fn parts<const N: usize>(
         of_name.push(FormPart { label, form: Arc::clone(form), boundary: boundary.clone(), at });
         while now(field.chunk()).map_err(broken)?.is_some() {}
     }
+    let decoded = lines.lock().unwrap_or_else(PoisonError::into_inner).read;
+    let count = found.iter().map(Vec::len).sum::<usize>() as u64;
+    if form.encoding != Encoding::Identity && count > 1 && decoded.saturating_mul(count) > MOST_DECODED {
+        let most = MOST_DECODED / count;
+        let detail = format!(
+            "a form of {count} parts with a Content-Encoding has at most {most} bytes when it is decoded; send it without one"
+        );
+        return Err(Problem::new(Code::DecodedTooLarge, detail).limit(most));
+    }
     Ok(found)
 }
 
@@ -196,17 +211,33 @@ struct BoundaryLines {
     read: u64,
     /// Offset of the dashes before each boundary, so far.
     at: Vec<u64>,
+    /// Where the present head begins, or the text before the first part, and the number of bytes of its end that the
+    /// latest bytes match.
+    head: Option<(u64, usize)>,
 }
 
 impl BoundaryLines {
     fn new(boundary: &str) -> Self {
         // The first separator has no line end before it.
-        Self { line: format!("\r\n--{boundary}").into_bytes(), matched: 2, read: 0, at: Vec::new() }
+        let line = format!("\r\n--{boundary}").into_bytes();
+        Self { line, matched: 2, read: 0, at: Vec::new(), head: Some((0, 0)) }
     }
 
-    fn read(&mut self, piece: &[u8]) {
+    /// Reads a piece; false if a head is too long.
+    #[must_use]
+    fn read(&mut self, piece: &[u8]) -> bool {
         for byte in piece {
             self.read += 1;
+            if let Some((from, matched)) = self.head {
+                let expected = if matched % 2 == 0 { b'\r' } else { b'\n' };
+                let matched = if *byte == expected { matched + 1 } else { usize::from(*byte == b'\r') };
+                // The text before the first part ends with its separator line.
+                let is_over = matched == 4 && !self.at.is_empty();
+                self.head = (!is_over).then_some((from, matched % 4));
+                if self.read - from > MOST_HEAD {
+                    return false;
+                }
+            }
             // Its first byte occurs nowhere else in it: a boundary has no carriage return.
             self.matched = match self.line.get(self.matched) {
                 Some(expected) if expected == byte => self.matched + 1,
@@ -215,8 +246,10 @@ impl BoundaryLines {
             if self.matched == self.line.len() {
                 self.at.push(self.read + 2 - self.line.len() as u64);
                 self.matched = 0;
+                self.head = Some((self.read, 0));
             }
         }
+        true
     }
 }
 
@@ -238,10 +271,15 @@ fn form_of<'a>(
             Ok(0) => None,
             Ok(count) => {
                 piece.truncate(count);
-                if let Some(lines) = &lines {
-                    lines.lock().unwrap_or_else(PoisonError::into_inner).read(&piece);
-                }
-                Some((Ok(Bytes::from(piece)), (reader, lines, true)))
+                let fits = |lines: &Mutex<BoundaryLines>| {
+                    lines.lock().unwrap_or_else(PoisonError::into_inner).read(&piece)
+                };
+                let read = if lines.as_deref().is_none_or(fits) {
+                    Ok(Bytes::from(piece))
+                } else {
+                    Err(io::Error::other(format!("a part's head has more than {MOST_HEAD} bytes")))
+                };
+                Some((read, (reader, lines, true)))
             }
             Err(error) => Some((Err(error), (reader, lines, true))),
         }
@@ -312,8 +350,21 @@ mod tests {
         let form = b"--b\r\nname\r\n\r\n\r\r\n--a\r\n-\r\n--b\r\nx--b\r\n\r\n--b--";
         for step in 1..form.len() {
             let mut lines = BoundaryLines::new("b");
-            form.chunks(step).for_each(|piece| lines.read(piece));
+            assert!(form.chunks(step).all(|piece| lines.read(piece)));
             assert_eq!(lines.at, [0, 24, 37], "step {step}");
         }
+    }
+
+    #[test]
+    fn heads_are_bounded_and_contents_are_not() {
+        let piece = [b'x'; 64 << 10];
+        let reads = |before: &[u8]| {
+            let mut lines = BoundaryLines::new("b");
+            lines.read(before) && (0..3).all(|_| lines.read(&piece))
+        };
+        assert!(reads(b"--b\r\nname: a\r\n\r\n"));
+        assert!(!reads(b""));
+        assert!(!reads(b"--b\r\nname: "));
+        assert!(!reads(b"--b\r\nname: a\r\n\r\n1\r\n--b\r\n"));
     }
 }

@@ -4,7 +4,7 @@ use super::own::OwnCatalog;
 use crate::app::App;
 use crate::http::body::Json;
 use crate::http::extract::{Connection, Id, QueryParams};
-use crate::scenes::bytes_of;
+use crate::scenes::length;
 use api::export::{self, FilePart, MotionChoice};
 use api::{Home, import};
 use axum::extract::State;
@@ -86,7 +86,7 @@ async fn export(
     scene: Arc<Scene>,
     params: ExportParams,
 ) -> Result<Response, Refusal> {
-    let bytes = bytes_of(&scene);
+    let bytes = length::of_scene(&scene);
     let licence = scene.licence();
     let name = scene.name.clone();
     let format = import::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");

@@ -9,7 +9,7 @@ use crate::http::body::Json;
 use crate::http::extract::Connection;
 use crate::http::line;
 use crate::http::net::Carrier;
-use crate::scenes::bytes_of;
+use crate::scenes::length;
 use api::{AboutScene, Code, GenerateRequest, Problem};
 use axum::Extension;
 use axum::extract::{FromRequest, Request, State};
@@ -51,7 +51,7 @@ pub async fn generate(
     let about = body.take_scene().open(&home).await?;
     let held = about.held.clone();
     let streams = form != ReplyFormat::Json;
-    let (operations, bytes) = (app.operations.clone(), bytes_of(&about.scene));
+    let (operations, bytes) = (app.operations.clone(), length::of_scene(&about.scene));
     let prepare = move || {
         let mut plan = operations.plan(&body, &about)?;
         plan.drafts = streams;

@@ -1,6 +1,7 @@
 //! `/v1/info`: what this server is and can do.
 
 use crate::app::App;
+use crate::scenes::store::SCHEMA;
 use api::Operations;
 use api::info::{BuildInfo, ProgramInfo};
 use axum::extract::State;
@@ -9,7 +10,7 @@ use base::limits::Limits;
 /// Description of this program; the command line prints it too.
 pub fn of(operations: &Operations, limits: &Limits) -> ProgramInfo {
     let build = BuildInfo { target: env!("BUILD_TARGET"), profile: env!("BUILD_PROFILE") };
-    operations.info(build, limits.bounds())
+    operations.info(build, limits.bounds()).with_store(SCHEMA)
 }
 
 refusals!(Refused:);

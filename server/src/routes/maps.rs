@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::http::coding;
 use crate::http::extract::if_none_match;
 use crate::scenes::store::StoredMap;
-use crate::scenes::{map_bytes, record};
+use crate::scenes::{length, record};
 use api::{Code, Problem};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -75,7 +75,7 @@ pub async fn read(
     if if_none_match(&headers).is_some_and(|tags| tags.contains(&etag)) {
         return Ok((StatusCode::NOT_MODIFIED, head).into_response());
     }
-    let bytes = map_bytes(&map);
+    let bytes = length::of_map(&map);
     let write = move || {
         let json = record::map_json(&map)?;
         Ok(coding::gzip(&headers, &json).ok_or(json))

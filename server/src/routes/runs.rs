@@ -57,7 +57,7 @@ pub async fn begin(
     Ok((StatusCode::CREATED, reply))
 }
 
-refusals!(Unseen: , NotFound, NotAcceptable);
+refusals!(Unseen: WORK, NotFound, NotAcceptable);
 
 /// Says how a run is: who is where, how long it may go on, when it was used. By Accept, NDJSON or SSE follow it: the run
 /// first, then each step as it is made, until the run is forgotten. Looking at a run and following it are no use of it,
@@ -71,6 +71,7 @@ refusals!(Unseen: , NotFound, NotAcceptable);
         Unseen))]
 pub async fn read(
     State(app): State<App>,
+    connection: Connection,
     Id(id): Id,
     carrier: Option<Extension<Carrier>>,
     headers: HeaderMap,
@@ -84,7 +85,8 @@ pub async fn read(
     }
     let heartbeat = Duration::from_secs(app.limits.heartbeat_s.max(1));
     let carrier = carrier.map(|Extension(carrier)| carrier);
-    Ok(Follower::new(reply, held.last.subscribe(), (form, heartbeat), carrier)?.reply())
+    let place = app.runs.follow(connection.party)?;
+    Ok(Follower::new(reply, held.last.subscribe(), (form, heartbeat), (carrier, place))?.reply())
 }
 
 refusals!(Unshown: WORK, NotFound);

@@ -8,7 +8,7 @@ use crate::generation::stream::{self, StreamPace};
 use crate::http::accept::ReplyFormat;
 use crate::http::body::Json;
 use crate::http::extract::Connection;
-use crate::scenes::map_bytes;
+use crate::scenes::length;
 use api::AboutScene;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
@@ -49,7 +49,7 @@ pub async fn search(
     let scene = body.take_scene().open(&catalog).await?.scene;
     let preparation = app.map_preparation(&scene.map).await?;
     // The places of a pattern are searched on the whole map.
-    let (bytes, hashes) = (map_bytes(&scene.map), app.patient.generator.hashes());
+    let (bytes, hashes) = (length::of_map(&scene.map), app.patient.generator.hashes());
     let search = app.pool.document(bytes, move || SceneSearch::new(&body, scene, hashes)).await?;
     let pace = StreamPace {
         heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),

@@ -5,6 +5,7 @@ use crate::http::accept::ReplyFormat;
 use crate::http::net::Carrier;
 use api::Problem;
 use api::runs::{RunEvent, RunReply};
+use base::places::TakenPlace;
 use axum::body::Bytes;
 use axum::response::Response;
 use futures_util::stream::unfold;
@@ -21,6 +22,7 @@ pub struct Follower {
     heartbeat: Duration,
     carrier: Option<Carrier>,
     done: bool,
+    _place: TakenPlace,
 }
 
 impl Follower {
@@ -32,12 +34,12 @@ impl Follower {
         run: RunReply,
         steps: watch::Receiver<LastStep>,
         (form, heartbeat): (ReplyFormat, Duration),
-        carrier: Option<Carrier>,
+        (carrier, place): (Option<Carrier>, TakenPlace),
     ) -> Result<Self, Problem> {
         let number = run.present.number;
         let event = RunEvent::<StepText<'_>>::Run { run: Box::new(run) };
         let begun = Some(written(form, "run", number, &event)?);
-        Ok(Self { begun, steps, form, heartbeat, carrier, done: false })
+        Ok(Self { begun, steps, form, heartbeat, carrier, done: false, _place: place })
     }
 
     /// The stream of events.

@@ -4,7 +4,7 @@ mod follow;
 
 pub use follow::Follower;
 
-use crate::scenes::bytes_of;
+use crate::scenes::weight;
 use api::runs::unknown_run;
 use api::{Code, Problem, english};
 use axum::body::Bytes;
@@ -54,6 +54,8 @@ struct RunRoom {
 pub struct RunStore {
     entries: Mutex<BTreeMap<String, RunEntry>>,
     places: Arc<SharedPlaces>,
+    /// Places of clients that follow runs: each keeps a connection busy for as long as the run exists.
+    followers: Arc<SharedPlaces>,
     limits: Arc<Limits>,
     memory: Arc<Memory>,
 }
@@ -63,7 +65,8 @@ impl RunStore {
     pub fn new(limits: &Arc<Limits>, memory: &Arc<Memory>) -> Self {
         let memory = memory.part(limits.run_bytes);
         let places = SharedPlaces::new(limits.runs as usize);
-        Self { entries: Mutex::default(), places, limits: Arc::clone(limits), memory }
+        let followers = SharedPlaces::new((limits.connections / 2).max(1) as usize);
+        Self { entries: Mutex::default(), places, followers, limits: Arc::clone(limits), memory }
     }
 
     /// Refuses a run before any work if there would be no room for it afterwards.
@@ -82,7 +85,7 @@ impl RunStore {
     /// `too-many-runs`.
     pub fn add(&self, id: &str, run: Run, party: Party) -> Result<(), Problem> {
         let scene = run.scene();
-        let bytes = bytes_of(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
+        let bytes = weight::of_scene(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
         let room = self.room_for(&entries, party, bytes)?;
@@ -112,6 +115,15 @@ impl RunStore {
         self.drop_idle(&mut entries);
         let entry = entries.get(id).ok_or_else(unknown_run)?;
         Ok((Arc::clone(&entry.run), entry.used.elapsed().as_secs()))
+    }
+
+    /// A place for a client that follows a run.
+    ///
+    /// # Errors
+    /// `busy` when half of all connections follow runs, or a quarter of this party alone.
+    pub fn follow(&self, party: Party) -> Result<TakenPlace, Problem> {
+        let full = |_| Problem::new(Code::Busy, "Too many clients follow runs.").retry_after(1);
+        self.followers.take(party).map_err(full)
     }
 
     /// Memory for a run that is stored elsewhere, if it is free.

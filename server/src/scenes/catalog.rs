@@ -1,8 +1,9 @@
 //! Scenes from all sources: saved by the user, shipped as demos, or in the data folder; and maps by content
 //! hash.
 
+use super::length;
 use super::library::Library;
-use super::record::{self, size};
+use super::record;
 use super::store::{Expect, PackedScene, SceneRecord, Store, Viewer, Written};
 use super::weight;
 use api::home::not_found;
@@ -16,13 +17,6 @@ use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::sync::{Arc, Weak};
 use work::Pool;
-
-/// Approximate bytes of JSON per step of a road user.
-const STEP_BYTES: usize = 40;
-/// Approximate bytes of JSON per point of a map.
-const POINT_BYTES: usize = 20;
-/// Approximate bytes of JSON per line of a map.
-const LINE_BYTES: usize = 32 * POINT_BYTES;
 
 /// Prefix of a held scene's name, which came with a request; ids of saved scenes have no colon.
 const HELD: &str = "held:";
@@ -106,7 +100,7 @@ impl Catalog {
     /// # Errors
     /// A full queue, or a defect.
     pub async fn written(&self, scene: Arc<Scene>, form: MapForm) -> Result<Vec<u8>, Problem> {
-        let bytes = bytes_of(&scene);
+        let bytes = length::of_scene(&scene);
         self.pool.document(bytes, move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await
     }
 
@@ -126,7 +120,7 @@ impl Catalog {
     /// # Errors
     /// When the store is full or the precondition does not hold.
     pub async fn save(&self, id: &str, expect: Expect, scene: Scene) -> Result<Written, Problem> {
-        let (key, bytes) = (id.to_owned(), bytes_of(&scene));
+        let (key, bytes) = (id.to_owned(), length::of_scene(&scene));
         let packed = self.pool.document(bytes, move || record::of_scene(scene, &key)?.packed()).await?;
         self.put(id, expect, packed).await
     }
@@ -177,7 +171,7 @@ impl Home for Catalog {
             Some(hash) => self.map(hash).await?,
             None => None,
         };
-        let (bytes, maps, party) = (doc_bytes(&doc), Arc::clone(&self.maps), self.party);
+        let (bytes, maps, party) = (length::of_doc(&doc), Arc::clone(&self.maps), self.party);
         let read = move || {
             let inline = matches!(doc.map, MapField::Inline(_));
             let scene = doc.into_scene(|_| known)?;
@@ -213,9 +207,8 @@ impl Home for Catalog {
         Ok(opened)
     }
 
-    fn hold(&self, mut scene: Scene) -> (Option<String>, Opened) {
+    fn hold(&self, scene: Scene) -> (Option<String>, Opened) {
         let name = format!("{HELD}{}", id::fresh());
-        scene.extra.clear();
         let opened = Opened::new(scene, String::new());
         self.open.put(name.clone(), opened.clone(), weight::of_open(&opened.scene), self.party);
         (Some(name), opened)
@@ -225,27 +218,4 @@ impl Home for Catalog {
 fn parse_map(json: &[u8]) -> Result<Shared<LaneMap>, Problem> {
     let doc: MapDoc = native::from_json(json)?;
     Ok(doc.into_map()?.into())
-}
-
-/// Approximate bytes of a scene as JSON, by which the cost of work on it is estimated.
-pub fn bytes_of(scene: &Scene) -> usize {
-    let steps: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
-    let samples = scene.generated.iter().flat_map(|g| &g.samples);
-    let modes = samples.flat_map(|s| s.agents.values()).flat_map(|f| &f.modes);
-    let made: usize = modes.map(|future| future.states.len()).sum();
-    (steps + made) * STEP_BYTES + map_bytes(&scene.map)
-}
-
-/// Approximate bytes of a map as JSON.
-pub fn map_bytes(map: &LaneMap) -> usize {
-    size(map).1 * POINT_BYTES
-}
-
-fn doc_bytes(doc: &SceneDoc) -> usize {
-    let steps: usize = doc.agents.iter().map(|agent| agent.track.x_m.len()).sum();
-    let lines = match &doc.map {
-        MapField::Inline(map) => map.lanes.len() + map.road_lines.len() + map.road_edges.len(),
-        MapField::Ref(_) => 0,
-    };
-    steps * STEP_BYTES + lines * LINE_BYTES
 }

@@ -54,16 +54,16 @@ impl FolderReader {
     }
 
     /// A file of the folder by its name, with the files that are read with it; the inner error says why it
-    /// cannot be read.
+    /// cannot be read, such as more than `most` bytes.
     ///
     /// # Errors
     /// `store-unavailable` when the folder does not answer.
-    pub async fn read(&self, name: PathBuf) -> Result<io::Result<HeldFile>, Problem> {
+    pub async fn read(&self, name: PathBuf, most: u64) -> Result<io::Result<HeldFile>, Problem> {
         let silent = || {
             let detail = "The data folder does not answer.";
             Problem::new(Code::StoreUnavailable, detail).retry_after(5)
         };
-        self.ask(PATIENCE, move |folder| folder.read(&name)).await.ok_or_else(silent)
+        self.ask(PATIENCE, move |folder| folder.read(&name, most)).await.ok_or_else(silent)
     }
 
     /// Whether the thread is responsive.
@@ -81,7 +81,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a"), "x").unwrap();
         let reader = FolderReader::start(folder.path()).unwrap();
-        assert_eq!(reader.read("a".into()).await.unwrap().unwrap().bytes, b"x");
+        assert_eq!(reader.read("a".into(), 1).await.unwrap().unwrap().bytes, b"x");
         assert!(reader.answers().await);
         let (release, held) = std::sync::mpsc::channel::<()>();
         let hangs = reader.clone();

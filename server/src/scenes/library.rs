@@ -1,7 +1,7 @@
 //! Read-only scenes: embedded demos, and files of the folder given with `--data`.
 //!
-//! Files are read once in the background for the list. A scene is parsed again when it is opened, and a few
-//! stay in memory.
+//! Files are read in the background for the list: at the start, and when they change. A scene is parsed again when it
+//! is opened, and a few stay in memory.
 
 use super::demos;
 use super::folder::FolderReader;
@@ -11,22 +11,25 @@ use api::import::{Companions, SceneFile};
 use api::{Code, Opened, Problem};
 use base::cache::Cache;
 use base::clock;
-use base::folder::{DataFolder, HeldFile};
+use base::folder::{DataFolder, FileStamp, HeldFile};
 use base::id;
 use base::memory::Memory;
 use base::netconvert::companions;
 use base::party::Party;
 use formats::table;
 use scene::{ContentHash, LaneMap, Scene, Shared};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
-use std::time::SystemTime;
+use std::time::{Duration, Instant, SystemTime};
 use work::Pool;
 
 /// Limit of files from the data folder.
 const MOST_FILES: usize = 5_000;
+/// Time between two looks at the data folder; at least this multiple of the time of a look.
+const LOOK_EVERY: Duration = Duration::from_secs(2);
+const REST: u32 = 50;
 
 #[derive(Clone, Debug)]
 enum ScenePlace {
@@ -55,6 +58,16 @@ struct LibraryState {
     open: Arc<Cache<String, Opened>>,
     pool: Arc<Pool>,
     folder: Option<FolderReader>,
+    /// Memory of all requests, from which files are read.
+    memory: Arc<Memory>,
+}
+
+/// A file of the data folder as the library last saw it.
+struct SeenFile {
+    /// Its stamp, and those of the files that are read with it.
+    stamps: Vec<Option<FileStamp>>,
+    /// Whether its scenes are listed, if it has any.
+    is_read: bool,
 }
 
 /// All read-only scenes. Cheap to clone.
@@ -62,21 +75,26 @@ struct LibraryState {
 pub struct Library(Arc<LibraryState>);
 
 impl Library {
-    /// Starts with the demos; the folder's files follow as they are read. Opened scenes are cached in this
-    /// memory.
+    /// Starts with the demos; the folder's files follow as they are read. Opened scenes are cached in up to `cached`
+    /// bytes of this memory.
     ///
     /// # Errors
     /// When the folder cannot be opened, or a thread cannot be started.
-    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, memory: Arc<Memory>) -> io::Result<Self> {
+    pub fn start(
+        folder: Option<&Path>,
+        pool: Arc<Pool>,
+        (memory, cached): (&Arc<Memory>, u64),
+    ) -> io::Result<Self> {
         let reader = folder.map(FolderReader::start).transpose()?;
-        let (entries, open) = (RwLock::default(), Arc::new(Cache::new(Arc::clone(&memory))));
+        let (entries, open) = (RwLock::default(), Arc::new(Cache::new(memory.part(cached))));
         let lent: Weak<Cache<String, Opened>> = Arc::downgrade(&open);
-        memory.lend_whole(lent);
-        let library = Self(Arc::new(LibraryState { entries, open, pool, folder: reader }));
+        memory.lend(lent);
+        let memory = Arc::clone(memory);
+        let library = Self(Arc::new(LibraryState { entries, open, pool, folder: reader, memory }));
         library.add_demos();
         if let Some(folder) = folder.map(DataFolder::open).transpose()? {
-            let filled = library.clone();
-            std::thread::Builder::new().name("library".into()).spawn(move || filled.add_folder(&folder))?;
+            let state = Arc::downgrade(&library.0);
+            std::thread::Builder::new().name("library".into()).spawn(move || watch(&state, &folder))?;
         }
         Ok(library)
     }
@@ -109,16 +127,22 @@ impl Library {
     /// When its file can no longer be read.
     pub async fn open(&self, id: &str) -> Result<Option<Opened>, Problem> {
         let key = id.to_owned();
-        if let Some(known) = self.0.open.get(&key) {
+        let Some(entry) = self.with(|entries| entries.get(id).cloned()) else { return Ok(None) };
+        if let Some(known) = self.0.open.get(&key).filter(|known| known.etag == entry.item.etag) {
             return Ok(Some(known));
         }
-        let Some(entry) = self.with(|entries| entries.get(id).cloned()) else { return Ok(None) };
         let bytes = usize::try_from(entry.item.bytes).unwrap_or(usize::MAX);
+        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
+        let held = self.0.memory.take(bytes).ok_or_else(full)?;
         let file = match (&entry.place, &self.0.folder) {
-            (ScenePlace::File(name, _), Some(folder)) => Some(folder.read(name.clone()).await?),
+            // A file that has grown since is another one.
+            (ScenePlace::File(name, _), Some(folder)) => {
+                Some(folder.read(name.clone(), entry.item.bytes).await?)
+            }
             _ => None,
         };
         let open = move || {
+            let _held = held;
             let mut scene = read(&entry, file)?;
             scene.id = Some(entry.item.id.clone());
             scene.name.clone_from(&entry.item.name);
@@ -182,7 +206,9 @@ impl Library {
         }
     }
 
-    fn add_folder(&self, folder: &DataFolder) {
+    /// Lists the scenes of the files that are new or have changed since the last look, and drops those of files that are
+    /// gone. A file that changes from one look to the next may still be written, and waits for the next one.
+    fn look(&self, folder: &DataFolder, seen: &mut BTreeMap<PathBuf, SeenFile>, at_once: bool) {
         let mut files = match folder.names() {
             Ok(names) => names,
             Err(error) => {
@@ -194,28 +220,75 @@ impl Library {
         let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
         // Companion tables are read together with the tracks.
         let followers = table::followers(&names, None);
-        for (_, path) in files.iter().enumerate().filter(|(at, _)| !followers.contains(at)) {
-            let held = folder.read(path).map_err(|error| error.to_string());
-            match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
-                Ok((scenes, held)) => {
-                    let file = FileFacts {
-                        etag: etag_of(&held.bytes, &held.others),
-                        bytes: held.length(),
-                        modified: folder.modified(path).unwrap_or(SystemTime::UNIX_EPOCH),
-                    };
-                    for (index, scene) in scenes.iter().enumerate() {
-                        // Existing scenes stay: a file replaces neither a demo nor another file's scene.
-                        let ids = [file_id(path, scene, index), name_id(path, index)];
-                        let Some(id) = ids.into_iter().find(|id| !self.has(id)) else {
-                            tracing::warn!(file = %path.display(), "its scene's id is taken");
-                            continue;
-                        };
-                        self.add(id, scene, ScenePlace::File(path.clone(), index), &file);
-                    }
-                }
-                Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
+        let files: BTreeSet<PathBuf> =
+            files.iter().enumerate().filter(|(at, _)| !followers.contains(at)).map(|(_, p)| p.clone()).collect();
+        seen.retain(|path, _| {
+            let is_there = files.contains(path);
+            if !is_there {
+                self.forget(path);
             }
+            is_there
+        });
+        for path in files {
+            let beside = folder.beside(&path);
+            let all = std::iter::once(path.as_path()).chain(beside.iter().map(Path::new));
+            let stamps: Vec<Option<FileStamp>> = all.map(|name| folder.stamp(name)).collect();
+            let is_stable = seen.get(&path).map_or(at_once, |known| known.stamps == stamps);
+            if seen.get(&path).is_some_and(|known| known.is_read && is_stable) {
+                continue;
+            }
+            if is_stable {
+                self.add_file(folder, &path, stamps.first().copied().flatten());
+            }
+            seen.insert(path, SeenFile { stamps, is_read: is_stable });
         }
+    }
+
+    /// Lists the scenes of a file in place of those that it had.
+    fn add_file(&self, folder: &DataFolder, path: &Path, stamp: Option<FileStamp>) {
+        let held = folder.read(path, u64::MAX).map_err(|error| error.to_string());
+        self.forget(path);
+        match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
+            Ok((scenes, held)) => {
+                let file = FileFacts {
+                    etag: etag_of(&held.bytes, &held.others),
+                    bytes: held.length(),
+                    modified: stamp.map_or(SystemTime::UNIX_EPOCH, |stamp| stamp.modified),
+                };
+                for (index, scene) in scenes.iter().enumerate() {
+                    // Existing scenes stay: a file replaces neither a demo nor another file's scene.
+                    let ids = [file_id(path, scene, index), name_id(path, index)];
+                    let Some(id) = ids.into_iter().find(|id| !self.has(id)) else {
+                        tracing::warn!(file = %path.display(), "its scene's id is taken");
+                        continue;
+                    };
+                    self.add(id, scene, ScenePlace::File(path.to_owned(), index), &file);
+                }
+            }
+            Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
+        }
+    }
+
+    /// Drops the scenes of a file.
+    fn forget(&self, path: &Path) {
+        let mut entries = self.0.entries.write().unwrap_or_else(PoisonError::into_inner);
+        entries.retain(|id, entry| {
+            let is_other = !matches!(&entry.place, ScenePlace::File(of, _) if of == path);
+            if !is_other {
+                self.0.open.forget(id);
+            }
+            is_other
+        });
+    }
+}
+
+/// Keeps the list of a library equal to its data folder, until the library is gone.
+fn watch(library: &Weak<LibraryState>, folder: &DataFolder) {
+    let (mut seen, mut at_once) = (BTreeMap::new(), true);
+    while let Some(state) = library.upgrade() {
+        let began = Instant::now();
+        Library(state).look(folder, &mut seen, std::mem::take(&mut at_once));
+        std::thread::sleep(LOOK_EVERY.max(began.elapsed() * REST));
     }
 }
 
@@ -289,13 +362,46 @@ fn name_id(path: &Path, index: usize) -> String {
 mod tests {
     use super::*;
     use base::limits::Limits;
+    use formats::native::{MapForm, SceneDoc};
 
     #[test]
     fn demos_are_there_before_anybody_can_ask() {
         let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
-        let library = Library::start(None, pool, Memory::new(1 << 20)).unwrap();
+        let library = Library::start(None, pool, (&Memory::new(1 << 20), 1 << 20)).unwrap();
         assert_eq!(library.items().len(), demos::ids().len());
         assert!(library.has("demo-crossing"));
+    }
+
+    #[test]
+    fn the_list_follows_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |file: &str, name: &str| {
+            let scene = Scene::bare(name, LaneMap::default(), Vec::new());
+            let doc = SceneDoc::from_scene(&scene, MapForm::Inline);
+            std::fs::write(folder.path().join(file), formats::native::write_doc(&doc)).unwrap();
+        };
+        let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
+        let library = Library::start(None, pool, (&Memory::new(1 << 20), 1 << 20)).unwrap();
+        let (opened, mut seen) = (DataFolder::open(folder.path()).unwrap(), BTreeMap::new());
+        let mut look = |at_once: bool| {
+            library.look(&opened, &mut seen, at_once);
+            let own = library.items().into_iter().filter(|item| item.id.starts_with("file-"));
+            own.map(|item| (item.id, item.name)).collect::<Vec<_>>()
+        };
+        let list = |items: &[(&str, &str)]| -> Vec<(String, String)> {
+            items.iter().map(|(id, name)| ((*id).to_owned(), (*name).to_owned())).collect()
+        };
+        write("a.json", "one");
+        std::fs::write(folder.path().join("notes.txt"), "no scene").unwrap();
+        assert_eq!(look(true), list(&[("file-a-0", "one")]));
+        // New and changed files may still be written: they are read once they stay the same.
+        write("b.json", "two");
+        write("a.json", "longer");
+        assert_eq!(look(false), list(&[("file-a-0", "one")]));
+        assert_eq!(look(false), list(&[("file-a-0", "longer"), ("file-b-0", "two")]));
+        std::fs::remove_file(folder.path().join("a.json")).unwrap();
+        assert_eq!(look(false), list(&[("file-b-0", "two")]));
+        assert_eq!(look(false), list(&[("file-b-0", "two")]));
     }
 
     #[test]

@@ -5,6 +5,8 @@ use formats::native::{
 };
 use scene::{Scene, State, Track, Vec2};
 
+/// Points of a line that are simplified together: the time of a line grows with their square.
+const TOGETHER: usize = 256;
 /// Greatest deviation of simplified lines, metres: one pixel of a picture that shows a junction.
 const TOLERANCE_M: f64 = 0.4;
 
@@ -79,13 +81,14 @@ fn tenths(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
-/// The points that keep the line within the tolerance (Douglas and Peucker), including both ends.
+/// The points that keep the line within the tolerance (Douglas and Peucker, [`TOGETHER`] points at a time), including
+/// both ends.
 fn corners(points: &[Vec2], tolerance_m: f64) -> Vec<Vec2> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let ends: Vec<usize> = (0..last).step_by(TOGETHER).chain([last]).collect();
     let mut keep = vec![false; points.len()];
-    keep[0] = true;
-    keep[last] = true;
-    let mut open = vec![(0, last)];
+    ends.iter().for_each(|end| keep[*end] = true);
+    let mut open: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
     while let Some((from, to)) = open.pop() {
         let (a, b) = (points[from], points[to]);
         let inner = (from + 1..to).map(|i| (i, distance_m(points[i], a, b)));
@@ -120,6 +123,8 @@ mod tests {
         assert_eq!(corners(&bend, 0.4), [bend[0], bend[25], bend[49]]);
         let still = vec![Vec2::new(1.0, 1.0); 5];
         assert_eq!(corners(&still, 0.4), [still[0], still[4]]);
+        let long: Vec<Vec2> = (0..600).map(|i| Vec2::new(f64::from(i), 0.0)).collect();
+        assert_eq!(corners(&long, 0.4), [long[0], long[TOGETHER], long[2 * TOGETHER], long[599]]);
         assert!(corners(&[], 0.4).is_empty());
         assert_eq!(corners(&line[..1], 0.4), line[..1]);
     }

@@ -28,13 +28,14 @@ fn plain<T>(entries: &[T]) -> usize {
     list(entries, |_| 0)
 }
 
-fn value(given: &Value) -> usize {
+/// Bytes of a value.
+pub fn of_value(given: &Value) -> usize {
     size_of::<Value>()
         + match given {
             Value::Null | Value::Bool(_) | Value::Number(_) => 0,
             Value::String(letters) => text(letters),
-            Value::Array(items) => TEXT + items.iter().map(value).sum::<usize>(),
-            Value::Object(members) => members.iter().map(|(key, own)| ENTRY + text(key) + value(own)).sum(),
+            Value::Array(items) => TEXT + items.iter().map(of_value).sum::<usize>(),
+            Value::Object(members) => members.iter().map(|(key, own)| ENTRY + text(key) + of_value(own)).sum(),
         }
 }
 
@@ -69,7 +70,8 @@ pub fn of_map(map: &LaneMap) -> usize {
 
 fn agent(agent: &Agent) -> usize {
     let conditions = plain(&agent.conditions.via) + texts(&agent.conditions.may_cross);
-    text(&agent.id) + plain(&agent.track.states) + agent.track.z_m.as_deref().map_or(0, plain) + conditions
+    let words = text(&agent.id) + texts(&agent.role);
+    words + plain(&agent.track.states) + agent.track.z_m.as_deref().map_or(0, plain) + conditions
 }
 
 fn signal(signal: &Signal) -> usize {
@@ -80,7 +82,10 @@ fn generated(generated: &Generated) -> usize {
     let futures = generated.samples.iter().flat_map(|sample| &sample.agents);
     let modes =
         futures.map(|(id, future)| ENTRY + text(id) + list(&future.modes, |mode| plain(&mode.states)));
-    modes.sum::<usize>() + value(&generated.request)
+    let scores: usize = generated.samples.iter().map(|sample| of_value(&sample.score)).sum();
+    let weights: usize = generated.weights.iter().map(|(name, hash)| ENTRY + text(name) + text(hash)).sum();
+    let words = texts([&generated.input_sha256, &generated.created_at]) + texts(&generated.licence);
+    modes.sum::<usize>() + scores + weights + words + of_value(&generated.request)
 }
 
 /// Bytes of a scene.
@@ -89,9 +94,11 @@ pub fn of_scene(scene: &Scene) -> usize {
     let words = texts(&meta.tags)
         + texts(&meta.objects_of_interest)
         + meta.tracks_to_predict.iter().map(|(id, _)| text(id)).sum::<usize>()
-        + [&scene.name, &meta.notes, &meta.source].map(|word| text(word)).iter().sum::<usize>()
+        + texts([&scene.name, &meta.notes, &meta.source])
+        + texts([&scene.id, &meta.source_id, &meta.licence, &meta.parent_id, &meta.created_with].into_iter().flatten())
+        + texts(&meta.origin.crs)
         + meta.timestamps_s.as_deref().map_or(0, plain);
-    let extra: usize = scene.extra.iter().map(|(key, own)| ENTRY + text(key) + value(own)).sum();
+    let extra: usize = scene.extra.iter().map(|(key, own)| ENTRY + text(key) + of_value(own)).sum();
     let moving = list(&scene.agents, agent) + list(&scene.signals, signal);
     let made = scene.generated.as_ref().map_or(0, generated);
     size_of::<Scene>() + of_map(&scene.map) + moving + made + words + extra
@@ -120,7 +127,14 @@ mod tests {
         };
         let small = of_open(&bare());
         assert!(small < 4_096, "{small}");
-        let grown: [fn(&mut Scene); 10] = [
+        let grown: [fn(&mut Scene); 14] = [
+            |scene| scene.agents[0].role = Some("x".repeat(8_000)),
+            |scene| scene.meta.origin.crs = Some("x".repeat(8_000)),
+            |scene| scene.meta.created_with = Some("x".repeat(8_000)),
+            |scene| {
+                let sample = scene::Sample { score: json!(vec!["letters"; 1_000]), ..Default::default() };
+                scene.generated = Some(scene::Generated { samples: vec![sample], ..Default::default() });
+            },
             |scene| drop(scene.extra.insert("x_a".into(), json!(vec!["letters"; 1_000]))),
             |scene| scene.meta.notes = "x".repeat(8_000),
             |scene| scene.meta.tags = vec![String::new(); 1_000],

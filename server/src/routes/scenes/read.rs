@@ -4,7 +4,7 @@ use crate::app::App;
 use crate::http::coding;
 use crate::http::extract::{Id, QueryParams, if_none_match};
 use crate::routes::own::OwnCatalog;
-use crate::scenes::{bytes_of, preview};
+use crate::scenes::{length, preview};
 use api::Home;
 use api::home::not_found;
 use axum::extract::State;
@@ -116,7 +116,7 @@ pub async fn preview_of(
     if !fresh(&headers, &opened.etag) {
         return Ok((kept, not_modified(&opened.etag)).into_response());
     }
-    let (scene, bytes) = (Arc::clone(&opened.scene), bytes_of(&opened.scene));
+    let (scene, bytes) = (Arc::clone(&opened.scene), length::of_scene(&opened.scene));
     let write = move || Ok(native::write_doc(&preview(&scene)));
     let json = app.pool.document(bytes, write).await?;
     Ok((kept, scene_reply(&app, headers, &opened.etag, json).await?).into_response())

@@ -31,6 +31,9 @@ use tokio::sync::oneshot;
 
 const READERS: usize = 4;
 
+/// Version of the file that this program writes.
+pub const SCHEMA: u64 = migrations::LATEST as u64;
+
 type Work = Box<dyn FnOnce(&mut Connection) + Send>;
 
 type Query = Box<dyn FnOnce(&Connection) + Send>;
