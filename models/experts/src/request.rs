@@ -238,7 +238,7 @@ pub enum Source {
     Relation,
 }
 
-/// A value and where it came from.
+/// A value and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Field {
     /// In the unit of the field's name.
@@ -247,8 +247,7 @@ pub struct Field {
     pub from: Source,
 }
 
-/// Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
-/// what it would take.
+/// Whether a goal is met. `unreachable` has the nearest state and what the goal would require.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "Reach")]
 #[serde(tag = "status", rename_all = "snake_case")]
@@ -264,11 +263,11 @@ pub enum ReachReport {
     },
     /// No future within the limits meets it.
     Unreachable {
-        /// State at the goal time that comes nearest.
+        /// Nearest state that can be reached at the goal time.
         nearest: NearestState,
-        /// Limit that binds.
+        /// Limit that prevents it.
         limiting: Limiting,
-        /// Amount that the goal would take, in that limit's unit, where a formula gives it.
+        /// Amount that the goal would require, in the unit of the limit, where a formula gives it.
         needs: Option<f64>,
         /// The reason in English.
         words: String,
@@ -297,8 +296,8 @@ impl NearestState {
     }
 }
 
-/// The state to which a window sends a road user whose goal is due after the window's end. It lies on the way
-/// to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+/// The target of a planning window for a road user whose goal is due after the window's end. It lies on the
+/// way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Intermediate {
     /// Planning window, from 0.
@@ -308,7 +307,7 @@ pub struct Intermediate {
     /// The state.
     #[serde(flatten)]
     pub state: NearestState,
-    /// The plan met it.
+    /// Whether the plan reaches it.
     pub reached: bool,
 }
 
@@ -334,7 +333,7 @@ pub struct ResolvedGoal {
     pub time_s: Field,
 }
 
-/// A place on a lane that can be had instead of a goal.
+/// A position on a lane that can be reached instead of the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ByRoad {
     /// On the lane's middle, metres.
@@ -350,17 +349,17 @@ pub struct ByRoad {
 /// How a future passes a via point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ResolvedVia {
-    /// Where it lies, metres.
+    /// Its position, metres.
     pub x_m: f64,
-    /// Where it lies, metres.
+    /// Its position, metres.
     pub y_m: f64,
     /// Tolerance of the condition, metres.
     pub tolerance_m: f64,
-    /// It is passed within its tolerance, and at its time where that is fixed.
+    /// Whether it is passed within its tolerance, and at its time if that is fixed.
     pub passed: bool,
-    /// How near the future comes, metres.
+    /// Least distance of the future from it, metres.
     pub distance_m: f64,
-    /// Scene time then, seconds.
+    /// Scene time at the least distance, seconds.
     pub time_s: f64,
 }
 
@@ -374,17 +373,17 @@ pub struct Resolved {
     pub length_m: Field,
     /// Across the heading.
     pub width_m: Field,
-    /// Where it begins.
+    /// Its start.
     pub start: ResolvedStart,
-    /// Where it goes.
+    /// Its goal.
     pub goal: ResolvedGoal,
-    /// Verdict on the goal.
+    /// Whether the goal is met.
     pub reach: ReachReport,
-    /// How its shown future passes each via point, in their order.
+    /// How its shown future passes each via point, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub via: Vec<ResolvedVia>,
-    /// Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
-    /// road leads to in the same time.
+    /// If its shown future leaves the road or drives against the traffic: the place nearest to the goal that can be
+    /// reached along the road in the same time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_road: Option<ByRoad>,
     /// One entry for each window that ended its plan before the goal was due.
@@ -392,7 +391,7 @@ pub struct Resolved {
     pub intermediate: Vec<Intermediate>,
 }
 
-/// What is unlikely.
+/// Kind of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WarningCode {
@@ -402,9 +401,9 @@ pub enum WarningCode {
     GoalOffRoad,
     /// No lane is near the start.
     StartOffRoad,
-    /// The start is in another road user's place.
+    /// The start overlaps another road user.
     StartOverlaps,
-    /// A log that ends was carried on.
+    /// A recording was extrapolated beyond its end.
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
@@ -433,10 +432,10 @@ impl std::fmt::Display for WarningCode {
     }
 }
 
-/// Something unlikely that was done anyway.
+/// A warning: an unlikely request that was carried out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// A word that programs can switch on.
+    /// Code for programs.
     pub code: WarningCode,
     /// The agent that it concerns.
     pub agent: Option<AgentId>,
@@ -458,22 +457,22 @@ impl Warning {
     }
 }
 
-/// First event: what will be done.
+/// First event: the planned work.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Accepted {
-    /// The seed in use.
+    /// Seed in use.
     pub seed: u64,
     /// Road users that get new futures.
     pub regenerated: Vec<AgentId>,
-    /// Road users that answer to them.
+    /// Road users that may react to them.
     pub reacting: Vec<AgentId>,
     /// Road users that keep their motion.
     pub fixed: Vec<AgentId>,
-    /// Refinement steps of a window.
+    /// Refinement steps per window.
     pub steps: usize,
-    /// Planning windows, one after the other.
+    /// Number of successive planning windows.
     pub windows: usize,
-    /// Unlikely things known by now.
+    /// Warnings so far.
     pub warnings: Vec<Warning>,
 }
 

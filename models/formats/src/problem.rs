@@ -73,13 +73,13 @@ pub fn never_null(schema: &mut Schema) {
     }
 }
 
-/// One fault and its place.
+/// A fault of a request and its place.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(transform = never_null)]
 pub struct FieldProblem {
     /// JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter.
     pub pointer: String,
-    /// A word that programs can switch on.
+    /// Code for programs.
     pub code: &'static str,
     /// Value found and value expected, in English.
     pub detail: String,
@@ -254,7 +254,7 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// Something a reader changed or left out without refusing.
+/// A change or an omission by a reader that accepted the file.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ImportWarning {
     /// The kind of change; programs switch on it.

@@ -107,7 +107,7 @@ impl Template {
         }
     }
 
-    /// Its name for people.
+    /// Display name.
     pub fn title(self) -> &'static str {
         match self {
             Self::ThreeArms => "Three arms",
@@ -229,7 +229,7 @@ pub struct Built {
     pub signals: Vec<Signal>,
     /// Results of the checks; a failed check forbids nothing.
     pub checks: Vec<Check>,
-    /// Where the arms lie, in the order of the parameters.
+    /// Positions of the arms, in the order of the parameters.
     pub arms: Vec<ArmPlace>,
     /// Positions of the bends of the kerbs between them, counter-clockwise.
     pub corners: Vec<CornerPlace>,

@@ -20,7 +20,7 @@ pub enum Traffic {
     LeftHand,
 }
 
-/// Priority where roads meet.
+/// Right of way at a junction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Control {
@@ -37,7 +37,7 @@ pub enum Control {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TurnAcross {
-    /// They have green with it and give way.
+    /// They have green at the same time and give way.
     #[default]
     Permissive,
     /// They have a phase of their own.
@@ -66,7 +66,7 @@ impl Turn {
     }
 }
 
-/// The lights of a junction: its phases follow one another without end.
+/// Signal program of a junction, whose phases repeat in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Program {
@@ -76,10 +76,10 @@ pub struct Program {
     /// Yellow after it, seconds.
     #[schemars(range(min = 2.0, max = 6.0))]
     pub yellow_s: f64,
-    /// Red for all before the next green, seconds.
+    /// All-red time before the next green, seconds.
     #[schemars(range(min = 0.5, max = 5.0))]
     pub all_red_s: f64,
-    /// How long the first green has been on when the scene begins, seconds.
+    /// Time for which the first green has been on at the start of the scene, seconds.
     #[schemars(range(min = 0.0, max = 600.0))]
     pub offset_s: f64,
     /// Turns across oncoming traffic.
@@ -103,10 +103,11 @@ impl Default for Program {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Arm {
-    /// Where it leads, counter-clockwise from east, degrees.
+    /// Direction from the junction, counter-clockwise from east, degrees.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub angle_deg: f64,
-    /// From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+    /// Length from the centre of the junction to the edge of the map, metres; longer where the junction needs
+    /// it.
     #[schemars(range(min = 40.0, max = 200.0))]
     pub length_m: f64,
     /// Lanes towards the junction.
@@ -115,23 +116,23 @@ pub struct Arm {
     /// Lanes away from it.
     #[schemars(range(max = 5))]
     pub lanes_out: u8,
-    /// Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
-    /// in left-hand traffic) to the kerb; null is the usual.
+    /// Allowed turns of each inbound lane, in order from the middle of the road to the kerb; null selects the
+    /// usual turns.
     #[schemars(length(max = 5))]
     pub turns: Option<Vec<Vec<Turn>>>,
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    /// Width of the cycle lane on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    /// Width of the raised median, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of the crosswalk over it, metres; less than half a metre is none.
+    /// Width of the crosswalk across it, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
-    /// With `priority`: its traffic goes first.
+    /// With `priority`: its traffic has right of way.
     pub main: bool,
 }
 
@@ -159,8 +160,9 @@ impl Arm {
     }
 }
 
-/// A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
-/// of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+/// A path from an inbound lane to an outbound lane, which for a U-turn is of the same arm. Arms count in the order of
+/// the parameters, lanes from the middle of the road to the kerb: from 0 here, from 1 in the ids of lanes that documents
+/// have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "LaneIds", into = "LaneIds")]
 #[schemars(with = "LaneIds")]
@@ -176,10 +178,10 @@ pub struct Connection {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Connection")]
 struct LaneIds {
-    /// A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road.
+    /// Inbound lane, such as `arm2.in1`: the lane of the second arm next to the middle of the road.
     #[schemars(regex(pattern = r"^arm[1-6]\.in[1-5]$"))]
     from: String,
-    /// A lane away from it, such as `arm3.out1`.
+    /// Outbound lane, such as `arm3.out1`.
     #[schemars(regex(pattern = r"^arm[1-6]\.out[1-5]$"))]
     to: String,
 }
@@ -219,14 +221,14 @@ impl Connection {
     }
 }
 
-/// What a junction has and has not beside the ways that its turn lanes make.
+/// Paths through a junction that are added to, or removed from, those of its turn lanes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Connections {
-    /// Ways that there are in any case.
+    /// Added paths.
     #[schemars(length(max = 64))]
     pub added: Vec<Connection>,
-    /// Ways that there are not.
+    /// Removed paths.
     #[schemars(length(max = 64))]
     pub removed: Vec<Connection>,
 }
@@ -242,7 +244,7 @@ impl Connections {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Junction {
-    /// 3 to 6 of them, at least 20 degrees apart.
+    /// 3 to 6 arms, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
     /// Single connections through the junction, in addition to those of the turn lanes.
@@ -250,7 +252,7 @@ pub struct Junction {
     pub connections: Connections,
     /// Priority at the junction.
     pub control: Control,
-    /// Lights, with `signals`.
+    /// Signal program, with `signals`.
     pub program: Program,
     /// Radius of the kerbs at corners, metres; less where arms are too close for it.
     #[schemars(range(min = 3.0, max = 20.0))]
@@ -258,7 +260,7 @@ pub struct Junction {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -293,7 +295,7 @@ impl Junction {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Roundabout {
-    /// 3 to 6 of them, at least 20 degrees apart.
+    /// 3 to 6 arms, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
     /// Radius of the island in the middle, metres; more where the arms need it.
@@ -314,7 +316,7 @@ pub struct Roundabout {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -342,12 +344,12 @@ impl Default for Roundabout {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Merge {
-    /// Lanes that go through.
+    /// Through lanes.
     #[schemars(range(min = 1, max = 5))]
     pub lanes: u8,
-    /// A ramp joins.
+    /// Whether a ramp joins.
     pub on_ramp: bool,
-    /// A ramp leaves, before the other one joins.
+    /// Whether a ramp leaves, upstream of the one that joins.
     pub off_ramp: bool,
     /// Length beside the through lanes on which to speed up or slow down, metres.
     #[schemars(range(min = 40.0, max = 400.0))]
@@ -397,33 +399,33 @@ pub struct Road {
     /// Radius of the bend in the middle of the road, metres; more where the road is too wide for it.
     #[schemars(range(min = 15.0, max = 500.0))]
     pub radius_m: f64,
-    /// Lanes eastwards, where the road begins.
+    /// Lanes in the forward direction, which is east at the start of the road.
     #[schemars(range(min = 1, max = 5))]
     pub lanes_forward: u8,
-    /// Lanes the other way.
+    /// Lanes in the opposite direction.
     #[schemars(range(max = 5))]
     pub lanes_backward: u8,
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    /// Width of the cycle lane on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a strip for parked cars on both sides, metres; less than half a metre is none.
+    /// Width of the parking strip on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub parking_m: f64,
-    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    /// Width of the raised median, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of a crosswalk half way, metres; less than half a metre is none.
+    /// Width of the crosswalk half way along the road, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
-    /// Speed bumps before and behind the crosswalk.
+    /// Whether speed bumps lie before and after the crosswalk.
     pub speed_bumps: bool,
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -472,7 +474,8 @@ impl Road {
     }
 }
 
-/// A street with a car park beside it: in at one end, along aisles, out at the other.
+/// A street with a car park beside it: its entrance is at one end, its exit at the other, with aisles between
+/// them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CarPark {
@@ -500,7 +503,7 @@ pub struct CarPark {
     /// Width of the lanes of the street, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.

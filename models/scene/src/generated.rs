@@ -34,7 +34,7 @@ impl Future {
 pub struct AgentFutures {
     /// Index into `modes` of the future that is shown and exported.
     pub chosen: usize,
-    /// By falling probability, never empty.
+    /// In order of decreasing probability, never empty.
     pub modes: Vec<Future>,
     /// The reaction that replaced its motion; `None` for an agent that the call regenerated.
     pub reaction: Option<Reaction>,

@@ -97,7 +97,7 @@ pub struct Lane {
     pub successors: Vec<String>,
     pub left_neighbors: Vec<Neighbor>,
     pub right_neighbors: Vec<Neighbor>,
-    /// Leads through a junction between two lanes.
+    /// Whether it connects two lanes through a junction.
     pub interpolating: bool,
 }
 

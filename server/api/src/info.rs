@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What the program was built for.
+/// Build of the program.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Build")]
 pub struct BuildInfo {
@@ -20,7 +20,7 @@ pub struct BuildInfo {
     pub profile: &'static str,
 }
 
-/// What this server is and can do.
+/// Description of the server.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Info")]
 pub struct ProgramInfo {
@@ -29,7 +29,7 @@ pub struct ProgramInfo {
     /// Version of the program.
     version: &'static str,
     build: BuildInfo,
-    /// What computes the networks.
+    /// Device that computes the networks.
     device: &'static str,
     /// Experts by name.
     weights: BTreeMap<String, WeightsInfo>,
@@ -37,15 +37,15 @@ pub struct ProgramInfo {
     placement: Option<PlacementInfo>,
     /// Bounds of the server by name, and those of the scene format.
     limits: BTreeMap<&'static str, Bound>,
-    /// What conditions may ask for.
+    /// Ranges of conditions.
     condition_ranges: ConditionRanges,
-    /// What each kind of road user can do.
+    /// Motion limits of each kind of road user.
     motion_limits: KindLimits,
-    /// What a generation has when the request does not say.
+    /// Defaults of a generation.
     defaults: Defaults,
     /// Formats of files.
     formats: Vec<formats::format::Info>,
-    /// Sentences for people who run the server.
+    /// Notices for the operators of the server.
     notices: Vec<String>,
 }
 

@@ -37,7 +37,7 @@ impl Default for CallLimits {
     }
 }
 
-/// One bound as it is in force.
+/// A bound in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Bound {
     /// In the unit of the bound's name.

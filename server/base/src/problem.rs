@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::time::Duration;
 
-/// RFC 9457 problem. Switch on `code`, which never changes.
+/// RFC 9457 problem. Programs switch on `code`, which never changes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Problem", transform = formats::never_null)]
 pub struct ProblemDoc {
@@ -28,7 +28,7 @@ pub struct ProblemDoc {
     status: u16,
     /// Explanation of this occurrence.
     detail: String,
-    /// The word to switch on.
+    /// Code for programs.
     code: CodeName,
     /// Requested address.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -36,11 +36,11 @@ pub struct BatchMap {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 200.0))]
     pub per_lane_km: Option<f64>,
-    /// Road users in all.
+    /// Total number of road users.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 256))]
     pub count: Option<u64>,
-    /// Share of the parking places that are taken.
+    /// Share of the parking places that are occupied.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub parked_share: Option<f64>,

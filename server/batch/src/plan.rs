@@ -154,7 +154,7 @@ pub struct BatchOptions {
     /// Replan interval, seconds: 3, 6 or 9.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replan_interval_s: Option<f64>,
-    /// Futures that are planned for each road user.
+    /// Number of futures planned for each road user.
     #[schemars(range(min = 1, max = 6))]
     pub modes: u64,
     /// Scale of the noise, which makes seeds differ.

@@ -64,7 +64,7 @@ pub struct BatchRow {
     pub outcome: UnitOutcome,
     /// Why it failed.
     pub problem: Option<UnitProblem>,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     pub code: Option<String>,
     /// Whether the goal of the actor is met: met, missed, none.
     pub goal: Option<String>,
@@ -86,7 +86,7 @@ pub struct BatchRow {
 pub struct KeptCase {
     /// Id of the unit.
     pub unit: String,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     pub code: String,
     /// Hash of the scene.
     pub scene: String,

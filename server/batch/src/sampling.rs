@@ -40,7 +40,7 @@ pub enum SamplingMethod {
     LatinHypercube,
     /// Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
     Sobol,
-    /// Tries that come nearer to `where`: CMA-ES over the ranges, for each seed of its own.
+    /// Search for results that satisfy `where`: CMA-ES over the ranges, separately for each seed.
     Search,
 }
 

@@ -35,14 +35,14 @@ pub struct Envelope<'a, T: EventBody> {
     /// Type of the event.
     #[schemars(schema_with = "names::<T>")]
     pub event: &'static str,
-    /// Rises by one an event; a gap shows events that were dropped for a slow reader.
+    /// Increases by one per event; a gap marks events that were dropped for a slow reader.
     pub seq: u64,
     /// Id of the job.
     pub job: &'a str,
-    /// Revision of the request, when it had one.
+    /// Revision of the request, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub revision: Option<u64>,
-    /// Since the request was read, milliseconds.
+    /// Time since the request was read, milliseconds.
     pub elapsed_ms: f64,
     /// Body of the event.
     #[serde(flatten)]
@@ -89,7 +89,7 @@ pub struct SupersededBody {
     pub by_revision: u64,
 }
 
-/// A sign of life between events, only in NDJSON: SSE has comments for it.
+/// Keep-alive between events, only in NDJSON; SSE uses comments.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "HeartbeatEvent")]
 pub struct Heartbeat {
@@ -139,10 +139,10 @@ macro_rules! names {
 }
 
 names! {
-    AcceptedBody "accepted" "First event: what will be done.";
+    AcceptedBody "accepted" "First event: the planned work.";
     FinalBody "final" "Last event of a call that succeeded: the answer.";
     ErrorBody "error" "Last event of a call that failed or was cancelled.";
-    SupersededBody "superseded" "Last event of a call that a newer revision of its client took over.";
+    SupersededBody "superseded" "Last event of a call that a newer revision of its client replaced.";
 }
 
 impl EventBody for DraftBody {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct SceneItem {
     /// Id of the scene.
     pub id: String,
-    /// For people.
+    /// Display name.
     pub name: String,
     /// With quotes, as in the ETag header.
     pub etag: String,
@@ -23,7 +23,7 @@ pub struct SceneItem {
     pub facts: Facts,
     /// Content hash of the map, 64 hex digits.
     pub map_sha256: String,
-    /// Words to find it by.
+    /// Search terms.
     pub tags: Vec<String>,
     /// Scene it is a variant of.
     pub parent_id: Option<String>,
@@ -31,10 +31,10 @@ pub struct SceneItem {
     pub bytes: u64,
     /// Demo scenes and those of the data folder; duplicate one to change it.
     pub readonly: bool,
-    /// User whose scene it is, on a server whose scenes have owners.
+    /// Owner of the scene, on a server whose scenes have owners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub owner: Option<String>,
-    /// What others may do with it.
+    /// Rights of other users on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shared: Option<SceneShare>,
 }

@@ -75,7 +75,7 @@ impl JobRequest {
 /// Why a job ends without its result.
 #[derive(Clone, Debug)]
 pub enum Stop {
-    /// A newer revision of the same client took over.
+    /// A newer revision of the same client replaced it.
     Superseded(u64),
     /// A refusal, a failure or a cancellation.
     Problem(Problem),

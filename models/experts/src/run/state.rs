@@ -31,7 +31,7 @@ pub struct Run {
 pub struct RunChange {
     /// The road user.
     pub agent: AgentId,
-    /// What it does, and because of whom.
+    /// What it does, and its cause.
     pub reaction: Reaction,
 }
 

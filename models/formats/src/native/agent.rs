@@ -32,7 +32,7 @@ fn subtypes(_: &mut SchemaGenerator) -> Schema {
     ])
 }
 
-/// Recorded states as columns, one value a step from `first_step`.
+/// Recorded states as columns, one value per step from `first_step`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrackDoc {
@@ -178,11 +178,11 @@ pub struct AgentDoc {
     /// Role in the source, such as `ego`.
     #[serde(default)]
     pub role: Option<String>,
-    /// Metres; the subtype's when absent.
+    /// Metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub length_m: Option<f64>,
-    /// Metres; the subtype's when absent.
+    /// Metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub width_m: Option<f64>,

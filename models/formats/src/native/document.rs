@@ -48,7 +48,7 @@ pub struct MetaDoc {
     pub origin: OriginDoc,
     /// Scene that this one is a variant of.
     pub parent_id: Option<String>,
-    /// Words to find it by.
+    /// Search terms.
     #[schemars(length(max = 256))]
     #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub tags: Vec<String>,
@@ -57,7 +57,7 @@ pub struct MetaDoc {
     pub notes: String,
     /// Version of the program that made it.
     pub created_with: Option<String>,
-    /// WOMD's objects of interest, by road user's id.
+    /// WOMD's objects of interest, by road user id.
     #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_AGENTS>")]
     pub objects_of_interest: Vec<String>,
     /// WOMD's tracks to predict: road user's id and difficulty.
@@ -122,7 +122,7 @@ pub struct SignalDoc {
     /// Stop position.
     #[serde(default)]
     pub stop_m: Option<PointDoc>,
-    /// Run-length states; first steps rise.
+    /// Run-length encoded states, in order of their first steps.
     #[schemars(length(min = 1))]
     #[serde(deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub states: Vec<RunDoc>,
@@ -150,7 +150,7 @@ pub struct SceneDoc {
     /// Set by the server.
     #[serde(default)]
     pub id: Option<String>,
-    /// For people.
+    /// Display name.
     #[serde(default)]
     #[schemars(length(max = 200))]
     pub name: String,

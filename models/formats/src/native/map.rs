@@ -70,7 +70,7 @@ pub struct LaneDoc {
     /// Centre line in driving direction, at least two points.
     #[schemars(extend("minItems" = 2))]
     pub points_m: PointsDoc,
-    /// Metres; assumed by type when absent.
+    /// Width, metres; assumed by type when absent.
     #[serde(default)]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub width_m: Option<f64>,
@@ -96,7 +96,7 @@ pub struct LaneDoc {
     /// Lanes on the right.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
     pub right_neighbors: Vec<NeighborDoc>,
-    /// Leads through a junction between two lanes.
+    /// Whether it connects two lanes through a junction.
     #[serde(default)]
     pub interpolating: bool,
 }
@@ -117,7 +117,7 @@ pub struct RoadLineDoc {
     pub points_m: PointsDoc,
 }
 
-/// The end of the road's surface.
+/// An edge of the road surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadEdgeDoc {
@@ -149,7 +149,7 @@ pub struct AreaDoc {
     pub polygon_m: PointsDoc,
 }
 
-/// A surface that may be driven on.
+/// A drivable surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrivableDoc {
@@ -188,7 +188,7 @@ pub struct MapDoc {
     /// Painted lines.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub road_lines: Vec<RoadLineDoc>,
-    /// Ends of the road's surface.
+    /// Edges of the road surface.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub road_edges: Vec<RoadEdgeDoc>,
     /// Crosswalks.
@@ -203,7 +203,7 @@ pub struct MapDoc {
     /// Stop signs.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub stop_signs: Vec<StopSignDoc>,
-    /// Surfaces that may be driven on.
+    /// Drivable surfaces.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub drivable: Vec<DrivableDoc>,
 }
@@ -229,7 +229,7 @@ impl JsonSchema for MapField {
     }
 }
 
-/// Names a map by its content.
+/// Reference to a map by its content hash.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapRef {

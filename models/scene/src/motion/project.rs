@@ -76,13 +76,13 @@ impl TargetError {
     }
 }
 
-/// The limit of motion that binds.
+/// Reason why a goal is unreachable: a motion limit, traffic, or a relation that does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Limiting {
-    /// Speeding up, m/s2.
+    /// Acceleration, m/s2.
     Acceleration,
-    /// Slowing down, m/s2.
+    /// Deceleration, m/s2.
     Braking,
     /// Top speed, m/s.
     Speed,

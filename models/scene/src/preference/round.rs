@@ -34,7 +34,7 @@ pub struct Candidate {
     broken: bool,
 }
 
-/// A candidate that is shown.
+/// A candidate on a card.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RoundCard {
     /// Features of the card; the client returns them with the verdict.

@@ -23,10 +23,10 @@ pub struct Score {
     pub thresholds: Thresholds,
 }
 
-/// Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
+/// Two road users collide: their boxes overlap by more than the thresholds. One entry per pair.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Collision {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
@@ -34,34 +34,34 @@ pub struct Collision {
     pub time_s: f64,
     /// Greatest intersection over union of the whole encounter, 0 to 1.
     pub iou: f64,
-    /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
-    /// already overlap).
+    /// Closing speed at the first moment, m/s (relative speed if they already overlap).
     pub closing_speed_mps: f64,
-    /// Both move as recorded. It does not count.
+    /// Both move as recorded; the event does not count.
     pub in_log: bool,
 }
 
-/// The boxes of two road users overlap by less than a collision takes. One entry a pair.
+/// The boxes of two road users overlap by less than the thresholds of a collision. One entry per pair.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "Overlap")]
 pub struct BoxOverlap {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
     /// Scene time of the first step at which they overlap, seconds.
     pub time_s: f64,
-    /// Greatest depth, metres: the least gap of the pair is this below zero.
+    /// Greatest depth, metres: the least gap of the pair, with the opposite sign.
     pub depth_m: f64,
-    /// The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+    /// The event is in the log: both move as recorded, or the recording has an overlap as deep. It does not
     /// count.
     pub in_log: bool,
 }
 
-/// Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
+/// Two moving road users nearly collide, and their boxes never touch. One entry per pair, at its worst
+/// moment.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NearMiss {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
@@ -73,12 +73,12 @@ pub struct NearMiss {
     pub ttc_s: Option<f64>,
     /// Rate at which the gap shrank then, m/s.
     pub closing_speed_mps: f64,
-    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
-    /// the same time, no less hard. It does not count.
+    /// The event is in the log: both move as recorded, or the recording has the same encounter at about the
+    /// same time, at least as severe. It does not count.
     pub in_log: bool,
 }
 
-/// What a pair comes to.
+/// Kind of an encounter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EncounterKind {
@@ -93,11 +93,11 @@ pub enum EncounterKind {
 /// A pair with a collision, an overlap or a near miss, and its surrogate safety measures.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Encounter {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
-    /// The list that it is in.
+    /// Kind of the event.
     pub kind: EncounterKind,
     /// Scene time of the event, seconds.
     pub time_s: f64,
@@ -110,11 +110,11 @@ pub struct Encounter {
     pub measures: Measures,
     /// The worst values of the recording over the scored time; null without a recording of both.
     pub log: Option<Measures>,
-    /// As in the list.
+    /// As in the list of its kind.
     pub in_log: bool,
 }
 
-/// Something one road user does over a stretch of time.
+/// An event of one road user over a time interval.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
     /// The road user.
@@ -133,8 +133,8 @@ pub struct Stretch {
     pub y_m: f64,
     /// Off the road and over a median: the road edge that is driven over, by its id in the map.
     pub edge: Option<String>,
-    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
-    /// the same time, no less bad.
+    /// The event is in the log: the motion is the recorded one, or the recording has the same event at about
+    /// the same time, at least as severe.
     pub in_log: bool,
 }
 
@@ -147,10 +147,10 @@ pub struct RedLight {
     pub lane: String,
     /// Scene time at which the front crosses, seconds.
     pub time_s: f64,
-    /// Speed then, m/s.
+    /// Speed at that time, m/s.
     pub speed_mps: f64,
-    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
-    /// the same time, no less bad.
+    /// The event is in the log: the motion is the recorded one, or the recording has the same event at about
+    /// the same time, at least as severe.
     pub in_log: bool,
 }
 
@@ -163,9 +163,9 @@ pub struct RedLight {
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
-    /// Share of road users in any collision that the log does not show.
+    /// Share of road users in any collision that is not in the log.
     pub collision_rate: f64,
-    /// Share of road users in any collision, those of the log counted (the paper's scenario collision
+    /// Share of road users in any collision, including those in the log (the paper's scenario collision
     /// rate).
     pub collision_rate_with_log: f64,
     /// Share of road users with any overlap of boxes, however small.
@@ -187,7 +187,7 @@ pub struct SceneScore {
     pub pet_s: Option<f64>,
     /// Share of vehicle steps with a corner off the road.
     pub offroad_share: Option<f64>,
-    /// Farthest a vehicle's corner goes off the road, metres.
+    /// Greatest distance of a vehicle's corner from the road, metres.
     pub offroad_max_m: Option<f64>,
     /// The map has no drivable areas, and some lane widths were assumed by type.
     pub assumed_width: bool,
@@ -203,21 +203,21 @@ pub struct SceneScore {
     #[serde(flatten, serialize_with = "nullable")]
     #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
-    /// Vehicles off the road, but for those over a median.
+    /// Vehicles off the road, except those over a median.
     pub off_road: Vec<Stretch>,
-    /// Vehicles over what divides two roads.
+    /// Vehicles over the median between two directions.
     pub over_median: Vec<Stretch>,
     /// Vehicles against the traffic.
     pub wrong_way: Vec<Stretch>,
     /// Braking harder than the threshold; `worst` in m/s2.
     pub harsh_braking: Vec<Stretch>,
-    /// Turning harder than the threshold; `worst` in m/s2 sideways.
+    /// Steering harder than the threshold; `worst` is the sideways acceleration, m/s2.
     pub harsh_steering: Vec<Stretch>,
-    /// Wheels where the roads of the map have ended; `worst` in metres from the lanes.
+    /// Vehicles beyond the end of the map's roads; `worst` in metres from the lanes.
     pub off_map: Vec<Stretch>,
     /// Pedestrians along a lane, or across lanes beside a crosswalk; `worst` in metres walked.
     pub on_carriageway: Vec<Stretch>,
-    /// Vehicles above the speed limit; `worst` in m/s above it.
+    /// Vehicles above the speed limit; `worst` is the excess, m/s.
     pub speeding: Vec<Stretch>,
     /// Pedestrians that run; `worst` in m/s.
     pub running: Vec<Stretch>,
@@ -240,11 +240,11 @@ pub struct SceneScore {
 /// Score of one road user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
-    /// Collisions it is part of and the log does not show.
+    /// Its collisions that are not in the log.
     pub collisions: usize,
-    /// Overlaps below the threshold of a collision that it is part of and the log does not show.
+    /// Its overlaps below the threshold of a collision that are not in the log.
     pub overlaps: usize,
-    /// Near misses it is part of and the log does not show.
+    /// Its near misses that are not in the log.
     pub near_misses: usize,
     /// As in [`SceneScore`].
     pub min_ttc_s: Option<f64>,

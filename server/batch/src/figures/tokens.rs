@@ -53,7 +53,7 @@ pub enum Token {
 
 /// A piece and where it stands.
 pub struct Placed {
-    /// What.
+    /// The token.
     pub token: Token,
     /// As it stands there.
     pub text: String,

@@ -16,7 +16,7 @@ pub const MOST_WAY_M: f64 = 400.0;
 /// Longest id of a road user, in characters.
 const MOST_ID: usize = 30;
 
-/// A situation on any map: what the road must have, and who drives or walks there.
+/// A situation on any map: requirements on the road, and the road users there.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "DragTraffic pattern")]
@@ -25,7 +25,7 @@ pub struct RoadPattern {
     pub name: String,
     /// One sentence.
     pub title: String,
-    /// Where the parameters are from.
+    /// Source of the parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
     /// The road.
@@ -45,16 +45,16 @@ pub struct PatternParameter {
     pub value: f64,
     /// Least and greatest value.
     pub range: (f64, f64),
-    /// What it is.
+    /// Description.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
-/// What the road must have.
+/// Requirements on the road.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadNeeds {
-    /// What is there.
+    /// Feature at the place.
     pub feature: RoadFeature,
     /// Way of the subject before the place, metres. Most: 400.
     #[serde(default)]
@@ -67,7 +67,7 @@ pub struct RoadNeeds {
     /// How the way of the subject turns: from 25 m before the place to 5 m after it, on a lane over all of the way.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<RoadTurn>,
-    /// From where the other way comes, as the subject sees it.
+    /// Direction from which the other way comes, as seen by the subject.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<OtherSide>,
     /// A lane beside the place.
@@ -84,7 +84,7 @@ pub struct RoadNeeds {
     pub limit_kmh: Option<(f64, f64)>,
 }
 
-/// What is at the place.
+/// Feature at the place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoadFeature {
@@ -112,7 +112,7 @@ pub enum RoadTurn {
     Right,
 }
 
-/// Where another way comes from.
+/// Direction from which another way comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OtherSide {
@@ -240,10 +240,10 @@ pub struct PatternGoal {
 pub struct PatternRelation {
     /// Its id.
     pub to: String,
-    /// Gap from the front of the other one to the own rear, metres.
+    /// Gap from the front of the other one to the rear of this road user, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<PatternNumber>,
-    /// Gap from the own front to the rear of the other one, metres.
+    /// Gap from the front of this road user to the rear of the other one, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_m: Option<PatternNumber>,
     /// The same gap in seconds at the speed of the goal.

@@ -30,11 +30,11 @@ pub struct BatchSituation {
     #[schemars(schema_with = "templates")]
     pub template: Option<String>,
     /// Pattern of the road that the maps of the scenes are searched for: a name of `dragtraffic match --list`, a file, or
-    /// the pattern itself. Its road users are put at each place where it fits; those of the scene are left out.
+    /// the pattern itself. Its road users are placed where it fits, and those of the scene are removed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<PatternChoice>,
-    /// Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
-    /// have their standard values.
+    /// By name: figures of the template, of which absent ones are drawn by the seed; or parameters of the pattern, of
+    /// which absent ones have their standard values.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Distribution>,
     /// Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
@@ -53,14 +53,14 @@ pub struct BatchSituation {
     /// Width of the road user, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_m: Option<Distribution>,
-    /// Type that the road user has in place of its own.
+    /// Type of the road user, in place of its own.
     #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
     pub agent_type: Option<AgentType>,
-    /// What the road users beside it are.
+    /// Types and sizes of the other road users.
     #[serde(skip_serializing_if = "is_default")]
     pub others: OtherKinds,
-    /// Id of the road user that the figures under `pair.` are about. Default: the one that a template or a pattern
-    /// affects, else the one with whom it comes nearest to a collision.
+    /// Id of the other road user of the figures under `pair.`. Default: the one that a template or a pattern
+    /// affects, else the one with which a collision comes nearest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub with: Option<String>,
 }

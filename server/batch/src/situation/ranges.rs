@@ -8,14 +8,14 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-/// Kind and size of the road users that are there beside the one with the conditions.
+/// Type and size of the road users other than the one with the conditions.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OtherKinds {
-    /// Who: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
+    /// Road users: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub agents: Vec<String>,
-    /// Type in place of their own.
+    /// Type, in place of their own.
     #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
     pub agent_type: Option<AgentType>,
     /// Length of each, metres.
@@ -75,16 +75,17 @@ pub struct GoalRanges {
 pub struct GoalRelationRanges {
     /// Id of the other road user.
     pub to: String,
-    /// Gap from the front of the other one to the own rear, metres.
+    /// Gap from the front of the other one to the rear of this road user, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<Distribution>,
-    /// Gap from the own front to the rear of the other one, metres.
+    /// Gap from the front of this road user to the rear of the other one, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_m: Option<Distribution>,
     /// The same gap in seconds at the speed of the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_s: Option<Distribution>,
-    /// The goal's own place is reached so many seconds after the other one was nearest to it.
+    /// Seconds from the moment when the other one is nearest to the goal's position until the goal is
+    /// reached.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_s: Option<Distribution>,
     /// How much slower than the other one, m/s; negative is faster.

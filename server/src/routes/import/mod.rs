@@ -29,7 +29,7 @@ use work::{JobKind, JobRequest};
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub struct ImportParams {
-    /// A name of the formats table; recognised from the content when absent or `auto`.
+    /// Id of the format; recognised from the content if absent or `auto`.
     format: Option<String>,
     /// Records to take, such as `0..9` (both ends), or one number.
     #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
@@ -37,7 +37,7 @@ pub struct ImportParams {
     /// The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
     /// coordinates of the file (longitude, latitude where it has degrees).
     around: Option<String>,
-    /// Give the scenes back and store nothing.
+    /// Return the scenes and store nothing.
     dry_run: bool,
     /// Name of the file, a label only.
     name: Option<String>,
