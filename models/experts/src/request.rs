@@ -369,9 +369,9 @@ pub struct Resolved {
     /// Expert that ran.
     #[serde(rename = "type")]
     pub agent_type: AgentType,
-    /// Along the heading.
+    /// Length, metres.
     pub length_m: Field,
-    /// Across the heading.
+    /// Width, metres.
     pub width_m: Field,
     /// Its start.
     pub start: ResolvedStart,

@@ -188,7 +188,7 @@ pub struct StopSign {
     pub lanes: Vec<String>,
 }
 
-/// Everything that does not move. Scenes share it ([`crate::Shared`]).
+/// The map of a scene: lanes, lines, edges, areas and stop signs. Scenes share it ([`crate::Shared`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct LaneMap {

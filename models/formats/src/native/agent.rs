@@ -128,7 +128,7 @@ impl TrackDoc {
         Track { first_step: self.first_step as usize, states, z_m }
     }
 
-    /// Which of the values count.
+    /// For each step, whether the track has a value.
     fn seen(&self, steps: usize, pointer: &str, problems: &mut Problems) -> Vec<bool> {
         let Some(ranges) = &self.valid else { return vec![true; steps] };
         let mut seen = vec![false; steps];
@@ -178,15 +178,15 @@ pub struct AgentDoc {
     /// Role in the source, such as `ego`.
     #[serde(default)]
     pub role: Option<String>,
-    /// Metres. Default: that of the subtype.
+    /// Length, metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub length_m: Option<f64>,
-    /// Metres. Default: that of the subtype.
+    /// Width, metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub width_m: Option<f64>,
-    /// Metres.
+    /// Height, metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub height_m: Option<f64>,
@@ -214,10 +214,11 @@ impl AgentDoc {
         }
     }
 
-    /// The domain's road user. `pointer` is where this document lies, such as `/add_agents/0`.
+    /// Converts to the domain's road user. `pointer` is the JSON pointer of this document, such as
+    /// `/add_agents/0`.
     ///
     /// # Errors
-    /// All faults of its track and conditions. Ids and sizes are left to `Scene::checked`.
+    /// All faults of its track and conditions. `Scene::checked` checks ids and sizes.
     pub fn into_agent(self, pointer: &str) -> Result<Agent, Vec<FieldProblem>> {
         let mut problems = Problems::default();
         let defaults = Size::default_for(self.agent_type, self.subtype);

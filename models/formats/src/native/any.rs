@@ -1,4 +1,4 @@
-//! JSON that is kept as it is: other tools' members, requests, scores.
+//! JSON that is kept unchanged: members of other tools, requests, scores.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -7,10 +7,10 @@ use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Most values (numbers, texts, lists, objects) in one member that is kept as it is.
+/// Maximum number of values (numbers, texts, lists, objects) in one member that is kept unchanged.
 pub const MAX_VALUES: usize = 50_000;
 
-/// Any JSON, kept as it is, up to [`MAX_VALUES`] values; repeated member names are refused.
+/// Any JSON, kept unchanged, up to [`MAX_VALUES`] values; repeated member names are refused.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct AnyDoc(pub Value);
@@ -22,7 +22,7 @@ impl<'de> Deserialize<'de> for AnyDoc {
     }
 }
 
-/// Builds a value while counting down.
+/// Builds a value and counts down the remaining values.
 struct AnyVisitor<'a> {
     left: &'a mut usize,
 }

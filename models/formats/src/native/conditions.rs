@@ -108,7 +108,7 @@ pub struct StartDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -134,7 +134,7 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -146,7 +146,8 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1500.0, max = 1500.0))]
     pub left_m: Option<f64>,
-    /// Frame `agent`: radians from the start's heading, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Frame `agent`: radians from the start's heading, wrapped when read; a request may have at most a full
+    /// turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub turn_rad: Option<f64>,
@@ -209,7 +210,7 @@ pub struct GoalRelationDoc {
 }
 
 impl GoalRelationDoc {
-    /// Its places as given, in the order of [`PLACES`].
+    /// Its members named in [`PLACES`], in that order.
     pub(super) fn places(&self) -> [Option<f64>; PLACES.len()] {
         [self.ahead_m, self.behind_m, self.behind_s, self.after_s]
     }
@@ -263,11 +264,11 @@ pub struct ConditionsDoc {
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "expert_types")]
     pub agent_type: Option<AgentType>,
-    /// Metres.
+    /// Length, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.2, max = 25.0))]
     pub length_m: Option<f64>,
-    /// Metres.
+    /// Width, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.2, max = 4.0))]
     pub width_m: Option<f64>,

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Greatest speed of a future along x and along y, as of a track.
+/// Greatest speed of a future along x and along y, as for a track.
 const MAX_SPEED_MPS: f64 = 150.0;
 
 /// One possible motion as columns, one value per step from `first_step`, without gaps. Rounded to 0.001 m,
@@ -138,7 +138,7 @@ impl FutureDoc {
             problems.invalid(format!("{pointer}/{name}"), unequal_columns(length, steps, "x_m"));
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);
-        // A future may go on a little beyond where a track may be.
+        // A future may go beyond the limit for tracks.
         let far_m = 2.0 * MAX_COORDINATE_M;
         for (name, column, most) in [
             ("x_m", &self.x_m, far_m),

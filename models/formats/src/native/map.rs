@@ -24,7 +24,7 @@ fn edge_types(_: &mut SchemaGenerator) -> Schema {
     words(&scene::map::ROAD_EDGE_TYPES)
 }
 
-/// A stretch of a lane's side and the line or edge that bounds it.
+/// A section of a lane's side, with the road line or edge that bounds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundaryDoc {
@@ -84,7 +84,7 @@ pub struct LaneDoc {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_limit_mps: Option<f64>,
-    /// Ids of lanes that lead here.
+    /// Ids of lanes that lead to this one.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
     pub predecessors: Vec<String>,
     /// Ids of lanes that this one leads to.
@@ -178,7 +178,7 @@ pub struct StopSignDoc {
     pub lanes: Vec<String>,
 }
 
-/// Everything that does not move.
+/// The map of a scene: lanes, lines, edges, areas and stop signs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MapDoc {
