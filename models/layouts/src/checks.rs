@@ -104,7 +104,7 @@ fn ends(draft: &MapDraft) -> Vec<Check> {
         let vehicles = lane.lane_type.carries_vehicles();
         !draft.about[*i].open[1] && !lane.successors.iter().any(|id| carries(id, vehicles))
     };
-    // A lane for vehicles begins at the map's rim, or another lane leads to it.
+    // A lane for vehicles begins at the edge of the map, or another lane leads to it.
     let unreached = |i: &usize| {
         let lane = &draft.map.lanes[*i];
         let vehicles = lane.lane_type.carries_vehicles();

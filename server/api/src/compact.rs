@@ -58,9 +58,9 @@ pub struct CompactFuture {
     y_mm: Vec<i64>,
     /// Heading in units of 0.0001 rad.
     heading_e4rad: Vec<i64>,
-    /// Millimetres a second.
+    /// Velocity, mm/s.
     vx_mmps: Vec<i64>,
-    /// Millimetres a second.
+    /// Velocity, mm/s.
     vy_mmps: Vec<i64>,
     /// Faults, the worst first.
     #[serde(skip_serializing_if = "Vec::is_empty")]

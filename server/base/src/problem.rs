@@ -21,7 +21,7 @@ pub struct ProblemDoc {
     /// Page about the code, relative to this server.
     #[serde(rename = "type")]
     page: String,
-    /// A few words for people, the same for each occurrence.
+    /// Short title, the same for each occurrence.
     title: &'static str,
     /// HTTP status.
     #[schemars(range(min = 400, max = 599))]

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
 
-/// How a unit ended.
+/// Outcome of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnitOutcome {
@@ -72,7 +72,7 @@ pub struct BatchRow {
     pub reacting: Option<u64>,
     /// What the actor does, in one sentence.
     pub what: Option<String>,
-    /// How far the result is from the condition of the plan; 0 if it holds.
+    /// Distance of the result from the condition of the plan; 0 if it holds.
     pub miss: Option<f64>,
     /// Figures of the score by name.
     pub figures: BTreeMap<String, f64>,

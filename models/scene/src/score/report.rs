@@ -101,9 +101,9 @@ pub struct Encounter {
     pub kind: EncounterKind,
     /// Scene time of the event, seconds.
     pub time_s: f64,
-    /// Between the two at that time, metres.
+    /// Midpoint between the two at that time, metres.
     pub x_m: f64,
-    /// Between the two at that time, metres.
+    /// Midpoint between the two at that time, metres.
     pub y_m: f64,
     /// The worst values up to the event.
     #[serde(flatten)]
@@ -156,9 +156,8 @@ pub struct RedLight {
 
 /// Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
 ///
-/// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
-/// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
-/// motion, the recorded too.
+/// Lists include events of the log, marked `in_log`. These events do not count in `collision_rate` and in the
+/// counts of road users. Distances, times and the other shares cover all motion, including recorded motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
@@ -181,7 +180,7 @@ pub struct SceneScore {
     /// The pair with `min_ttc_s`.
     pub min_ttc_pair: Option<[AgentId; 2]>,
     /// Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
-    /// overlap. People in company are left out where they touch.
+    /// overlap. Contact between pedestrians who walk together does not count.
     pub min_distance_m: Option<f64>,
     /// Least post-encroachment time of crossing paths, seconds.
     pub pet_s: Option<f64>,

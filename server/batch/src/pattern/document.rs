@@ -64,7 +64,8 @@ pub struct RoadNeeds {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 400.0))]
     pub after_m: f64,
-    /// How the way of the subject turns: from 25 m before the place to 5 m after it, on a lane over all of the way.
+    /// Turn of the subject's way: from 25 m before the place to 5 m after it; for the feature `lane` over the
+    /// whole way.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<RoadTurn>,
     /// Direction from which the other way comes, as seen by the subject.
@@ -90,7 +91,7 @@ pub struct RoadNeeds {
 pub enum RoadFeature {
     /// A lane for motor vehicles outside of junctions.
     Lane,
-    /// A crosswalk over the way of the subject.
+    /// A crosswalk across the way of the subject.
     Crosswalk,
     /// The way of the subject crosses another lane for motor vehicles.
     Crossing,
@@ -100,7 +101,7 @@ pub enum RoadFeature {
     RoundaboutEntry,
 }
 
-/// How a way turns.
+/// Turn of a way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoadTurn {
@@ -136,14 +137,14 @@ pub enum LaneSide {
     Oncoming,
 }
 
-/// A way of the place, along which road users are put. All ways have the place at 0 m.
+/// A way at the place, along which road users are placed. All ways have the place at 0 m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PatternWay {
-    /// That of the subject.
+    /// The way of the subject.
     #[default]
     Own,
-    /// That of the subject, in the opposite direction.
+    /// The way of the subject, in the opposite direction.
     Against,
     /// The lane that is crossed or joined.
     Other,
@@ -153,9 +154,9 @@ pub enum PatternWay {
     Right,
     /// The lane in the opposite direction.
     Oncoming,
-    /// Across the own way, from the left: along the crosswalk where one is there.
+    /// Across the way of the subject, from the left; along the crosswalk if there is one.
     FromLeft,
-    /// Across the own way, from the right: along the crosswalk where one is there.
+    /// Across the way of the subject, from the right; along the crosswalk if there is one.
     FromRight,
 }
 
@@ -178,13 +179,13 @@ pub struct PatternUser {
     /// Width of its box, metres. Default: that of the type.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_m: Option<PatternNumber>,
-    /// The way that it starts on.
+    /// The way on which it starts.
     #[serde(default)]
     pub way: PatternWay,
     /// Start along the way, metres from the place; negative is before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_m: Option<PatternNumber>,
-    /// Start along the way in seconds from the place at the own speed; negative is before it.
+    /// Start along the way, seconds from the place at its speed; negative is before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_s: Option<PatternNumber>,
     /// Start ahead of an earlier road user of the list: its id, with `gap_m`.
@@ -202,7 +203,7 @@ pub struct PatternUser {
     /// Exact goal. Default: free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<PatternGoal>,
-    /// Places of the own way that it passes, metres from the place, at any time; 4 at most.
+    /// Via points on its way, metres from the place, at any time; at most 4.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub via_m: Vec<PatternNumber>,
 }

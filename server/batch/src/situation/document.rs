@@ -1,4 +1,4 @@
-//! A situation as plans and searches write it, and what it asks of a road user.
+//! A situation of a plan or a search, and its conditions on road users.
 
 use super::ranges::{GoalRanges, GoalRelationRanges, OtherKinds, StartRanges, is_default};
 use crate::distribution::Distribution;
@@ -152,8 +152,8 @@ impl BatchSituation {
         (!is_plain || !agents.is_empty()).then_some(fixed)
     }
 
-    /// The conditions of a road user, `own` with the drawn numbers in place of its own; `None` where its recording lacks
-    /// what they begin at.
+    /// The conditions of a road user: `own` with the drawn numbers in place of its values; `None` if its recording lacks
+    /// the state to which they are relative.
     pub fn applied(
         &self,
         own: ConditionsDoc,

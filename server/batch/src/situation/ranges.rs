@@ -1,4 +1,4 @@
-//! Ranges of what a situation varies: goal, start, and the road users beside.
+//! Ranges of the varied numbers of a situation: goal, start, and the other road users.
 
 use crate::distribution::Distribution;
 use crate::recorded::{MOST_SHIFT_S, MOST_TIMES};

@@ -34,8 +34,8 @@ pub struct ImportParams {
     /// Records to take, such as `0..9` (both ends), or one number.
     #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
     index: Option<String>,
-    /// The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
-    /// coordinates of the file (longitude, latitude where it has degrees).
+    /// Part of a map to read: `X,Y,RADIUS` keeps the content within RADIUS metres (10 to 5000) of a position in the
+    /// coordinates of the file (longitude, latitude if it has degrees).
     around: Option<String>,
     /// Return the scenes and store nothing.
     dry_run: bool,
