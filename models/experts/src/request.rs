@@ -164,9 +164,9 @@ pub struct Defaults {
     pub samples: usize,
     /// Scale of the draw's noise.
     pub diversity: f64,
-    /// Seconds to generate.
+    /// Time to generate, seconds.
     pub horizon_s: f64,
-    /// Repeats the answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     pub seed: u64,
 }
 
@@ -222,7 +222,7 @@ impl Request {
     }
 }
 
-/// Where the value of a field came from.
+/// Source of the value of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
@@ -241,7 +241,7 @@ pub enum Source {
 /// A value and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Field {
-    /// In the unit of the field's name.
+    /// Value, in the unit of the field's name.
     pub value: f64,
     /// Origin.
     pub from: Source,
@@ -336,13 +336,13 @@ pub struct ResolvedGoal {
 /// A position on a lane that can be reached instead of the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ByRoad {
-    /// On the lane's middle, metres.
+    /// Position on the centre line of the lane, metres.
     pub x_m: f64,
-    /// On the lane's middle, metres.
+    /// Position on the centre line of the lane, metres.
     pub y_m: f64,
-    /// Of the lane, radians.
+    /// Heading of the lane, radians.
     pub heading_rad: f64,
-    /// From the goal, metres.
+    /// Distance from the goal, metres.
     pub distance_m: f64,
 }
 
@@ -363,7 +363,7 @@ pub struct ResolvedVia {
     pub time_s: f64,
 }
 
-/// Every condition field of one road user as it was used.
+/// All condition fields of one road user as they were used.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
     /// Expert that ran.
@@ -407,7 +407,7 @@ pub enum WarningCode {
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
-    /// No road user was named, and none has to continue beyond its known motion.
+    /// No road user was requested, and none has to continue beyond its known motion.
     NothingGenerated,
 }
 
@@ -437,7 +437,7 @@ impl std::fmt::Display for WarningCode {
 pub struct Warning {
     /// Code for programs.
     pub code: WarningCode,
-    /// The agent that it concerns.
+    /// The road user concerned.
     pub agent: Option<AgentId>,
     /// The warning in English.
     pub detail: String,

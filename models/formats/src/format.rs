@@ -34,10 +34,10 @@ pub struct Info {
     pub many: bool,
     /// Whether it may come with its road network ([`ImportOptions::net`]).
     pub takes_net: bool,
-    /// Content of a file, and how it is read and written.
+    /// Description of the content of a file, and of reading and writing it.
     pub notes: &'static str,
-    /// Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports the
-    /// losses it had.
+    /// Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports its
+    /// losses.
     pub loses: &'static [&'static str],
 }
 

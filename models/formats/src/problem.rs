@@ -83,13 +83,13 @@ pub struct FieldProblem {
     pub code: &'static str,
     /// Value found and value expected, in English.
     pub detail: String,
-    /// Least value allowed, where that is the fault.
+    /// Least allowed value, if it is not reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min: Option<f64>,
-    /// Greatest value allowed, where that is the fault.
+    /// Greatest allowed value, if it is exceeded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f64>,
-    /// The value found, where it is a number.
+    /// The value found, if it is a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub got: Option<f64>,
     /// The fault as data; faults outside of bodies and files may have none.

@@ -19,7 +19,7 @@ pub struct ArmPlace {
     pub end_m: [f64; 2],
     /// Distances from the middle to the kerb of the inbound lanes and to that of the outbound lanes, metres.
     pub kerbs_m: [f64; 2],
-    /// Where its turn lanes lead, from the middle of the road to the kerb; single connections apart.
+    /// Turns of its inbound lanes, from the middle of the road to the kerb, without single connections.
     pub turns: Vec<Vec<Turn>>,
     /// End of each inbound lane, metres.
     pub ins_m: Vec<[f64; 2]>,

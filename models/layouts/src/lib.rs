@@ -208,7 +208,7 @@ impl Layout {
         value.unwrap_or_default()
     }
 
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub fn traffic(&self) -> Traffic {
         match self {
             Self::ThreeArms(p) | Self::FourArms(p) => p.traffic,

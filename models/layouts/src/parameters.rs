@@ -10,7 +10,7 @@ const LEAST_STRIP_M: f64 = 0.5;
 /// Least angle between two arms, degrees.
 pub const LEAST_BETWEEN_ARMS_DEG: f64 = 20.0;
 
-/// Side of the road that traffic keeps to.
+/// Side of the road on which traffic drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -40,7 +40,7 @@ pub enum TurnAcross {
     /// They have green at the same time and give way.
     #[default]
     Permissive,
-    /// They have a phase of their own.
+    /// They have a separate phase.
     Protected,
 }
 
@@ -99,7 +99,7 @@ impl Default for Program {
     }
 }
 
-/// A road that leads to a junction, seen from the junction.
+/// A road that leads to a junction, as seen from the junction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Arm {
@@ -110,10 +110,10 @@ pub struct Arm {
     /// it.
     #[schemars(range(min = 40.0, max = 200.0))]
     pub length_m: f64,
-    /// Lanes towards the junction.
+    /// Number of inbound lanes, towards the junction.
     #[schemars(range(max = 5))]
     pub lanes_in: u8,
-    /// Lanes away from it.
+    /// Number of outbound lanes, away from the junction.
     #[schemars(range(max = 5))]
     pub lanes_out: u8,
     /// Allowed turns of each inbound lane, in order from the middle of the road to the kerb; null selects the
@@ -263,7 +263,7 @@ pub struct Junction {
     /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -301,13 +301,13 @@ pub struct Roundabout {
     /// Radius of the island in the middle, metres; more where the arms need it.
     #[schemars(range(min = 6.0, max = 40.0))]
     pub island_radius_m: f64,
-    /// Lanes of the ring.
+    /// Number of lanes of the ring.
     #[schemars(range(min = 1, max = 2))]
     pub ring_lanes: u8,
     /// Width of the lanes of the ring, metres.
     #[schemars(range(min = 3.5, max = 6.0))]
     pub ring_lane_width_m: f64,
-    /// Speed limit in the ring, km/h.
+    /// Speed limit of the ring, km/h.
     #[schemars(range(min = 10.0, max = 60.0))]
     pub ring_speed_limit_kmh: f64,
     /// Radius of the kerbs at corners, metres; less where arms are too close for it.
@@ -319,7 +319,7 @@ pub struct Roundabout {
     /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -366,7 +366,7 @@ pub struct Merge {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -428,7 +428,7 @@ pub struct Road {
     /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -479,10 +479,10 @@ impl Road {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CarPark {
-    /// Aisles with bays on both sides.
+    /// Number of aisles with bays on both sides.
     #[schemars(range(min = 1, max = 6))]
     pub aisles: u8,
-    /// Bays along each side of an aisle.
+    /// Number of bays along each side of an aisle.
     #[schemars(range(min = 3, max = 30))]
     pub bays: u8,
     /// Width of a bay, metres.
@@ -506,7 +506,7 @@ pub struct CarPark {
     /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 

@@ -88,8 +88,8 @@ pub const CALIBRATED: bool = false;
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Final")]
 pub struct FinalBody {
-    /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
-    /// of the first and end with its plan.
+    /// Number of planning windows. A chosen future covers all of them; its alternatives are those of the
+    /// first window and end with the plan of that window.
     pub windows: usize,
     /// Joint scenes. They include road users outside the call with the future that the scene keeps, unless
     /// `kept_futures` excludes them.
@@ -97,7 +97,7 @@ pub struct FinalBody {
     /// Whether the probabilities of the futures are calibrated. If not, they are relative weights, of which only
     /// the order counts. docs/results.md has their log loss.
     pub calibrated: bool,
-    /// Every condition field as it was used.
+    /// All condition fields as they were used.
     pub resolved: BTreeMap<String, Resolved>,
     /// One report per sample, or null without `score`.
     pub scores: Option<Vec<Score>>,
@@ -139,7 +139,7 @@ pub struct GeneratedHead {
     pub seed: u64,
     /// The request's options as sent, without scene and conditions.
     pub request: Value,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    /// Licence of the answer if it is stricter than that of the scene: the licence of the weights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
     /// RFC 3339 time.

@@ -24,7 +24,7 @@ const MOST_PLACES: usize = 41;
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeedbackDoc {
-    /// Judged cards, the first round's first, without cards that were neither kept nor rejected.
+    /// Judged cards in the order of the rounds, without cards that were neither kept nor rejected.
     #[schemars(length(max = 200))]
     pub answers: Vec<AnswerDoc>,
     /// Preferences that the user stated.

@@ -40,8 +40,8 @@ impl Default for CallLimits {
 /// A bound in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Bound {
-    /// In the unit of the bound's name.
+    /// Value, in the unit of the bound's name.
     pub value: u64,
-    /// What it bounds.
+    /// Description of the bounded quantity.
     pub what: &'static str,
 }

@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for ReferenceMotion {
     }
 }
 
-/// The word `log`.
+/// The value `log`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "Log")]
@@ -87,7 +87,7 @@ pub struct ScoreRequest {
     pub scene_id: Option<String>,
     /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
-    /// Motion to score; for the rest the chosen futures, else the log.
+    /// Motion to score, by road user; the others are scored with their chosen future, else with the log.
     pub trajectories: Members<TrajectoryDoc>,
     /// Reference; the log by default.
     pub reference: Option<ReferenceMotion>,

@@ -38,7 +38,7 @@ pub struct BatchPlan {
     /// Files, folders and patterns such as `logs/**/*.json`, in any format; relative to the folder of the plan.
     #[serde(default)]
     pub scenes: Vec<String>,
-    /// Maps that are filled with road users; their scenes follow those of the files.
+    /// Maps to fill with road users; their scenes follow those of the files.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub maps: Vec<BatchMap>,
     /// Situations in each scene. Without one, all road users are generated freely.
@@ -47,8 +47,8 @@ pub struct BatchPlan {
     /// A count (seeds from 0 on), or a list. Each draw is generated once per seed.
     #[serde(default)]
     pub seeds: BatchSeeds,
-    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search
-    /// looks for them.
+    /// Condition on the results to keep, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search looks for
+    /// them.
     #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<String>,
     /// Method by which the numbers of a situation are chosen.

@@ -55,7 +55,7 @@ pub struct Envelope<'a, T: EventBody> {
 pub struct AcceptedBody {
     #[serde(flatten)]
     accepted: Accepted,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     queue_position: usize,
 }
 
@@ -70,7 +70,7 @@ impl AcceptedBody {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Error")]
 pub struct ErrorBody {
-    /// Problem that a refusal before the stream would have returned.
+    /// The problem, as a refusal before the stream returns it.
     problem: ProblemDoc,
 }
 
@@ -85,7 +85,7 @@ impl ErrorBody {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Superseded")]
 pub struct SupersededBody {
-    /// The newer one.
+    /// The newer revision.
     pub by_revision: u64,
 }
 

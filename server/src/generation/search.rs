@@ -24,7 +24,7 @@ pub struct SearchAcceptedBody {
     tries: u64,
     /// Paths of the numbers that are varied.
     varied: Vec<String>,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     queue_position: usize,
 }
 

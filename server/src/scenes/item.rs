@@ -5,7 +5,7 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scene as lists show it.
+/// A scene in a list.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SceneItem {
     /// Id of the scene.
@@ -25,11 +25,11 @@ pub struct SceneItem {
     pub map_sha256: String,
     /// Search terms.
     pub tags: Vec<String>,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
-    /// Size as stored.
+    /// Size in the store, bytes.
     pub bytes: u64,
-    /// Demo scenes and those of the data folder; duplicate one to change it.
+    /// Whether it is read-only, as demo scenes and those of the data folder are; duplicate one to change it.
     pub readonly: bool,
     /// Owner of the scene, on a server whose scenes have owners.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -56,13 +56,13 @@ pub struct Facts {
     pub counts: Counts,
     /// Steps of 0.1 s.
     pub steps: usize,
-    /// Format or tool it came from.
+    /// Source: format or tool.
     pub source: String,
     /// Id in the source.
     pub source_id: Option<String>,
     /// Licence of the content.
     pub licence: Option<String>,
-    /// Has generated futures.
+    /// Whether it has generated futures.
     pub generated: bool,
 }
 

@@ -114,7 +114,7 @@ pub struct Ticket {
     pub client: Option<(String, u64)>,
     /// Set when the job is stopped.
     pub cancel: Cancel,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     pub queue_position: usize,
     asked: Instant,
 }

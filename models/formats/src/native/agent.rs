@@ -164,14 +164,14 @@ fn valid_ranges(track: &Track) -> Vec<[u64; 2]> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AgentDoc {
-    /// Unique in the scene, `[A-Za-z0-9_.:-]{1,64}`.
+    /// Id, unique in the scene, `[A-Za-z0-9_.:-]{1,64}`.
     #[schemars(schema_with = "id")]
     pub id: String,
-    /// Selects expert and motion model; `other` is shown, never regenerated.
+    /// Type, which selects expert and motion model; `other` is shown, but never regenerated.
     #[serde(rename = "type")]
     #[schemars(schema_with = "agent_types")]
     pub agent_type: AgentType,
-    /// Sets default size and limits.
+    /// Finer type, which sets default size and limits.
     #[serde(default)]
     #[schemars(schema_with = "subtypes")]
     pub subtype: Subtype,

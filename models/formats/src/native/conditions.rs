@@ -116,7 +116,7 @@ pub struct StartDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub speed_mps: Option<f64>,
-    /// In place of `speed_mps`; fixes a free heading too.
+    /// Velocity in place of `speed_mps`; it also fixes a free heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<VelocityDoc>,
 }
@@ -155,7 +155,7 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub speed_mps: Option<f64>,
-    /// In place of `speed_mps`; fixes a free heading too.
+    /// Velocity in place of `speed_mps`; it also fixes a free heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<VelocityDoc>,
     /// Scene time, seconds; the end of the window when free. Snapped to 0.1.

@@ -117,7 +117,7 @@ impl JsonSchema for RunDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SignalDoc {
-    /// Lane that obeys it.
+    /// Id of the lane that obeys it.
     pub lane: String,
     /// Stop position.
     #[serde(default)]

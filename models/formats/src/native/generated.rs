@@ -93,7 +93,7 @@ pub struct GeneratedDoc {
     /// The request's options as sent.
     #[serde(default)]
     pub request: AnyDoc,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    /// Licence of the answer if it is stricter than that of the scene: the licence of the weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
     /// RFC 3339 time; absent where equal calls must give equal files.

@@ -60,7 +60,7 @@ pub struct NeighborDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LaneDoc {
-    /// Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`.
+    /// Id, unique among lanes, `[A-Za-z0-9_.:-]{1,64}`.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Kind of lane.
@@ -105,7 +105,7 @@ pub struct LaneDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadLineDoc {
-    /// Unique among road lines.
+    /// Id, unique among road lines.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case.
@@ -121,7 +121,7 @@ pub struct RoadLineDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadEdgeDoc {
-    /// Unique among road edges.
+    /// Id, unique among road edges.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case, or `sidewalk`.
@@ -141,7 +141,7 @@ fn unknown() -> String {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AreaDoc {
-    /// Unique among areas of the kind.
+    /// Id, unique among areas of the kind.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
@@ -153,7 +153,7 @@ pub struct AreaDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrivableDoc {
-    /// Unique among drivable areas.
+    /// Id, unique among drivable areas.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
@@ -168,7 +168,7 @@ pub struct DrivableDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StopSignDoc {
-    /// Unique among stop signs.
+    /// Id, unique among stop signs.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Position of the sign.

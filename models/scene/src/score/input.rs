@@ -19,7 +19,7 @@ pub struct Thresholds {
     /// Boxes also collide when more than this share of the smaller one is covered: a child under a bus has a
     /// tiny intersection over union. A value above 1 disables the rule (the paper's form).
     pub covered_share: f64,
-    /// Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
+    /// Near miss: time to collision below this, seconds. The search ends at [`LOOK_AHEAD_S`].
     pub ttc_s: f64,
     /// Near miss: gap below this, metres.
     pub gap_m: f64,
@@ -32,7 +32,7 @@ pub struct Thresholds {
     pub pass_gap_m: f64,
     /// Near miss of two that pass each other: only when their relative speed is above this, m/s.
     pub pass_mps: f64,
-    /// Slower than this counts as standing, m/s.
+    /// Below this speed, a road user stands, m/s.
     pub moving_mps: f64,
     /// Braking above this is harsh, m/s2.
     pub harsh_brake_mps2: f64,
@@ -40,9 +40,9 @@ pub struct Thresholds {
     pub forced_brake_mps2: f64,
     /// Sideways acceleration above this is harsh, m/s2.
     pub harsh_lateral_mps2: f64,
-    /// A corner farther outside than this is off the road, metres.
+    /// A vehicle is off the road if a corner is farther outside than this, metres.
     pub offroad_m: f64,
-    /// Off the map: no lane and no road edge within this, metres.
+    /// Off the map: no lane and no road edge within this distance, metres.
     pub off_map_m: f64,
     /// A vehicle is askew if it ends at more than this angle to every lane, radians.
     pub askew_rad: f64,

@@ -11,13 +11,13 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
-/// Answer to a score request.
+/// Reply to a score request.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "ScoreReply")]
 pub struct Score {
     /// The scene as a whole.
     pub scene: SceneScore,
-    /// Each road user, by id.
+    /// Scores of the road users by id.
     pub agents: BTreeMap<AgentId, AgentScore>,
     /// The thresholds that were used.
     pub thresholds: Thresholds,
@@ -123,9 +123,9 @@ pub struct Stretch {
     pub time_s: f64,
     /// Scene time of the last step, seconds.
     pub until_s: f64,
-    /// The worst of it, in the unit of its list: metres off the road, off the map, driven against the traffic or
-    /// walked on the carriageway; m/s2 of braking or sideways; share of the limit for turns; m/s above the speed limit
-    /// or of running; radians askew.
+    /// Greatest value, in the unit of its list: metres off the road, off the map, driven against the traffic or walked
+    /// on the carriageway; m/s2 of braking or sideways acceleration; share of the limit for turns; m/s above the speed
+    /// limit or of running; radians askew.
     pub worst: Option<f64>,
     /// Box centre where it is worst, metres.
     pub x_m: f64,

@@ -28,7 +28,7 @@ pub enum AgentChoice {
     Ids(Vec<String>),
 }
 
-/// The word `all`.
+/// The value `all`.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "All")]
@@ -222,7 +222,7 @@ pub struct ShownDoc {
     pub anchor: Option<u32>,
     /// Box centres at every half second after the start, metres; at most 18 are used.
     pub x_m: Vec<f64>,
-    /// As many as `x_m`.
+    /// Box centres, metres; as many as `x_m`.
     pub y_m: Vec<f64>,
 }
 

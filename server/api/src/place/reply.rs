@@ -40,11 +40,11 @@ pub struct ArmDoc {
     pub id: String,
     /// Middle of its lanes at the entry, metres.
     pub x_m: f64,
-    /// The same, metres.
+    /// Middle of its lanes at the entry, metres.
     pub y_m: f64,
     /// Driving direction at the entry, radians.
     pub heading_rad: f64,
-    /// From right to left.
+    /// Its lanes, from right to left.
     pub lanes: Vec<ArmLaneDoc>,
     /// Length from the entry to the end line, metres: the first junction, or where the road ends or joins
     /// another.

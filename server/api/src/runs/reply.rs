@@ -58,7 +58,7 @@ impl ChangeDoc {
 pub struct RunFaultDoc {
     /// The road user with the fault; in a collision, the one that drove into the other.
     pub agent: String,
-    /// What, when and where.
+    /// The fault, with its time and position.
     pub fault: Fault,
 }
 
@@ -132,17 +132,17 @@ pub struct RunReply {
     pub run: String,
     /// Road users that the caller drives.
     pub egos: Vec<String>,
-    /// Repeats the run.
+    /// Seed, which repeats the run.
     pub seed: u64,
     /// Length of a step, seconds.
     pub step_s: f64,
     /// Replan interval of the other road users, seconds.
     pub plan_interval_s: f64,
-    /// Seconds without a request after which the server forgets the run.
+    /// Time without a request after which the server deletes the run, seconds.
     pub idle_s: u64,
     /// Time since the last request that used the run, seconds. Reading its state does not count.
     pub unused_s: u64,
-    /// Steps that may still be made.
+    /// Number of remaining steps.
     pub steps_left: u64,
     /// Current states, in the form of a step.
     pub present: StepReply,
@@ -167,7 +167,7 @@ impl RunReply {
     }
 }
 
-/// An event of a followed run: first the run, then each step, and `end` when the server forgets the run.
+/// An event of a followed run: first the run, then each step, last `end` when the server deletes the run.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(tag = "event", rename_all = "snake_case")]
 #[schemars(rename = "RunEvent")]
@@ -184,7 +184,7 @@ pub enum RunEvent<S = StepReply> {
     },
     /// Keep-alive after a while without events.
     Heartbeat,
-    /// The run is forgotten.
+    /// The server has deleted the run.
     End,
 }
 
@@ -216,11 +216,11 @@ impl PeekReply {
 /// A run as text, without its scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SnapshotReply {
-    /// Steps that it has made.
+    /// Number of steps that the run has made.
     pub number: u64,
     /// Bytes of the snapshot.
     pub bytes: usize,
-    /// Base64, for `snapshot` of a run that is begun.
+    /// The snapshot, base64, for `snapshot` of a new run.
     pub snapshot: String,
 }
 

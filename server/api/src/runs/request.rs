@@ -29,7 +29,7 @@ pub struct RunBody {
     pub etag: Option<String>,
     /// Road users that the caller drives, by id; none by default.
     pub egos: Option<Vec<String>>,
-    /// Repeats the run; 0 by default.
+    /// Seed, which repeats the run; 0 by default.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: Option<u64>,
     /// Length of a step, seconds, in whole milliseconds; 0.1 by default.
@@ -106,7 +106,7 @@ impl RunBody {
     }
 }
 
-/// Place, heading and velocity of a road user at one moment, scene frame.
+/// Position, heading and velocity of a road user at one moment, scene frame.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "the names say it")]
@@ -161,9 +161,9 @@ pub struct EgoDoc {
     pub y_m: f64,
     /// Radians.
     pub heading_rad: f64,
-    /// Of the box centre, m/s.
+    /// Velocity of the box centre, m/s.
     pub vx_mps: f64,
-    /// Of the box centre, m/s.
+    /// Velocity of the box centre, m/s.
     pub vy_mps: f64,
     /// Announced motion: at most 90 states, the first 0.1 s after the step's end. Without a plan, the others expect
     /// it to continue along its lane.
@@ -178,7 +178,7 @@ pub struct StepBody {
     /// Number of the step: one more than the last. Repeating the last number returns the same reply.
     #[schemars(range(max = 9007199254740991u64))]
     pub number: u64,
-    /// Every ego at the end of the step.
+    /// States of all egos at the end of the step.
     #[serde(default)]
     pub egos: Vec<EgoDoc>,
 }

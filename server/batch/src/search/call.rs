@@ -25,14 +25,14 @@ pub struct SearchBody {
     pub scene_id: Option<String>,
     /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
-    /// What is varied: a template with ranges of its figures, or conditions with ranges. A condition for several road
-    /// users is searched for each of them.
+    /// The varied situation: a template with ranges of its figures, or conditions with ranges. A condition for
+    /// several road users is searched for each of them.
     pub situation: BatchSituation,
     /// Condition on the figures of the score, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
     #[serde(rename = "where")]
     #[schemars(required)]
     pub condition: String,
-    /// Tries for each road user and each seed. All of them together are at most 1000.
+    /// Number of tries per road user and seed; at most 1000 in total.
     #[schemars(range(min = 1, max = 1000))]
     pub tries: u64,
     /// Number of tries that satisfy the condition at which the search ends. Default: all tries are made.
@@ -100,13 +100,13 @@ pub struct SearchTry {
     /// Whether the goal of the actor is met: met, missed, none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal: Option<String>,
-    /// What the actor of a template does, in one sentence.
+    /// Behaviour of the actor of a template, in one sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub what: Option<String>,
     /// The road user that the situation affects.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other: Option<String>,
-    /// Code of the problem for which there is no result.
+    /// Code of the problem, if there is no result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub problem: Option<String>,
     /// Figures of the score by name.
@@ -116,7 +116,7 @@ pub struct SearchTry {
     pub request: Option<TryRequest>,
 }
 
-/// A generation that gives the result of a try again.
+/// A generation that reproduces the result of a try.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct TryRequest {

@@ -38,7 +38,7 @@ pub struct BatchSituation {
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Distribution>,
     /// Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
-    /// Each is generated in units of its own.
+    /// Each is generated in separate units.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub agents: Vec<String>,
     /// Goal.

@@ -26,12 +26,12 @@ pub struct OtherKinds {
     pub width_m: Option<Distribution>,
 }
 
-/// Fields of a goal; those absent are free.
+/// Fields of a goal; absent ones are free.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalRanges {
-    /// The goal is where the recording has the road user at `time_s`, with its heading and speed there; `ahead_m`,
-    /// `left_m` and `turn_rad` are from there, in place of the start. Default: false.
+    /// The goal is the recorded state of the road user at `time_s`; `ahead_m`, `left_m` and `turn_rad` are
+    /// relative to it instead of the start. Default: false.
     #[serde(skip_serializing_if = "is_default")]
     pub recorded: bool,
     /// Box centre in the frame of the scene, metres; with `y_m`.
@@ -64,7 +64,7 @@ pub struct GoalRanges {
     /// With `recorded`: seconds after the recorded time; negative is earlier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub later_s: Option<Distribution>,
-    /// What the goal is relative to.
+    /// Road user that the goal is relative to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<GoalRelationRanges>,
 }
@@ -96,7 +96,7 @@ pub struct GoalRelationRanges {
     pub lanes_left: Option<Distribution>,
 }
 
-/// Fields of a start; those absent are the scene's: of the conditions there, else of the recording.
+/// Fields of a start; absent ones are those of the scene: from its conditions, else from the recording.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartRanges {
@@ -115,7 +115,7 @@ pub struct StartRanges {
     /// Metres to the left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_m: Option<Distribution>,
-    /// Radians from the heading there.
+    /// Radians from the heading of that start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn_rad: Option<Distribution>,
     /// Metres per second.

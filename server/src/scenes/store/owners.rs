@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SceneShare {
-    /// Nothing: it is not found.
+    /// No rights: the scene is not found.
     #[default]
     Nobody,
-    /// See, generate in and copy it.
+    /// Read it, generate in it and copy it.
     Read,
     /// Also change it; only its owner deletes it.
     Edit,

@@ -35,7 +35,7 @@ pub struct SceneRecord {
     pub name: String,
     /// Tags for searches.
     pub tags: Vec<String>,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
     /// Facts for lists, as JSON.
     pub meta: String,
@@ -113,7 +113,7 @@ pub struct Written {
     pub created: bool,
 }
 
-/// A scene as lists show it.
+/// A scene in a list.
 #[derive(Clone, Debug)]
 pub struct SceneSummary {
     /// Id.
@@ -124,7 +124,7 @@ pub struct SceneSummary {
     pub etag: String,
     /// JSON array.
     pub tags: String,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
     /// Content hash.
     pub map_sha: String,
