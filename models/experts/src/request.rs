@@ -273,7 +273,7 @@ pub enum ReachReport {
         words: String,
         /// The reason as data.
         message: Message,
-        /// The agent in the way, if there is one.
+        /// The road user in the way, if there is one.
         #[serde(skip_serializing_if = "Option::is_none")]
         with: Option<AgentId>,
     },
@@ -302,7 +302,7 @@ impl NearestState {
 pub struct Intermediate {
     /// Planning window, from 0.
     pub window: usize,
-    /// Scene time at which the state was to be reached, seconds: the end of the window's plan.
+    /// Scene time of the target, seconds: the end of the window's plan.
     pub time_s: f64,
     /// The state.
     #[serde(flatten)]
@@ -366,7 +366,7 @@ pub struct ResolvedVia {
 /// All condition fields of one road user as they were used.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
-    /// Expert that ran.
+    /// Type whose expert was used.
     #[serde(rename = "type")]
     pub agent_type: AgentType,
     /// Length, metres.
@@ -386,7 +386,7 @@ pub struct Resolved {
     /// reached along the road in the same time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_road: Option<ByRoad>,
-    /// One entry for each window that ended its plan before the goal was due.
+    /// Targets of the windows whose plan ends before the goal is due.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub intermediate: Vec<Intermediate>,
 }

@@ -257,7 +257,7 @@ impl std::error::Error for ReadError {}
 /// A change or an omission by a reader that accepted the file.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ImportWarning {
-    /// The kind of change; programs switch on it.
+    /// Kind of the change, a code for programs.
     pub code: &'static str,
     /// The change in English.
     pub detail: String,

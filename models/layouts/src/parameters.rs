@@ -73,7 +73,7 @@ pub struct Program {
     /// Green of each phase, seconds.
     #[schemars(range(min = 4.0, max = 60.0))]
     pub green_s: f64,
-    /// Yellow after it, seconds.
+    /// Yellow after each green, seconds.
     #[schemars(range(min = 2.0, max = 6.0))]
     pub yellow_s: f64,
     /// All-red time before the next green, seconds.
@@ -82,7 +82,7 @@ pub struct Program {
     /// Time for which the first green has been on at the start of the scene, seconds.
     #[schemars(range(min = 0.0, max = 600.0))]
     pub offset_s: f64,
-    /// Turns across oncoming traffic.
+    /// Phases of turns across oncoming traffic.
     pub turns_across: TurnAcross,
 }
 
@@ -250,7 +250,7 @@ pub struct Junction {
     /// Single connections through the junction, in addition to those of the turn lanes.
     #[serde(skip_serializing_if = "Connections::is_empty")]
     pub connections: Connections,
-    /// Priority at the junction.
+    /// Right of way at the junction.
     pub control: Control,
     /// Signal program, with `signals`.
     pub program: Program,
@@ -351,7 +351,7 @@ pub struct Merge {
     pub on_ramp: bool,
     /// Whether a ramp leaves, upstream of the one that joins.
     pub off_ramp: bool,
-    /// Length beside the through lanes on which to speed up or slow down, metres.
+    /// Length of the parallel lane for acceleration or deceleration, metres.
     #[schemars(range(min = 40.0, max = 400.0))]
     pub parallel_m: f64,
     /// Angle between ramp and carriageway, degrees.

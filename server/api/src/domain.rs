@@ -65,7 +65,7 @@ impl MotionLimits {
     }
 }
 
-/// Motion limits by kind of road user, each of the kind's usual size.
+/// Motion limits by kind of road user, for the usual size of each kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct KindLimits {

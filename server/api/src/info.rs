@@ -35,7 +35,7 @@ pub struct ProgramInfo {
     weights: BTreeMap<String, WeightsInfo>,
     /// Weights of placement; null when road users are placed evenly along lanes.
     placement: Option<PlacementInfo>,
-    /// Bounds of the server by name, and those of the scene format.
+    /// Limits of the server and of the scene format, by name.
     limits: BTreeMap<&'static str, Bound>,
     /// Ranges of conditions.
     condition_ranges: ConditionRanges,

@@ -18,29 +18,29 @@ pub struct ProblemMembers {
     /// `detail` as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<Message>,
-    /// All faults that were found in the body or the query.
+    /// All faults found in the body or the query.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(max = 32))]
     pub errors: Option<Vec<FieldProblem>>,
     /// The limit that caused the refusal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<u64>,
-    /// ETag of the scene as it is stored now.
+    /// ETag of the stored scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub etag: Option<String>,
-    /// When the scene was stored, RFC 3339.
+    /// Time at which the scene was stored, RFC 3339.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub updated_at: Option<String>,
     /// Time to wait before the next attempt, seconds, as in Retry-After.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_s: Option<u64>,
-    /// The same in milliseconds, more precise.
+    /// The same time in milliseconds, more precise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_ms: Option<u64>,
     /// Offset in the decoded file, bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset: Option<u64>,
-    /// What the reader of a file found there.
+    /// Fault that the reader of a file found there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Line of the fault, from 1.

@@ -32,7 +32,7 @@ pub struct TrajectoryDoc {
     pub vy_mps: Vec<f64>,
 }
 
-/// What trajectories are compared with.
+/// Motion with which trajectories are compared.
 #[derive(Clone, Debug, JsonSchema)]
 #[schemars(untagged, rename = "Reference")]
 pub enum ReferenceMotion {

@@ -19,9 +19,9 @@ use serde::Serialize;
 pub struct MapItem {
     /// Content hash, 64 hex digits.
     sha256: String,
-    /// Size of its JSON.
+    /// Size of its JSON, bytes.
     bytes: u64,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     polylines: u64,
     /// Total number of their points.
     points: u64,

@@ -54,7 +54,7 @@ pub struct Counts {
 pub struct Facts {
     /// Road users by type.
     pub counts: Counts,
-    /// Steps of 0.1 s.
+    /// Number of steps of 0.1 s.
     pub steps: usize,
     /// Source: format or tool.
     pub source: String,

@@ -67,11 +67,11 @@ pub enum Amount {
     Each(BTreeMap<AgentType, usize>),
 }
 
-/// How road users are placed.
+/// Method of placement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlacementMethod {
-    /// By learned rates and distributions.
+    /// Learned rates and distributions.
     Model,
     /// Evenly along lanes, at the speed limit: without weights, and as a baseline.
     LaneSampler,

@@ -198,12 +198,13 @@ pub struct GoalRelationDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -30.0, max = 30.0))]
     pub after_s: Option<f64>,
-    /// How much slower than the other one, m/s; negative is faster. Not with `after_s`; 0 when free.
+    /// Speed difference to the other one, m/s: positive is slower, negative is faster. Not with `after_s`; 0
+    /// when free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -60.0, max = 60.0))]
     pub slower_mps: Option<f64>,
-    /// Lanes to the left of the other one's lane in its direction; negative is to the right. Not with `after_s`; 0 when
-    /// free.
+    /// Number of lanes to the left of the other one's lane, in its direction; negative is to the right. Not with
+    /// `after_s`; 0 when free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -4, max = 4))]
     pub lanes_left: Option<i32>,

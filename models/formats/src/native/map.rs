@@ -112,7 +112,7 @@ pub struct RoadLineDoc {
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "line_types")]
     pub line_type: String,
-    /// In order.
+    /// Points in order.
     #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }
@@ -128,7 +128,7 @@ pub struct RoadEdgeDoc {
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "edge_types")]
     pub line_type: String,
-    /// In order.
+    /// Points in order.
     #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }

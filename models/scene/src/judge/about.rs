@@ -70,13 +70,13 @@ pub struct Fault {
     pub edge: Option<String>,
 }
 
-/// Relation of a motion to another's.
+/// Kind of a relation between two motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationKind {
-    /// Their paths cross, and this one is there first.
+    /// Their paths cross, and this one passes first.
     Before,
-    /// Their paths cross, and this one is there second.
+    /// Their paths cross, and this one passes second.
     After,
     /// Behind the other on the same path.
     Follows,
@@ -132,7 +132,7 @@ pub struct About {
     pub manoeuvre: Option<Manoeuvre>,
 }
 
-/// How a road user reacts to another.
+/// Kind of a reaction to another road user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ReactionKind {

@@ -88,11 +88,11 @@ pub enum Limiting {
     Speed,
     /// Sideways acceleration, m/s2.
     Lateral,
-    /// Tightness of a turn, 1/m.
+    /// Curvature, 1/m.
     Curvature,
-    /// Another agent is in the way and stays there.
+    /// Another road user blocks the path permanently.
     Traffic,
-    /// The goal is relative to an agent or a lane that is not there.
+    /// The goal is relative to a road user or a lane that does not exist there.
     Relation,
 }
 

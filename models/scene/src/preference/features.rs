@@ -28,7 +28,7 @@ pub enum Trait {
     Harshness,
     /// Time at standstill.
     Standing,
-    /// Distance from what was recorded.
+    /// Distance from the recording.
     FromLog,
     /// Going first where their paths cross.
     First {

@@ -28,7 +28,7 @@ pub struct Learned {
     /// Least and greatest value of the rejected cards.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rejected: Option<(f64, f64)>,
-    /// Positions of the answers that contradict it.
+    /// Indices of the answers that contradict it.
     pub against: Vec<usize>,
 }
 

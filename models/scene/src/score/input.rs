@@ -170,7 +170,7 @@ impl Thresholds {
     }
 }
 
-/// Which pairs are scored.
+/// The pairs to score.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]

@@ -86,7 +86,7 @@ pub struct Kinematic {
     pub jerk_mps3: Option<f64>,
     /// Greatest curvature above 1 m/s, 1/m; none for pedestrians.
     pub curvature_per_m: Option<f64>,
-    /// Steps with at least one value over its limit ([`KinematicLimits`]).
+    /// Number of steps with at least one value over its limit ([`KinematicLimits`]).
     pub violations: usize,
 }
 

@@ -67,11 +67,11 @@ pub struct NearMiss {
     pub b: AgentId,
     /// Scene time, seconds.
     pub time_s: f64,
-    /// Gap between the boxes then, metres.
+    /// Gap between the boxes at that time, metres.
     pub distance_m: f64,
-    /// Time to collision at constant velocity then, seconds, if there is one.
+    /// Time to collision at that time, at constant velocity, seconds, if there is one.
     pub ttc_s: Option<f64>,
-    /// Rate at which the gap shrank then, m/s.
+    /// Rate at which the gap shrinks at that time, m/s.
     pub closing_speed_mps: f64,
     /// The event is in the log: both move as recorded, or the recording has the same encounter at about the
     /// same time, at least as severe. It does not count.

@@ -16,7 +16,7 @@ pub struct PlaceReply {
     pub unplaced: usize,
     /// Reason for `unplaced`, in one sentence; null if all were placed.
     pub reason: Option<String>,
-    /// `model`, or `lane-sampler` where the weights folder has no placement weights.
+    /// `model`, or `lane-sampler` if the weights folder has no placement weights.
     pub method: PlacementMethod,
     /// Arms: where roads enter the map or the region, with the traffic placed on each.
     pub arms: Vec<ArmDoc>,

@@ -105,7 +105,7 @@ pub struct PlaceBody {
     /// Scene time at which they start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
     pub start_s: f64,
-    /// The same seed gives the same answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
     /// Minimum gap along the lane between moving vehicles, metres. All other gaps are at least 0.1 m.
@@ -114,7 +114,8 @@ pub struct PlaceBody {
     /// Speeds of moving motor vehicles; null draws the speeds typical of each road. Vehicles at rest, as in a
     /// queue, stay at rest.
     pub speeds: Option<SpeedsDoc>,
-    /// Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here.
+    /// Traffic by arm, until the end of the scene. It is the only source of vehicles on the lanes of these
+    /// arms.
     #[schemars(length(max = 256))]
     pub arrivals: Vec<ArrivalsDoc>,
     /// Parked cars, in addition to `density`.

@@ -188,7 +188,7 @@ pub struct PatternUser {
     /// Start along the way, seconds from the place at its speed; negative is before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_s: Option<PatternNumber>,
-    /// Start ahead of an earlier road user of the list: its id, with `gap_m`.
+    /// Id of an earlier road user of the list ahead of which this one starts, with `gap_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_of: Option<String>,
     /// Gap along the way between the two boxes, metres, with `ahead_of`.
@@ -208,7 +208,8 @@ pub struct PatternUser {
     pub via_m: Vec<PatternNumber>,
 }
 
-/// The goal of a road user. Its place follows from `at_m`, from `relation`, or from the mean of both speeds over the time.
+/// The goal of a road user. Its position follows from `at_m`, from `relation`, or from the mean of both
+/// speeds over the time.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PatternGoal {
@@ -218,7 +219,7 @@ pub struct PatternGoal {
     /// Seconds after the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<PatternNumber>,
-    /// In place of a time: constant braking from the speed of the start to that of the goal, m/s2.
+    /// Constant braking from the speed of the start to that of the goal, in place of a time, m/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub braking_mps2: Option<PatternNumber>,
     /// Metres along the way from the place.
@@ -230,7 +231,7 @@ pub struct PatternGoal {
     /// Speed, km/h. Default: that of the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_kmh: Option<PatternNumber>,
-    /// Place relative to another road user as it moves in the result.
+    /// Position relative to another road user and its motion in the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<PatternRelation>,
 }
@@ -250,7 +251,7 @@ pub struct PatternRelation {
     /// The same gap in seconds at the speed of the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_s: Option<PatternNumber>,
-    /// Lanes to the left of the other one's; negative is to the right.
+    /// Number of lanes to the left of the other one's lane; negative is to the right.
     #[serde(default)]
     pub lanes_left: i32,
 }

@@ -88,10 +88,10 @@ pub struct GoalRelationRanges {
     /// reached.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_s: Option<Distribution>,
-    /// How much slower than the other one, m/s; negative is faster.
+    /// Speed difference to the other one, m/s: positive is slower, negative is faster.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slower_mps: Option<Distribution>,
-    /// Lanes to the left of the other one's, in whole numbers; negative is to the right.
+    /// Number of lanes to the left of the other one's lane, a whole number; negative is to the right.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lanes_left: Option<Distribution>,
 }

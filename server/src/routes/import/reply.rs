@@ -23,7 +23,7 @@ pub struct ImportedScene {
     pub(super) warnings: Vec<formats::ImportWarning>,
     /// Road users by type.
     pub(super) counts: Counts,
-    /// Steps of 0.1 s.
+    /// Number of steps of 0.1 s.
     pub(super) steps: usize,
     /// The scene itself, only in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -54,7 +54,7 @@ pub struct ImportReply {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct ImportedFile {
-    /// Name of the file, as the form gave it.
+    /// Name of the file in the form.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
     #[serde(flatten)]
@@ -67,7 +67,7 @@ pub struct ImportedFile {
 /// Results of importing several files.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportedFiles {
-    /// In the order of the form.
+    /// Results in the order of the form.
     pub(super) files: Vec<ImportedFile>,
 }
 
@@ -75,9 +75,9 @@ pub struct ImportedFiles {
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ImportedBody {
-    /// The only file.
+    /// Result of a single file.
     One(ImportReply),
-    /// Files of a form that has several.
+    /// Results of a form with several files.
     Several(ImportedFiles),
 }
 

@@ -20,7 +20,7 @@ const LEVEL: i32 = 3;
 pub struct MapRecord {
     /// Content hash.
     pub sha: String,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     pub polylines: usize,
     /// Number of their points.
     pub points: usize,
@@ -96,9 +96,9 @@ struct PackedMap {
 pub struct StoredMap {
     /// Content hash, 64 hex digits.
     pub sha256: String,
-    /// Size of its JSON.
+    /// Size of its JSON, bytes.
     pub bytes: u64,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     pub polylines: u64,
     /// Number of their points.
     pub points: u64,
