@@ -38,11 +38,12 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class Step:
-    """What a step came to.
+    """Result of a step.
 
-    ``states`` has a row for each of ``ids``, shape [n, 5], float64: x, y, heading, velocity (m, rad, m/s), egos too.
-    ``changes`` has who changed its plan because of whom, ``faults`` the collisions and vehicles off the road that began
-    in this step, ``entered`` who came in, ``left`` who left and why: as docs/runs.md describes them.
+    ``states`` has a row for each of ``ids``, shape [n, 5], float64: x, y, heading, velocity (m, rad, m/s), egos
+    included. ``changes`` has the changes of plan with their causes, ``faults`` the collisions and vehicles off the road
+    that began in this step, ``entered`` the road users that entered, ``left`` those that left, with the reason:
+    docs/runs.md describes them.
     """
 
     number: int
@@ -58,7 +59,7 @@ class Step:
         return str(id) in self.ids
 
     def __getitem__(self, id: AgentId) -> State:
-        """State of a road user that is there; KeyError of another."""
+        """State of a present road user; KeyError for any other."""
         try:
             row = self.ids.index(str(id))
         except ValueError:
@@ -68,8 +69,8 @@ class Step:
 
 @dataclass(frozen=True)
 class Peek:
-    """What the others would do: ``futures`` by id, shape [90, 5], the first state 0.1 s after the present; who would
-    change its plan (``changes``), and the first collision of each ego with each other road user (``faults``)."""
+    """Predicted motion of the others: ``futures`` by id, shape [90, 5], the first state 0.1 s after the present; their
+    changes of plan (``changes``), and the first collision of each ego with each other road user (``faults``)."""
 
     futures: dict[str, NDArray[np.float64]]
     changes: list[dict[str, Any]]
@@ -79,8 +80,8 @@ class Peek:
 class Run:
     """Traffic that is stepped beside road users that you drive, the *egos*. The others react to them in the same step.
 
-    ``egos``: ids of the scene. ``step_s`` 0.05 to 0.5; each of the others plans anew after ``plan_interval_s``, 0.2 to
-    5; ``start_s`` is the scene time of the start; ``steps`` are refinement steps of each plan, 1 by default. Equal egos
+    ``egos``: ids of the scene. ``step_s`` 0.05 to 0.5; the others replan every ``plan_interval_s``, 0.2 to 5;
+    ``start_s`` is the scene time of the start; ``steps`` are refinement steps of each plan, 1 by default. Equal egos
     and seeds give equal steps.
 
     Raises:

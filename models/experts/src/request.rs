@@ -164,9 +164,9 @@ pub struct Defaults {
     pub samples: usize,
     /// Scale of the draw's noise.
     pub diversity: f64,
-    /// Seconds to generate.
+    /// Time to generate, seconds.
     pub horizon_s: f64,
-    /// Repeats the answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     pub seed: u64,
 }
 
@@ -222,7 +222,7 @@ impl Request {
     }
 }
 
-/// Where the value of a field came from.
+/// Source of the value of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
@@ -238,17 +238,16 @@ pub enum Source {
     Relation,
 }
 
-/// A value and where it came from.
+/// A value and its source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Field {
-    /// In the unit of the field's name.
+    /// Value, in the unit of the field's name.
     pub value: f64,
     /// Origin.
     pub from: Source,
 }
 
-/// Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
-/// what it would take.
+/// Whether a goal is met. `unreachable` has the nearest state and what the goal would require.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "Reach")]
 #[serde(tag = "status", rename_all = "snake_case")]
@@ -264,17 +263,17 @@ pub enum ReachReport {
     },
     /// No future within the limits meets it.
     Unreachable {
-        /// State at the goal time that comes nearest.
+        /// Nearest state that can be reached at the goal time.
         nearest: NearestState,
-        /// Limit that binds.
+        /// Limit that prevents it.
         limiting: Limiting,
-        /// Amount that the goal would take, in that limit's unit, where a formula gives it.
+        /// Amount that the goal would require, in the unit of the limit, where a formula gives it.
         needs: Option<f64>,
         /// The reason in English.
         words: String,
         /// The reason as data.
         message: Message,
-        /// The agent in the way, if there is one.
+        /// The road user in the way, if there is one.
         #[serde(skip_serializing_if = "Option::is_none")]
         with: Option<AgentId>,
     },
@@ -297,18 +296,18 @@ impl NearestState {
     }
 }
 
-/// The state to which a window sends a road user whose goal is due after the window's end. It lies on the way
-/// to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+/// The target of a planning window for a road user whose goal is due after the window's end. It lies on the
+/// way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Intermediate {
     /// Planning window, from 0.
     pub window: usize,
-    /// Scene time at which the state was to be reached, seconds: the end of the window's plan.
+    /// Scene time of the target, seconds: the end of the window's plan.
     pub time_s: f64,
     /// The state.
     #[serde(flatten)]
     pub state: NearestState,
-    /// The plan met it.
+    /// Whether the plan reaches it.
     pub reached: bool,
 }
 
@@ -334,65 +333,65 @@ pub struct ResolvedGoal {
     pub time_s: Field,
 }
 
-/// A place on a lane that can be had instead of a goal.
+/// A position on a lane that can be reached instead of the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ByRoad {
-    /// On the lane's middle, metres.
+    /// Position on the centre line of the lane, metres.
     pub x_m: f64,
-    /// On the lane's middle, metres.
+    /// Position on the centre line of the lane, metres.
     pub y_m: f64,
-    /// Of the lane, radians.
+    /// Heading of the lane, radians.
     pub heading_rad: f64,
-    /// From the goal, metres.
+    /// Distance from the goal, metres.
     pub distance_m: f64,
 }
 
 /// How a future passes a via point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ResolvedVia {
-    /// Where it lies, metres.
+    /// Its position, metres.
     pub x_m: f64,
-    /// Where it lies, metres.
+    /// Its position, metres.
     pub y_m: f64,
     /// Tolerance of the condition, metres.
     pub tolerance_m: f64,
-    /// It is passed within its tolerance, and at its time where that is fixed.
+    /// Whether it is passed within its tolerance, and at its time if that is fixed.
     pub passed: bool,
-    /// How near the future comes, metres.
+    /// Least distance of the future from it, metres.
     pub distance_m: f64,
-    /// Scene time then, seconds.
+    /// Scene time at the least distance, seconds.
     pub time_s: f64,
 }
 
-/// Every condition field of one road user as it was used.
+/// All condition fields of one road user as they were used.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
-    /// Expert that ran.
+    /// Type whose expert was used.
     #[serde(rename = "type")]
     pub agent_type: AgentType,
-    /// Along the heading.
+    /// Length, metres.
     pub length_m: Field,
-    /// Across the heading.
+    /// Width, metres.
     pub width_m: Field,
-    /// Where it begins.
+    /// Its start.
     pub start: ResolvedStart,
-    /// Where it goes.
+    /// Its goal.
     pub goal: ResolvedGoal,
-    /// Verdict on the goal.
+    /// Whether the goal is met.
     pub reach: ReachReport,
-    /// How its shown future passes each via point, in their order.
+    /// How its shown future passes each via point, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub via: Vec<ResolvedVia>,
-    /// Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
-    /// road leads to in the same time.
+    /// If its shown future leaves the road or drives against the traffic: the place nearest to the goal that can be
+    /// reached along the road in the same time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_road: Option<ByRoad>,
-    /// One entry for each window that ended its plan before the goal was due.
+    /// Targets of the windows whose plan ends before the goal is due.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub intermediate: Vec<Intermediate>,
 }
 
-/// What is unlikely.
+/// Kind of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WarningCode {
@@ -402,13 +401,13 @@ pub enum WarningCode {
     GoalOffRoad,
     /// No lane is near the start.
     StartOffRoad,
-    /// The start is in another road user's place.
+    /// The start overlaps another road user.
     StartOverlaps,
-    /// A log that ends was carried on.
+    /// A recording was extrapolated beyond its end.
     Extrapolated,
     /// The shown future misses a via point.
     ViaMissed,
-    /// No road user was named, and none has to continue beyond its known motion.
+    /// No road user was requested, and none has to continue beyond its known motion.
     NothingGenerated,
 }
 
@@ -433,12 +432,12 @@ impl std::fmt::Display for WarningCode {
     }
 }
 
-/// Something unlikely that was done anyway.
+/// A warning: an unlikely request that was carried out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// A word that programs can switch on.
+    /// Code for programs.
     pub code: WarningCode,
-    /// The agent that it concerns.
+    /// The road user concerned.
     pub agent: Option<AgentId>,
     /// The warning in English.
     pub detail: String,
@@ -458,22 +457,22 @@ impl Warning {
     }
 }
 
-/// First event: what will be done.
+/// First event: the planned work.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Accepted {
-    /// The seed in use.
+    /// Seed in use.
     pub seed: u64,
     /// Road users that get new futures.
     pub regenerated: Vec<AgentId>,
-    /// Road users that answer to them.
+    /// Road users that may react to them.
     pub reacting: Vec<AgentId>,
     /// Road users that keep their motion.
     pub fixed: Vec<AgentId>,
-    /// Refinement steps of a window.
+    /// Refinement steps per window.
     pub steps: usize,
-    /// Planning windows, one after the other.
+    /// Number of successive planning windows.
     pub windows: usize,
-    /// Unlikely things known by now.
+    /// Warnings so far.
     pub warnings: Vec<Warning>,
 }
 

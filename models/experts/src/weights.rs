@@ -23,7 +23,7 @@ pub struct WeightsError {
     pub reason: String,
 }
 
-/// Facts about one expert's weights.
+/// Description of the weights of an expert.
 #[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct WeightsInfo {
@@ -34,7 +34,7 @@ pub struct WeightsInfo {
     pub trained_on: String,
     pub horizon_s: f64,
     pub modes: usize,
-    /// Random weights, for tests.
+    /// Whether the weights are random, for tests.
     pub untrained: bool,
 }
 

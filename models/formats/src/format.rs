@@ -18,26 +18,26 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[schemars(rename = "FormatInfo")]
 pub struct Info {
-    /// Word for `--from`, `--to` and `?format=`.
+    /// Id for `--from`, `--to` and `?format=`.
     pub id: &'static str,
-    /// For people.
+    /// Display name.
     pub name: &'static str,
     /// Media type of an exported file.
     pub media_type: &'static str,
-    /// Ends of file names, the first one for exports.
+    /// File extensions, the first one for exports.
     pub extensions: &'static [&'static str],
-    /// Can be read.
+    /// Whether it can be read.
     pub import: bool,
-    /// Can be written.
+    /// Whether it can be written.
     pub export: bool,
-    /// Holds many scenes in one file.
+    /// Whether one file holds many scenes.
     pub many: bool,
-    /// May come with the network it belongs to ([`ImportOptions::net`]).
+    /// Whether it may come with its road network ([`ImportOptions::net`]).
     pub takes_net: bool,
-    /// Content of a file, and how it is read and written.
+    /// Description of the content of a file, and of reading and writing it.
     pub notes: &'static str,
-    /// Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports the
-    /// losses it had.
+    /// Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports its
+    /// losses.
     pub loses: &'static [&'static str],
 }
 

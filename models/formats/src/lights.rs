@@ -82,7 +82,7 @@ fn runs(group: usize, groups: usize, steps: usize) -> Vec<(usize, SignalState)> 
     let cycle_s = turn_s * groups.max(2) as f64;
     let mut runs: Vec<(usize, SignalState)> = Vec::new();
     for step in 0..steps {
-        // In the middle of a step, so that no rounding of sums decides.
+        // In the middle of a step, so that rounding of sums has no effect.
         let in_turn_s = ((step as f64 + 0.5) * STEP_S - turn_s * group as f64).rem_euclid(cycle_s);
         let state = match in_turn_s {
             s if s < PHASES_S[0] => SignalState::Go,

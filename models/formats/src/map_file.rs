@@ -23,7 +23,7 @@ pub(crate) const AGAINST: &str = ".back";
 pub(crate) struct MapFile {
     /// Word for `--from` and `?format=`.
     pub id: &'static str,
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
     /// File name endings.
     pub extensions: &'static [&'static str],
@@ -31,7 +31,7 @@ pub(crate) struct MapFile {
     pub root: &'static str,
     /// `meta.source` of the scenes.
     pub source: &'static str,
-    /// Content of a file, in words.
+    /// Description of the content of a file.
     pub notes: &'static str,
     /// Codes of the losses that a written file may have.
     pub loses: &'static [&'static str],

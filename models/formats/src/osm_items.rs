@@ -49,7 +49,7 @@ impl OsmElement {
 ///
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of
-/// file, `invalid-field` for what is no number, `map-too-large`, and those of `take`.
+/// file, `invalid-field` for a value that is not a number, `map-too-large`, and those of `take`.
 pub(crate) fn each(
     file: &dyn Source,
     mut take: impl FnMut(OsmElement) -> Result<(), ReadError>,

@@ -73,23 +73,23 @@ pub fn never_null(schema: &mut Schema) {
     }
 }
 
-/// One fault and its place.
+/// A fault of a request and its place.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(transform = never_null)]
 pub struct FieldProblem {
     /// JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter.
     pub pointer: String,
-    /// A word that programs can switch on.
+    /// Code for programs.
     pub code: &'static str,
     /// Value found and value expected, in English.
     pub detail: String,
-    /// Least value allowed, where that is the fault.
+    /// Least allowed value, if it is not reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min: Option<f64>,
-    /// Greatest value allowed, where that is the fault.
+    /// Greatest allowed value, if it is exceeded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f64>,
-    /// The value found, where it is a number.
+    /// The value found, if it is a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub got: Option<f64>,
     /// The fault as data; faults outside of bodies and files may have none.
@@ -254,10 +254,10 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// Something a reader changed or left out without refusing.
+/// A change or an omission by a reader that accepted the file.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ImportWarning {
-    /// The kind of change; programs switch on it.
+    /// Kind of the change, a code for programs.
     pub code: &'static str,
     /// The change in English.
     pub detail: String,

@@ -12,7 +12,7 @@ const TAIL: u64 = 64 << 10;
 /// A file that can be read from its beginning more than once: to recognise it, to read it, and to find the
 /// place of a fault.
 pub trait Source: fmt::Debug + Send + Sync {
-    /// Its bytes from the first one on.
+    /// Its bytes from the beginning.
     ///
     /// # Errors
     /// When they cannot be read.

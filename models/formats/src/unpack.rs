@@ -161,7 +161,7 @@ impl fmt::Debug for ZipEntry {
 }
 
 impl ZipEntry {
-    /// Its bytes from the first one on.
+    /// Its bytes from the beginning.
     pub fn reader(&self) -> Box<dyn Read + Send> {
         let range = ZipRange { zip: Arc::clone(&self.zip), left: self.packed.clone() };
         let inner: Box<dyn Read + Send> =

@@ -20,7 +20,7 @@ fn through(format: &str, scene: &Scene) -> (Scene, BTreeSet<&'static str>) {
     (again, file.losses.iter().map(|loss| loss.code).collect())
 }
 
-/// In the frame of the source.
+/// A point of the scene in the frame of the source.
 fn placed(scene: &Scene, p: Vec2) -> Vec2 {
     let origin = &scene.meta.origin;
     scene::geometry::rotate(p, origin.rotation_rad) + Vec2::new(origin.x_m, origin.y_m)

@@ -1,4 +1,4 @@
-//! How long each template takes.
+//! Measures the time of each template.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -236,7 +236,7 @@ fn bays(draft: &mut MapDraft, layout: &CarPark, grid: &Grid) {
     }
 }
 
-/// The far kerb of the street, its near kerb with the mouths of the drives, and the rim of the park.
+/// The far kerb of the street, its near kerb with the openings of the drives, and the outline of the park.
 fn kerbs(draft: &mut MapDraft, layout: &CarPark, grid: &Grid, kerb_m: f64, radius_m: f64) {
     let (x0, x3) = (grid.low.x - BEYOND_M, grid.high.x + BEYOND_M);
     let half = DRIVE_M / 2.0;

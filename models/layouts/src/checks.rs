@@ -21,30 +21,30 @@ const MOST: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckKind {
-    /// Every lane leads somewhere.
+    /// Every lane has a successor or leaves the map, and can be reached.
     LanesLead,
     /// A bus of 12 m (in a car park: a car) can turn.
     Turns,
     /// No lane is too narrow.
     Widths,
-    /// No two movements with green at the same time conflict.
+    /// No two movements with simultaneous green conflict.
     SignalsApart,
 }
 
-/// One check, or one failure of it.
+/// A check that passed, or one failure of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Check {
-    /// What it is about.
+    /// Subject of the check.
     pub kind: CheckKind,
-    /// All is well.
+    /// Whether it passed.
     pub passed: bool,
     /// The finding in English.
     pub text: String,
     /// The finding as data.
     pub message: Message,
-    /// Where it fails, metres.
+    /// Place of the failure, metres.
     pub at_m: Option<[f64; 2]>,
-    /// Lanes it is about.
+    /// Lanes concerned.
     pub lanes: Vec<String>,
 }
 
@@ -104,7 +104,7 @@ fn ends(draft: &MapDraft) -> Vec<Check> {
         let vehicles = lane.lane_type.carries_vehicles();
         !draft.about[*i].open[1] && !lane.successors.iter().any(|id| carries(id, vehicles))
     };
-    // A lane for vehicles begins at the map's rim, or another lane leads to it.
+    // A lane for vehicles begins at the edge of the map, or another lane leads to it.
     let unreached = |i: &usize| {
         let lane = &draft.map.lanes[*i];
         let vehicles = lane.lane_type.carries_vehicles();

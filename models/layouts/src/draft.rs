@@ -13,21 +13,21 @@ use serde::Serialize;
 pub struct ArmPlace {
     /// Such as `North`.
     pub name: String,
-    /// Where traffic towards the junction stops, in the middle of the arm, metres.
+    /// Stop position of inbound traffic, in the middle of the arm, metres.
     pub mouth_m: [f64; 2],
-    /// Where the arm leaves the map, metres.
+    /// Point where the arm leaves the map, metres.
     pub end_m: [f64; 2],
-    /// From the middle to the kerb beside the lanes in and beside the lanes out, metres.
+    /// Distances from the middle to the kerb of the inbound lanes and to that of the outbound lanes, metres.
     pub kerbs_m: [f64; 2],
-    /// Where its turn lanes lead, from the middle of the road to the kerb; single connections apart.
+    /// Turns of its inbound lanes, from the middle of the road to the kerb, without single connections.
     pub turns: Vec<Vec<Turn>>,
-    /// Where each of its lanes in ends, metres.
+    /// End of each inbound lane, metres.
     pub ins_m: Vec<[f64; 2]>,
-    /// Where each of its lanes out begins, metres.
+    /// Start of each outbound lane, metres.
     pub outs_m: Vec<[f64; 2]>,
 }
 
-/// A way through a junction that is drawn.
+/// A drawn path through a junction.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct JunctionPath {
     /// From where to where.
@@ -37,11 +37,11 @@ pub struct JunctionPath {
     pub lane: String,
     /// The direction, as seen from the entry.
     pub turn: Turn,
-    /// It is there because it was added.
+    /// Whether it was added to those of the turn lanes.
     pub added: bool,
 }
 
-/// Where a kerb bends.
+/// A bend of a kerb at a corner.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CornerPlace {
     /// The middle of the bend, metres.

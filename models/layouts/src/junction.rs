@@ -1,4 +1,4 @@
-//! Roads that meet at grade: kerbs round the corners, lanes, crosswalks, stop lines and signs, lights.
+//! Roads that meet at grade: kerbs round the corners, lanes, crosswalks, stop lines, stop signs and signals.
 
 use crate::connect::{self, Bends};
 use crate::curve::{Pose, arc, join, left_of, straight, tidy};
@@ -24,13 +24,14 @@ const STOP_LINE_M: f64 = 1.2;
 /// Least length of every arm beyond the junction, metres.
 const LEAST_ROAD_M: f64 = 30.0;
 
-/// An arm as it is drawn.
+/// Geometry of a drawn arm.
 #[derive(Clone, Debug)]
 pub struct Spoke {
     pub arm: Arm,
     pub profile: Profile,
     pub way: Vec2,
-    /// Distances of the end of the bends, of the stop line, and of the map's rim from the middle, metres.
+    /// Distances of the end of the bends, of the stop line, and of the edge of the map from the middle,
+    /// metres.
     pub mouth_m: f64,
     pub stop_m: f64,
     pub end_m: f64,
@@ -61,7 +62,8 @@ impl Spoke {
     }
 }
 
-/// A kerb from the rim along an arm, round a corner, and along the next arm (counter-clockwise) to the rim.
+/// A kerb from the edge of the map along an arm, round a corner, and along the next arm (counter-clockwise)
+/// to the edge.
 struct Corner {
     /// By the order of the spokes.
     arms: [usize; 2],

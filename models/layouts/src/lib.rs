@@ -107,7 +107,7 @@ impl Template {
         }
     }
 
-    /// Its name for people.
+    /// Display name.
     pub fn title(self) -> &'static str {
         match self {
             Self::ThreeArms => "Three arms",
@@ -208,7 +208,7 @@ impl Layout {
         value.unwrap_or_default()
     }
 
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub fn traffic(&self) -> Traffic {
         match self {
             Self::ThreeArms(p) | Self::FourArms(p) => p.traffic,
@@ -229,7 +229,7 @@ pub struct Built {
     pub signals: Vec<Signal>,
     /// Results of the checks; a failed check forbids nothing.
     pub checks: Vec<Check>,
-    /// Where the arms lie, in the order of the parameters.
+    /// Positions of the arms, in the order of the parameters.
     pub arms: Vec<ArmPlace>,
     /// Positions of the bends of the kerbs between them, counter-clockwise.
     pub corners: Vec<CornerPlace>,

@@ -144,7 +144,7 @@ fn runs(green: &[bool], program: &Program, yellow: bool) -> Vec<(usize, SignalSt
     let cycle_s = turn_s * green.len().max(2) as f64;
     let mut runs: Vec<(usize, SignalState)> = Vec::new();
     for step in 0..=HORIZON_STEPS {
-        // In the middle of a step, so that no rounding of sums decides.
+        // In the middle of a step, so that rounding of sums has no effect.
         let at_s = ((step as f64 + 0.5) * STEP_S + program.offset_s).rem_euclid(cycle_s);
         let phase = (at_s / turn_s) as usize;
         let in_turn_s = at_s - phase as f64 * turn_s;

@@ -10,7 +10,7 @@ const LEAST_STRIP_M: f64 = 0.5;
 /// Least angle between two arms, degrees.
 pub const LEAST_BETWEEN_ARMS_DEG: f64 = 20.0;
 
-/// Side of the road that traffic keeps to.
+/// Side of the road on which traffic drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -20,7 +20,7 @@ pub enum Traffic {
     LeftHand,
 }
 
-/// Priority where roads meet.
+/// Right of way at a junction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Control {
@@ -37,10 +37,10 @@ pub enum Control {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TurnAcross {
-    /// They have green with it and give way.
+    /// They have green at the same time and give way.
     #[default]
     Permissive,
-    /// They have a phase of their own.
+    /// They have a separate phase.
     Protected,
 }
 
@@ -66,23 +66,23 @@ impl Turn {
     }
 }
 
-/// The lights of a junction: its phases follow one another without end.
+/// Signal program of a junction, whose phases repeat in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Program {
     /// Green of each phase, seconds.
     #[schemars(range(min = 4.0, max = 60.0))]
     pub green_s: f64,
-    /// Yellow after it, seconds.
+    /// Yellow after each green, seconds.
     #[schemars(range(min = 2.0, max = 6.0))]
     pub yellow_s: f64,
-    /// Red for all before the next green, seconds.
+    /// All-red time before the next green, seconds.
     #[schemars(range(min = 0.5, max = 5.0))]
     pub all_red_s: f64,
-    /// How long the first green has been on when the scene begins, seconds.
+    /// Time for which the first green has been on at the start of the scene, seconds.
     #[schemars(range(min = 0.0, max = 600.0))]
     pub offset_s: f64,
-    /// Turns across oncoming traffic.
+    /// Phases of turns across oncoming traffic.
     pub turns_across: TurnAcross,
 }
 
@@ -99,39 +99,40 @@ impl Default for Program {
     }
 }
 
-/// A road that leads to a junction, seen from the junction.
+/// A road that leads to a junction, as seen from the junction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Arm {
-    /// Where it leads, counter-clockwise from east, degrees.
+    /// Direction from the junction, counter-clockwise from east, degrees.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub angle_deg: f64,
-    /// From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+    /// Length from the centre of the junction to the edge of the map, metres; longer where the junction needs
+    /// it.
     #[schemars(range(min = 40.0, max = 200.0))]
     pub length_m: f64,
-    /// Lanes towards the junction.
+    /// Number of inbound lanes, towards the junction.
     #[schemars(range(max = 5))]
     pub lanes_in: u8,
-    /// Lanes away from it.
+    /// Number of outbound lanes, away from the junction.
     #[schemars(range(max = 5))]
     pub lanes_out: u8,
-    /// Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
-    /// in left-hand traffic) to the kerb; null is the usual.
+    /// Allowed turns of each inbound lane, in order from the middle of the road to the kerb; null selects the
+    /// usual turns.
     #[schemars(length(max = 5))]
     pub turns: Option<Vec<Vec<Turn>>>,
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    /// Width of the cycle lane on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    /// Width of the raised median, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of the crosswalk over it, metres; less than half a metre is none.
+    /// Width of the crosswalk across it, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
-    /// With `priority`: its traffic goes first.
+    /// With `priority`: its traffic has right of way.
     pub main: bool,
 }
 
@@ -159,8 +160,9 @@ impl Arm {
     }
 }
 
-/// A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
-/// of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+/// A path from an inbound lane to an outbound lane, which for a U-turn is of the same arm. Arms count in the order of
+/// the parameters, lanes from the middle of the road to the kerb: from 0 here, from 1 in the ids of lanes that documents
+/// have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "LaneIds", into = "LaneIds")]
 #[schemars(with = "LaneIds")]
@@ -176,10 +178,10 @@ pub struct Connection {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Connection")]
 struct LaneIds {
-    /// A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road.
+    /// Inbound lane, such as `arm2.in1`: the lane of the second arm next to the middle of the road.
     #[schemars(regex(pattern = r"^arm[1-6]\.in[1-5]$"))]
     from: String,
-    /// A lane away from it, such as `arm3.out1`.
+    /// Outbound lane, such as `arm3.out1`.
     #[schemars(regex(pattern = r"^arm[1-6]\.out[1-5]$"))]
     to: String,
 }
@@ -219,14 +221,14 @@ impl Connection {
     }
 }
 
-/// What a junction has and has not beside the ways that its turn lanes make.
+/// Paths through a junction that are added to, or removed from, those of its turn lanes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Connections {
-    /// Ways that there are in any case.
+    /// Added paths.
     #[schemars(length(max = 64))]
     pub added: Vec<Connection>,
-    /// Ways that there are not.
+    /// Removed paths.
     #[schemars(length(max = 64))]
     pub removed: Vec<Connection>,
 }
@@ -242,15 +244,15 @@ impl Connections {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Junction {
-    /// 3 to 6 of them, at least 20 degrees apart.
+    /// 3 to 6 arms, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
     /// Single connections through the junction, in addition to those of the turn lanes.
     #[serde(skip_serializing_if = "Connections::is_empty")]
     pub connections: Connections,
-    /// Priority at the junction.
+    /// Right of way at the junction.
     pub control: Control,
-    /// Lights, with `signals`.
+    /// Signal program, with `signals`.
     pub program: Program,
     /// Radius of the kerbs at corners, metres; less where arms are too close for it.
     #[schemars(range(min = 3.0, max = 20.0))]
@@ -258,10 +260,10 @@ pub struct Junction {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -293,19 +295,19 @@ impl Junction {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Roundabout {
-    /// 3 to 6 of them, at least 20 degrees apart.
+    /// 3 to 6 arms, at least 20 degrees apart.
     #[schemars(length(min = 3, max = 6))]
     pub arms: Vec<Arm>,
     /// Radius of the island in the middle, metres; more where the arms need it.
     #[schemars(range(min = 6.0, max = 40.0))]
     pub island_radius_m: f64,
-    /// Lanes of the ring.
+    /// Number of lanes of the ring.
     #[schemars(range(min = 1, max = 2))]
     pub ring_lanes: u8,
     /// Width of the lanes of the ring, metres.
     #[schemars(range(min = 3.5, max = 6.0))]
     pub ring_lane_width_m: f64,
-    /// Speed limit in the ring, km/h.
+    /// Speed limit of the ring, km/h.
     #[schemars(range(min = 10.0, max = 60.0))]
     pub ring_speed_limit_kmh: f64,
     /// Radius of the kerbs at corners, metres; less where arms are too close for it.
@@ -314,10 +316,10 @@ pub struct Roundabout {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -342,14 +344,14 @@ impl Default for Roundabout {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Merge {
-    /// Lanes that go through.
+    /// Through lanes.
     #[schemars(range(min = 1, max = 5))]
     pub lanes: u8,
-    /// A ramp joins.
+    /// Whether a ramp joins.
     pub on_ramp: bool,
-    /// A ramp leaves, before the other one joins.
+    /// Whether a ramp leaves, upstream of the one that joins.
     pub off_ramp: bool,
-    /// Length beside the through lanes on which to speed up or slow down, metres.
+    /// Length of the parallel lane for acceleration or deceleration, metres.
     #[schemars(range(min = 40.0, max = 400.0))]
     pub parallel_m: f64,
     /// Angle between ramp and carriageway, degrees.
@@ -364,7 +366,7 @@ pub struct Merge {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -397,36 +399,36 @@ pub struct Road {
     /// Radius of the bend in the middle of the road, metres; more where the road is too wide for it.
     #[schemars(range(min = 15.0, max = 500.0))]
     pub radius_m: f64,
-    /// Lanes eastwards, where the road begins.
+    /// Lanes in the forward direction, which is east at the start of the road.
     #[schemars(range(min = 1, max = 5))]
     pub lanes_forward: u8,
-    /// Lanes the other way.
+    /// Lanes in the opposite direction.
     #[schemars(range(max = 5))]
     pub lanes_backward: u8,
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    /// Width of the cycle lane on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a strip for parked cars on both sides, metres; less than half a metre is none.
+    /// Width of the parking strip on each side, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub parking_m: f64,
-    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    /// Width of the raised median, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of a crosswalk half way, metres; less than half a metre is none.
+    /// Width of the crosswalk half way along the road, metres; below half a metre there is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
-    /// Speed bumps before and behind the crosswalk.
+    /// Whether speed bumps lie before and after the crosswalk.
     pub speed_bumps: bool,
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 
@@ -472,14 +474,15 @@ impl Road {
     }
 }
 
-/// A street with a car park beside it: in at one end, along aisles, out at the other.
+/// A street with a car park beside it: its entrance is at one end, its exit at the other, with aisles between
+/// them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CarPark {
-    /// Aisles with bays on both sides.
+    /// Number of aisles with bays on both sides.
     #[schemars(range(min = 1, max = 6))]
     pub aisles: u8,
-    /// Bays along each side of an aisle.
+    /// Number of bays along each side of an aisle.
     #[schemars(range(min = 3, max = 30))]
     pub bays: u8,
     /// Width of a bay, metres.
@@ -500,10 +503,10 @@ pub struct CarPark {
     /// Width of the lanes of the street, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; less than half a metre is none.
+    /// Width of the pavements, metres; below half a metre there are none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
-    /// Side of the road that traffic keeps to.
+    /// Side of the road on which traffic drives.
     pub traffic: Traffic,
 }
 

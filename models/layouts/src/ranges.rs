@@ -15,7 +15,7 @@ const MOST_FAULTS: usize = 32;
 pub struct ParameterFault {
     /// JSON pointer below the parameters.
     pub pointer: String,
-    /// The value found and the value expected, for people.
+    /// The value found and the value expected, as text.
     pub reason: String,
     /// Least value, greatest value and the value found, for a number outside its range.
     pub range: Option<(f64, f64, f64)>,

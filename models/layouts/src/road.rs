@@ -16,7 +16,7 @@ const TAPER_M: f64 = 2.5;
 /// Distance of speed bumps from the crosswalk, and their length, metres.
 const BUMP_AWAY_M: f64 = 22.0;
 const BUMP_M: f64 = 2.4;
-/// Least radius of a bend at its inner rim, metres.
+/// Least radius of a bend at its inner edge, metres.
 const INSIDE_M: f64 = 8.0;
 /// Least length of the straight beginning and end, metres.
 const STRAIGHT_M: f64 = 20.0;

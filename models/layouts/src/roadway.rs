@@ -215,7 +215,7 @@ impl Plan<'_> {
         }
     }
 
-    /// The raised median, counter-clockwise, with round ends; square at the rim of the map.
+    /// The raised median, counter-clockwise, with round ends; square at the edge of the map.
     fn island(&self) -> Option<Vec<Vec2>> {
         let mut at_m = 0.0;
         let mut kept = Vec::new();
@@ -245,7 +245,7 @@ impl Plan<'_> {
         let mut ring = Vec::new();
         ring.append(&mut right);
         if whole && !self.stops[1] {
-            // Just short of the rim, so that the island stays a hole in the ground.
+            // Just inside the edge of the map, so that the island stays a hole in the ground.
             let back = (points[last - 1] - points[last]).normalize() * 0.05;
             let count = ring.len();
             ring[count - 1] += back;

@@ -162,7 +162,8 @@ fn fillet(spoke: &Spoke, corner: &Corner, side: usize, behind_m: f64) -> Vec<Vec
     if side == 0 { line } else { line.into_iter().rev().collect() }
 }
 
-/// A kerb from rim to rim at this distance behind, between two distances from the middle on its arms.
+/// A kerb from edge to edge of the map at this distance behind, between two distances from the middle on its
+/// arms.
 fn kerb(
     spokes: &[Spoke],
     plans: &[(Vec<Vec2>, Vec<f64>)],

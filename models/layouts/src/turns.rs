@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// Ways out nearer than this to straight on are straight on, radians.
 const STRAIGHT_ON_RAD: f64 = 0.72;
 
-/// A way through a junction that is drawn.
+/// A drawn path through a junction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Movement {
     /// Index of its lane in the map.

@@ -12,7 +12,7 @@ pub type AgentId = String;
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum AgentType {
-    /// Anything with an engine on a lane: cars, trucks, buses, motorcycles.
+    /// Motor vehicles on lanes: cars, trucks, buses, motorcycles.
     Vehicle,
     /// A person on foot.
     Pedestrian,

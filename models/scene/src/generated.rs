@@ -34,7 +34,7 @@ impl Future {
 pub struct AgentFutures {
     /// Index into `modes` of the future that is shown and exported.
     pub chosen: usize,
-    /// By falling probability, never empty.
+    /// In order of decreasing probability, never empty.
     pub modes: Vec<Future>,
     /// The reaction that replaced its motion; `None` for an agent that the call regenerated.
     pub reaction: Option<Reaction>,
@@ -69,7 +69,7 @@ pub struct Generated {
     pub seed: u64,
     /// The request's options as they were sent.
     pub request: serde_json::Value,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    /// Licence of the answer if it is stricter than that of the scene: the licence of the weights.
     pub licence: Option<String>,
     /// RFC 3339 time; empty if no clock was read.
     pub created_at: String,

@@ -5,10 +5,10 @@ use crate::{AgentType, Subtype};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Accelerations of a manner of moving.
+/// Acceleration limits of a driving style.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DrivingManner {
-    /// Greatest speeding up.
+    /// Greatest acceleration.
     pub accel_mps2: f64,
     /// Greatest braking, positive.
     pub brake_mps2: f64,

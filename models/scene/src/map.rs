@@ -97,7 +97,7 @@ pub struct Lane {
     pub successors: Vec<String>,
     pub left_neighbors: Vec<Neighbor>,
     pub right_neighbors: Vec<Neighbor>,
-    /// Leads through a junction between two lanes.
+    /// Whether it connects two lanes through a junction.
     pub interpolating: bool,
 }
 
@@ -188,7 +188,7 @@ pub struct StopSign {
     pub lanes: Vec<String>,
 }
 
-/// Everything that does not move. Scenes share it ([`crate::Shared`]).
+/// The map of a scene: lanes, lines, edges, areas and stop signs. Scenes share it ([`crate::Shared`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct LaneMap {

@@ -21,9 +21,9 @@ pub enum MessageValue {
 /// One sentence.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Message {
-    /// Names the sentence; it never changes.
+    /// Code of the sentence, which never changes.
     pub code: &'static str,
-    /// What fills its placeholders. An optional value that is absent is left out.
+    /// Values of its placeholders. An absent optional value is left out.
     pub values: BTreeMap<&'static str, MessageValue>,
     /// The sentence in English.
     #[serde(skip)]

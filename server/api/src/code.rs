@@ -18,7 +18,7 @@ macro_rules! codes {
             /// Stable name, on which clients switch.
             pub fn name(self) -> &'static str { match self { $(Self::$variant => $name,)* } }
 
-            /// A few words for people, the same for each occurrence.
+            /// Short title, the same for each occurrence.
             pub fn title(self) -> &'static str { match self { $(Self::$variant => $title,)* } }
 
             /// When the code is returned and what to do about it.

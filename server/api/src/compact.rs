@@ -7,11 +7,11 @@ use scene::{AgentFutures, Future, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the futures of a reply are written.
+/// Form of the futures in a reply.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FuturesForm {
-    /// As a scene document has them.
+    /// As in a scene document.
     #[default]
     Columns,
     /// The same numbers in about half the bytes.
@@ -31,23 +31,23 @@ pub enum FuturesDoc {
 /// The futures of one road user, compact.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CompactFuturesDoc {
-    /// Index into `compact` of the one that is shown and exported.
+    /// Index into `compact` of the future that is shown and exported.
     chosen: u64,
-    /// By falling probability.
+    /// In order of decreasing probability.
     compact: Vec<CompactFuture>,
-    /// Why it gave up the motion that it had.
+    /// Why it left its previous motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     reaction: Option<Reaction>,
 }
 
-/// One possible motion. The first number of a column is its value at the first step, the second how much the
-/// next value is greater, and each further one by how much that changes: with two running sums the columns of a
-/// scene document come out, to the last digit.
+/// One possible motion as second differences. A column starts with its first value, followed by the first
+/// difference and then by the changes of the difference. Two running sums restore the columns of a scene
+/// document exactly.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CompactFuture {
     /// Relative weight among the road user's futures; see `calibrated` of the answer.
     probability: f64,
-    /// Which of the generator's anchors it follows.
+    /// Index of the generator's anchor that it follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     anchor: Option<u32>,
     /// Scene step of the first value.
@@ -56,16 +56,16 @@ pub struct CompactFuture {
     x_mm: Vec<i64>,
     /// Box centre, millimetres.
     y_mm: Vec<i64>,
-    /// Ten-thousandths of a radian.
+    /// Heading in units of 0.0001 rad.
     heading_e4rad: Vec<i64>,
-    /// Millimetres a second.
+    /// Velocity, mm/s.
     vx_mmps: Vec<i64>,
-    /// Millimetres a second.
+    /// Velocity, mm/s.
     vy_mmps: Vec<i64>,
-    /// What is wrong with it, the worst first.
+    /// Faults, the worst first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     faults: Vec<Fault>,
-    /// How it stands to others.
+    /// Relations to other road users.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     relations: Vec<Relation>,
     /// What it does.

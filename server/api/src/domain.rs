@@ -28,23 +28,24 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What one kind of road user can do; answers never go beyond it.
+/// Motion limits of one kind of road user; answers never exceed them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MotionLimits {
-    /// Greatest speeding up.
+    /// Greatest acceleration.
     accel_mps2: f64,
     /// Greatest braking, positive.
     brake_mps2: f64,
     /// Greatest sideways acceleration.
     lateral_mps2: f64,
-    /// Greatest curvature; null on foot, where turning has no bound. Vehicles longer than the kind's
-    /// usual ones turn wider.
+    /// Greatest curvature; null for pedestrians, who turn without a bound. Vehicles longer than usual for the
+    /// kind turn wider.
     curvature_per_m: Option<f64>,
     /// Top speed.
     speed_mps: f64,
-    /// What a future does where there is time.
+    /// Limits of a future without time pressure.
     comfortable: DrivingManner,
-    /// What a future does where time presses. It does more only where a goal or another road user forces it.
+    /// Limits of a future under time pressure. It exceeds them only if a goal or another road user requires
+    /// it.
     hurried: DrivingManner,
 }
 
@@ -64,7 +65,7 @@ impl MotionLimits {
     }
 }
 
-/// Motion limits by kind of road user, each of the kind's usual size.
+/// Motion limits by kind of road user, for the usual size of each kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct KindLimits {
@@ -95,7 +96,7 @@ impl KindLimits {
     }
 }
 
-/// What conditions may ask for, by type; both ends are allowed.
+/// Ranges of conditions by type; both ends are included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct ConditionRanges {

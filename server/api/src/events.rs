@@ -10,8 +10,8 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where
-/// it begins.
+/// A draft. `initial`: before refinement. `step`: after a refinement step. The futures of a later window
+/// start with that window.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Draft")]
 pub struct DraftBody {
@@ -22,9 +22,9 @@ pub struct DraftBody {
     /// Refinement step, from 1; not in `initial`.
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<usize>,
-    /// Refinement steps of a window.
+    /// Refinement steps per window.
     steps: usize,
-    /// Futures by road user; only the chosen ones, or all by `stream_modes`.
+    /// Futures by road user: only the chosen ones or all, according to `stream_modes`.
     agents: BTreeMap<String, FuturesDoc>,
 }
 
@@ -44,17 +44,17 @@ impl DraftBody {
     }
 }
 
-/// Time spent, milliseconds.
+/// Durations of the stages, milliseconds.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 #[schemars(rename = "Timing")]
 pub struct TimingBody {
-    /// Waiting for a worker.
+    /// Wait for a worker.
     pub queue_ms: f64,
-    /// Map and road users.
+    /// Encoding of the map and the road users.
     pub encode_ms: f64,
-    /// First guess.
+    /// Initial draft.
     pub initial_ms: f64,
-    /// Each denoising step.
+    /// Each refinement step.
     pub step_ms: Vec<f64>,
     /// Joint choice of modes.
     pub choice_ms: f64,
@@ -62,13 +62,13 @@ pub struct TimingBody {
     pub score_ms: f64,
 }
 
-/// One joint scene of the answer. Its score stands in `scores`.
+/// One joint scene of the answer. Its score is in `scores`.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "AnswerSample")]
 pub struct SampleBody {
-    /// Road user's id to its futures.
+    /// Futures by id of the road user.
     pub agents: BTreeMap<String, FuturesDoc>,
-    /// Empty here; a place for the score when it is saved.
+    /// Empty in the reply; holds the score in a saved scene.
     pub score: Value,
 }
 
@@ -88,30 +88,30 @@ pub const CALIBRATED: bool = false;
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Final")]
 pub struct FinalBody {
-    /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
-    /// of the first and end with its plan.
+    /// Number of planning windows. A chosen future covers all of them; its alternatives are those of the
+    /// first window and end with the plan of that window.
     pub windows: usize,
     /// Joint scenes. They include road users outside the call with the future that the scene keeps, unless
     /// `kept_futures` excludes them.
     pub samples: Vec<SampleBody>,
-    /// Are the probabilities of the futures calibrated? If false, they are relative weights: their order counts.
-    /// docs/results.md has their log loss.
+    /// Whether the probabilities of the futures are calibrated. If not, they are relative weights, of which only
+    /// the order counts. docs/results.md has their log loss.
     pub calibrated: bool,
-    /// Every condition field as it was used.
+    /// All condition fields as they were used.
     pub resolved: BTreeMap<String, Resolved>,
     /// One report per sample, or null without `score`.
     pub scores: Option<Vec<Score>>,
-    /// Unlikely things that were done anyway.
+    /// Warnings: unlikely requests that were carried out.
     pub warnings: Vec<Warning>,
-    /// Of a round: what its cards are like, and what was learned.
+    /// Of a round: the features of its cards, and the learned wishes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feedback: Option<RoundBody>,
-    /// Where the time went.
+    /// Durations of the stages.
     pub timing: TimingBody,
-    /// Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
-    /// options, seed, weights and version. Identical calls have identical codes.
+    /// Result code, six characters. It identifies the inputs of the answer: the scene with its conditions and the
+    /// futures it keeps, options, seed, weights and version. Identical calls have identical codes.
     pub code: String,
-    /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
+    /// The scene's `generated` member without `samples`. To save the answer, insert `samples` (those in
     /// compact form as columns).
     pub generated: GeneratedHead,
 }
@@ -122,24 +122,24 @@ pub struct FinalBody {
 pub struct RoundBody {
     /// One per future of the requested road user, or one per sample, the most preferred first.
     pub cards: Vec<RoundCard>,
-    /// What the answers agree upon, the surest first.
+    /// Wishes on which the answers agree, with the most certain first.
     pub wishes: Vec<Learned>,
 }
 
 /// The members of `generated` that do not come from the generator.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct GeneratedHead {
-    /// Hash of the user's part that the futures answer.
+    /// Hash of the user's part of the scene, from which the futures were generated.
     pub input_sha256: String,
-    /// The user's part has changed since.
+    /// Whether the user's part has changed since.
     pub stale: bool,
-    /// Expert's name to the hash of its weights.
+    /// Hash of the weights by expert.
     pub weights: BTreeMap<String, String>,
     /// Seed that repeats the answer.
     pub seed: u64,
     /// The request's options as sent, without scene and conditions.
     pub request: Value,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    /// Licence of the answer if it is stricter than that of the scene: the licence of the weights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
     /// RFC 3339 time.

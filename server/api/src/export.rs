@@ -18,7 +18,7 @@ pub struct WrittenFile {
     pub media_type: &'static str,
     /// Extension, with the dot.
     pub extension: String,
-    /// Losses: what the format cannot hold.
+    /// Losses: details that the format cannot hold.
     pub losses: Vec<formats::Loss>,
 }
 

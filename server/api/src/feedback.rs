@@ -24,13 +24,13 @@ const MOST_PLACES: usize = 41;
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeedbackDoc {
-    /// Judged cards, the first round's first, without cards that were neither kept nor rejected.
+    /// Judged cards in the order of the rounds, without cards that were neither kept nor rejected.
     #[schemars(length(max = 200))]
     pub answers: Vec<AnswerDoc>,
     /// Preferences that the user stated.
     #[schemars(length(max = 32))]
     pub wishes: Vec<Wish>,
-    /// Traits to ignore, whatever the verdicts show.
+    /// Traits to ignore, whatever the verdicts are.
     #[schemars(length(max = 32))]
     pub forgotten: Vec<Trait>,
 }
@@ -39,14 +39,14 @@ pub struct FeedbackDoc {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnswerDoc {
-    /// Features of the card, as the reply had them.
+    /// Features of the card, as in the reply.
     pub features: Features,
     /// The user's verdict.
     pub verdict: Verdict,
     /// The reason for the verdict.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub why: Option<Wish>,
-    /// Places of the card, as the reply had them: later rounds have no similar card.
+    /// Positions of the card, as in the reply; later rounds have no similar card.
     #[serde(default)]
     pub places: Members<Vec<[f64; 2]>>,
 }

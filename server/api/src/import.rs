@@ -18,7 +18,7 @@ const AROUND_POINTER: &str = "/query/around";
 pub struct ReadScene {
     /// The scene.
     pub scene: Scene,
-    /// What the reader changed or left out.
+    /// Changes and omissions of the reader.
     pub warnings: Vec<formats::ImportWarning>,
 }
 

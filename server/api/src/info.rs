@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What the program was built for.
+/// Build of the program.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Build")]
 pub struct BuildInfo {
@@ -20,19 +20,19 @@ pub struct BuildInfo {
     pub profile: &'static str,
 }
 
-/// Versions of what programs rely on: each changes only where older programs or files need a change.
+/// Versions of the interfaces: each changes only when older programs or files need a change.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct InterfaceVersions {
-    /// The API: the first part of its addresses, `/v1`.
+    /// The API, the first part of its addresses: `/v1`.
     api: u64,
     /// The scene document.
     scene: u64,
-    /// The file of saved scenes; absent for a program without one.
+    /// The file of saved scenes; absent in a program without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     store: Option<u64>,
 }
 
-/// What this server is and can do.
+/// Description of the server.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Info")]
 pub struct ProgramInfo {
@@ -40,26 +40,26 @@ pub struct ProgramInfo {
     name: &'static str,
     /// Version of the program.
     version: &'static str,
-    /// Versions of what programs rely on.
+    /// Versions of the interfaces.
     versions: InterfaceVersions,
     build: BuildInfo,
-    /// What computes the networks.
+    /// Device that computes the networks.
     device: &'static str,
     /// Experts by name.
     weights: BTreeMap<String, WeightsInfo>,
     /// Weights of placement; null when road users are placed evenly along lanes.
     placement: Option<PlacementInfo>,
-    /// Bounds of the server by name, and those of the scene format.
+    /// Limits of the server and of the scene format, by name.
     limits: BTreeMap<&'static str, Bound>,
-    /// What conditions may ask for.
+    /// Ranges of conditions.
     condition_ranges: ConditionRanges,
-    /// What each kind of road user can do.
+    /// Motion limits of each kind of road user.
     motion_limits: KindLimits,
-    /// What a generation has when the request does not say.
+    /// Defaults of a generation.
     defaults: Defaults,
     /// Formats of files.
     formats: Vec<formats::format::Info>,
-    /// Sentences for people who run the server.
+    /// Notices for the operators of the server.
     notices: Vec<String>,
 }
 

@@ -37,11 +37,11 @@ impl Default for CallLimits {
     }
 }
 
-/// One bound as it is in force.
+/// A bound in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Bound {
-    /// In the unit of the bound's name.
+    /// Value, in the unit of the bound's name.
     pub value: u64,
-    /// What it bounds.
+    /// Description of the bounded quantity.
     pub what: &'static str,
 }

@@ -23,7 +23,7 @@ pub struct MapBody {
     #[serde(default)]
     #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
     pub parameters: Option<AnyDoc>,
-    /// Name of the scene; that of the template when left out.
+    /// Name of the scene. Default: that of the template.
     #[serde(default)]
     #[schemars(length(max = 200))]
     pub name: Option<String>,
@@ -36,20 +36,20 @@ pub struct MapReply {
     pub scene: SceneDoc,
     /// The template with all its parameters.
     pub layout: Layout,
-    /// What was looked at. A check that failed forbids nothing.
+    /// Checks of the map. A failed check is only a notice.
     pub checks: Vec<Check>,
-    /// Where the arms lie, in the order of the parameters.
+    /// Positions of the arms, in the order of the parameters.
     pub arms: Vec<ArmPlace>,
-    /// Where kerbs bend between them.
+    /// Bends of the kerbs between the arms.
     pub corners: Vec<CornerPlace>,
-    /// Ways from lane to lane where roads meet at grade.
+    /// Paths from lane to lane where roads meet at grade.
     pub ways: Vec<JunctionPath>,
 }
 
 /// A template and its own parameters.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct TemplateItem {
-    /// Its name for people.
+    /// Display name.
     pub title: &'static str,
     /// The template with all its parameters.
     #[schemars(with = "Layout")]

@@ -18,29 +18,29 @@ pub struct ProblemMembers {
     /// `detail` as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<Message>,
-    /// All faults that were found in the body or the query.
+    /// All faults found in the body or the query.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(max = 32))]
     pub errors: Option<Vec<FieldProblem>>,
-    /// The bound that was met.
+    /// The limit that caused the refusal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<u64>,
-    /// ETag of the scene as it is stored now.
+    /// ETag of the stored scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub etag: Option<String>,
-    /// When the scene was stored, RFC 3339.
+    /// Time at which the scene was stored, RFC 3339.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub updated_at: Option<String>,
-    /// Seconds after which to ask again, as in Retry-After.
+    /// Time to wait before the next attempt, seconds, as in Retry-After.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_s: Option<u64>,
-    /// The same in milliseconds, more precise.
+    /// The same time in milliseconds, more precise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_ms: Option<u64>,
-    /// Byte of the decoded file.
+    /// Offset in the decoded file, bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset: Option<u64>,
-    /// What the reader of a file found there.
+    /// Fault that the reader of a file found there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Line of the fault, from 1.
@@ -49,19 +49,19 @@ pub struct ProblemMembers {
     /// Column of the fault in bytes, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<usize>,
-    /// The revision that took over.
+    /// The newer revision that replaced this one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_revision: Option<u64>,
     /// The highest revision that the client has sent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub highest_revision: Option<u64>,
-    /// What is not ready.
+    /// Components that are not ready.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failing: Option<Vec<&'static str>>,
-    /// Refinement step at which an expert failed; 0 is the first guess.
+    /// Refinement step at which an expert failed; 0 is the initial draft.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
-    /// Road user that an expert failed for.
+    /// Road user for which an expert failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub agent: Option<String>,
 }

@@ -17,7 +17,7 @@ use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Motion of one road user as columns, one value a step from `first_step`.
+/// Motion of one road user as columns, one value per step from `first_step`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "the names say it")]
@@ -32,7 +32,7 @@ pub struct TrajectoryDoc {
     pub vy_mps: Vec<f64>,
 }
 
-/// What trajectories are compared with.
+/// Motion with which trajectories are compared.
 #[derive(Clone, Debug, JsonSchema)]
 #[schemars(untagged, rename = "Reference")]
 pub enum ReferenceMotion {
@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for ReferenceMotion {
     }
 }
 
-/// The word `log`.
+/// The value `log`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "Log")]
@@ -85,15 +85,15 @@ pub struct ScoreRequest {
     pub scene: Option<SceneDoc>,
     /// A scene of this server.
     pub scene_id: Option<String>,
-    /// With `scene_id`: refuse when the scene has changed.
+    /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
-    /// Motion to score; for the rest the chosen futures, else the log.
+    /// Motion to score, by road user; the others are scored with their chosen future, else with the log.
     pub trajectories: Members<TrajectoryDoc>,
-    /// The log by default.
+    /// Reference; the log by default.
     pub reference: Option<ReferenceMotion>,
     /// `all` or `regenerated`.
     pub pairs: PairChoice,
-    /// Numbers that decide what counts; those absent have their defaults.
+    /// Thresholds; absent ones have their defaults.
     pub thresholds: Thresholds,
 }
 

@@ -14,21 +14,21 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::time::Duration;
 
-/// RFC 9457 problem. Switch on `code`, which never changes.
+/// RFC 9457 problem. Programs switch on `code`, which never changes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Problem", transform = formats::never_null)]
 pub struct ProblemDoc {
     /// Page about the code, relative to this server.
     #[serde(rename = "type")]
     page: String,
-    /// A few words for people, the same for each occurrence.
+    /// Short title, the same for each occurrence.
     title: &'static str,
     /// HTTP status.
     #[schemars(range(min = 400, max = 599))]
     status: u16,
     /// Explanation of this occurrence.
     detail: String,
-    /// The word to switch on.
+    /// Code for programs.
     code: CodeName,
     /// Requested address.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -24,7 +24,7 @@ pub enum Distribution {
         low: f64,
         /// Greatest.
         high: f64,
-        /// Values in a grid, both bounds among them.
+        /// Number of values in a grid, both bounds included.
         points: Option<usize>,
     },
     /// One of these values.
@@ -173,18 +173,18 @@ impl JsonSchema for Distribution {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "A number, or where it is drawn from.",
+            "description": "A number, or the distribution that it is drawn from.",
             "anyOf": [
                 {"type": "number"},
                 {
                     "type": "object",
                     "properties": {
                         "uniform": {
-                            "description": "Even between the least and the greatest value.",
+                            "description": "Uniform between the least and the greatest value.",
                             "type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2
                         },
                         "points": {
-                            "description": "Values in a grid, both bounds among them.",
+                            "description": "Number of values in a grid, both bounds included.",
                             "type": "integer", "minimum": 2, "maximum": MOST_POINTS
                         }
                     },
@@ -195,7 +195,7 @@ impl JsonSchema for Distribution {
                     "type": "object",
                     "properties": {
                         "choice": {
-                            "description": "One of these; a grid takes all.",
+                            "description": "One of these values; a grid takes all.",
                             "type": "array", "items": {"type": "number"}, "minItems": 1, "maxItems": MOST_POINTS
                         }
                     },

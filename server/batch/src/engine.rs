@@ -1,4 +1,4 @@
-//! The work of one unit, by the operations: who acts, the generation, and its row.
+//! The work of one unit: selecting its actors, the generation, and its row.
 
 use crate::case::facts::CaseFacts;
 use crate::case::motion::CaseMotion;
@@ -22,12 +22,12 @@ use scene::{Conditions, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Who acts in a unit, and on what conditions.
+/// The actors of a unit and their conditions.
 #[derive(Default)]
 struct UnitRoles {
     actor: Option<String>,
     other: Option<String>,
-    /// One sentence about a casting.
+    /// Description of the actor's behaviour, one sentence.
     what: Option<String>,
     conditions: BTreeMap<String, ConditionsDoc>,
     /// The scene with the road users of a pattern.
@@ -37,17 +37,17 @@ struct UnitRoles {
 /// The generation of a unit.
 pub struct UnitAnswer {
     roles: UnitRoles,
-    /// What it came to: one sample, scored.
+    /// The answer: one sample, scored.
     pub answer: GenerationAnswer,
 }
 
-/// What came of a unit.
+/// Result of a unit.
 pub struct UnitEnd {
     /// Its row.
     pub row: BatchRow,
     /// Conditions of its request, by road user.
     pub conditions: BTreeMap<String, ConditionsDoc>,
-    /// Its motion, for pictures; none without a result, or where nobody is seen.
+    /// Its motion, for pictures; `None` without a result, or if no road user is visible.
     pub motion: Option<CaseMotion>,
 }
 
@@ -60,7 +60,7 @@ pub struct UnitEngine<'a> {
 }
 
 impl<'a> UnitEngine<'a> {
-    /// For the units of a plan over a catalogue.
+    /// An engine for the units of a plan over a catalogue.
     pub fn new(plan: &'a BatchPlan, scenes: &'a [CatalogueScene], operations: &'a Operations) -> Self {
         // The plan was checked when it was read.
         let filter = plan.filter.as_deref().and_then(|text| FigureFilter::parse(text).ok());
@@ -93,7 +93,7 @@ impl<'a> UnitEngine<'a> {
         })
     }
 
-    /// Is there something to generate? Else the row stays as it is.
+    /// Whether there is something to generate; otherwise the row is final.
     pub fn has_work(&self, unit: &BatchUnit) -> bool {
         let is_scene = self.scenes.get(unit.scene).is_some_and(|entry| entry.problem.is_none());
         let situation = self.plan.situations.get(unit.situation);
@@ -101,7 +101,7 @@ impl<'a> UnitEngine<'a> {
         is_scene && (!names_actor || unit.actor.is_some())
     }
 
-    /// Generates a unit in its scene; `None` where nobody fits.
+    /// Generates a unit in its scene; `None` if no road user fits.
     ///
     /// # Errors
     /// Those of the generation.
@@ -119,7 +119,8 @@ impl<'a> UnitEngine<'a> {
                 request.agents = Some(AgentChoice::Ids(vec![actor.clone()]))
             }
             _ => {
-                // All are generated, those of a pattern without goal too, and nobody is left to react.
+                // All road users are generated, those of a pattern without a goal too, so none is left to
+                // react.
                 request.agents =
                     roles.put.as_ref().map(|_| AgentChoice::Ids(roles.conditions.keys().cloned().collect()));
                 request.react = ReactChoice::Whether(false);
@@ -174,7 +175,7 @@ impl<'a> UnitEngine<'a> {
         Some(UnitRoles { actor: Some(actor.clone()), other, conditions, ..UnitRoles::default() })
     }
 
-    /// Writes what came of a generation into the row of its unit.
+    /// Writes the result of a generation into the row of its unit.
     pub fn end(&self, mut row: BatchRow, answered: Result<Option<UnitAnswer>, Problem>) -> UnitEnd {
         let UnitAnswer { roles, answer } = match answered {
             Ok(Some(answered)) => answered,
@@ -193,7 +194,7 @@ impl<'a> UnitEngine<'a> {
         let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
         row.code = Some(answer.code.clone());
         let goals = roles.conditions.keys().map(|id| goal_word(answer.answer.resolved.get(id)));
-        // Of several road users with goals, one that misses its own decides.
+        // With several goals, one missed goal decides.
         let goal = goals.max_by_key(|word| GOAL_WORDS.iter().position(|known| known == word));
         row.goal = Some(goal.unwrap_or(GOAL_WORDS[0]).to_owned());
         row.reacting = Some(reacting as u64);
@@ -229,7 +230,7 @@ fn happened(
     Some((CaseMotion::of(&row.unit, input, of, pair.as_ref()), pair))
 }
 
-/// Has a road user a goal that was requested?
+/// Whether a road user has a requested goal.
 pub fn has_goal(resolved: &Resolved) -> bool {
     let asked = |field: Field| matches!(field.from, Source::User | Source::Relation);
     let goal = &resolved.goal;
@@ -237,7 +238,7 @@ pub fn has_goal(resolved: &Resolved) -> bool {
     is_unplaced || asked(goal.x_m) || asked(goal.speed_mps) || asked(goal.heading_rad)
 }
 
-/// What [`goal_word`] gives.
+/// The values of [`goal_word`].
 const GOAL_WORDS: [&str; 3] = ["none", "met", "missed"];
 
 /// Whether the goal of a road user is met, in one word, for tables.

@@ -1,4 +1,4 @@
-//! An index of recordings: what each moving road user does, as a table by which queries select scenes.
+//! An index of recordings: a table of moving road users, by which queries select scenes.
 
 use crate::case::facts::{self, CaseFacts, RecordedFacts};
 use formats::columnar::{self, Column, ColumnValues};

@@ -1,4 +1,4 @@
-//! Latin hypercube samples: a range is cut into as many strata as there are draws, with one draw in each.
+//! Latin hypercube samples: a range is divided into as many strata as there are draws, with one draw in each.
 
 use scene::random::Key;
 

@@ -1,4 +1,4 @@
-//! Scenes of a plan that are maps with road users placed on them.
+//! Scenes of a plan that are built from maps with placed road users.
 
 use crate::fault::PlanFault;
 use crate::names::hint;
@@ -15,14 +15,14 @@ use std::sync::LazyLock;
 /// Most scenes of one map.
 const MOST_SCENES: u64 = 100_000;
 
-/// Maps that are filled with road users, a number of times.
+/// Maps that are filled with road users, each a number of times.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BatchMap {
-    /// Begins the names of the scenes. Default: the template's name, or that of the file.
+    /// Prefix of the scene names. Default: the name of the template or of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Files, folders and patterns, relative to the folder of the plan. Their road users are left out.
+    /// Files, folders and patterns, relative to the folder of the plan. Their road users are removed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
     /// Template of maps, in place of files. `dragtraffic map --list` prints them.
@@ -32,19 +32,19 @@ pub struct BatchMap {
     /// Parameters of the template, by name.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pub parameters: Map<String, Value>,
-    /// Road users for each kilometre of lane; 12 where there is no `count`.
+    /// Road users per kilometre of lane; 12 without `count`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 200.0))]
     pub per_lane_km: Option<f64>,
-    /// Road users in all.
+    /// Total number of road users.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 256))]
     pub count: Option<u64>,
-    /// Share of the parking places that are taken.
+    /// Share of the parking places that are occupied.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub parked_share: Option<f64>,
-    /// Scenes of each map.
+    /// Number of scenes per map.
     #[schemars(range(min = 1, max = 100000))]
     pub scenes: u64,
     /// Seed of the first scene; each scene has the next one.

@@ -1,4 +1,4 @@
-//! The plan of a batch: what a user writes.
+//! The plan of a batch, as a user writes it.
 
 use crate::draws;
 use crate::fault::{PlanFault, document};
@@ -30,7 +30,7 @@ const MOST_SITUATIONS: usize = 1_000;
 /// Most units in a chunk.
 const MOST_IN_CHUNK: u64 = 100_000;
 
-/// Scenes x situations x draws x seeds, and what is kept of the results.
+/// Scenes x situations x draws x seeds, and a condition on the results to keep.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "DragTraffic batch plan")]
@@ -38,26 +38,26 @@ pub struct BatchPlan {
     /// Files, folders and patterns such as `logs/**/*.json`, in any format; relative to the folder of the plan.
     #[serde(default)]
     pub scenes: Vec<String>,
-    /// Maps that are filled with road users; their scenes follow those of the files.
+    /// Maps to fill with road users; their scenes follow those of the files.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub maps: Vec<BatchMap>,
-    /// What happens in each scene. Without one, all road users are generated freely.
+    /// Situations in each scene. Without one, all road users are generated freely.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub situations: Vec<BatchSituation>,
-    /// A count from 0 on, or a list. Each draw is generated once for each seed.
+    /// A count (seeds from 0 on), or a list. Each draw is generated once per seed.
     #[serde(default)]
     pub seeds: BatchSeeds,
-    /// Keep only results that satisfy this condition, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search
-    /// looks for them.
+    /// Condition on the results to keep, such as `actor.min_ttc_s < 1.5 && collisions == 0`. A search looks for
+    /// them.
     #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<String>,
-    /// How the numbers of a situation are chosen.
+    /// Method by which the numbers of a situation are chosen.
     #[serde(default)]
     pub sampling: BatchSampling,
     /// Options of every generation.
     #[serde(default)]
     pub generate: BatchOptions,
-    /// Units in a chunk, the part of the work that is written at once.
+    /// Number of units per chunk, the part of the work that is written at once.
     #[serde(default = "chunk_units")]
     #[schemars(range(min = 1, max = 100000))]
     pub chunk_units: u64,
@@ -154,7 +154,7 @@ pub struct BatchOptions {
     /// Replan interval, seconds: 3, 6 or 9.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replan_interval_s: Option<f64>,
-    /// Futures that are planned for each road user.
+    /// Number of futures planned for each road user.
     #[schemars(range(min = 1, max = 6))]
     pub modes: u64,
     /// Scale of the noise, which makes seeds differ.

@@ -7,7 +7,7 @@ use scene::routes::LaneGraph;
 use scene::{Agent, STEP_S, Start, State, wrap_angle};
 use std::f64::consts::FRAC_PI_2;
 
-/// Least time from the start to a goal, seconds: a step of the recording before it says nothing.
+/// Least time from the start to a goal, seconds: an earlier recorded state carries no information.
 const LEAST_S: f64 = 0.5;
 /// Greatest shift of the time of a recorded goal, seconds.
 pub const MOST_SHIFT_S: f64 = 20.0;
@@ -38,13 +38,13 @@ fn pushed(state: &State, of: &dyn Fn(&str) -> Option<f64>) -> State {
 }
 
 impl<'a> RecordedMotion<'a> {
-    /// Of a road user, from a step of the scene on for so many seconds.
+    /// The recording of a road user from a step of the scene on, for this many seconds.
     pub fn new(agent: &'a Agent, graph: &'a LaneGraph, start_step: usize, horizon_s: f64) -> Self {
         Self { agent, graph, start_step, end_s: start_step as f64 * STEP_S + horizon_s }
     }
 
-    /// The recorded state at the time of the goal, or the last one before it, pushed by the drawn numbers. `None` where
-    /// the recording ends with the start, or the shifted time is not one of those that are generated.
+    /// The recorded state at the time of the goal, or the last one before it, shifted by the drawn numbers. `None` if
+    /// the recording ends with the start, or the shifted time is not generated.
     pub fn goal(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<GoalDoc> {
         let asked = (of("goal.time_s").unwrap_or(self.end_s) / STEP_S).round() as usize;
         let step = self.agent.track.valid_steps().take_while(|step| *step <= asked).last()?;
@@ -146,7 +146,7 @@ mod tests {
         near(goal.heading_rad, FRAC_PI_2);
         near(goal.speed_mps, 2.5);
         near(goal.time_s, 4.0);
-        // The recording ends after 4 s, before the end of what is generated.
+        // The recording ends after 4 s, before the end of the generated time.
         let last = recording.goal(&|_| None).unwrap();
         near(last.y_m, 20.0);
         near(last.time_s, 4.0);

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
 
-/// How a unit ended.
+/// Outcome of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnitOutcome {
@@ -64,7 +64,7 @@ pub struct BatchRow {
     pub outcome: UnitOutcome,
     /// Why it failed.
     pub problem: Option<UnitProblem>,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     pub code: Option<String>,
     /// Whether the goal of the actor is met: met, missed, none.
     pub goal: Option<String>,
@@ -72,7 +72,7 @@ pub struct BatchRow {
     pub reacting: Option<u64>,
     /// What the actor does, in one sentence.
     pub what: Option<String>,
-    /// How far the result is from the condition of the plan; 0 if it holds.
+    /// Distance of the result from the condition of the plan; 0 if it holds.
     pub miss: Option<f64>,
     /// Figures of the score by name.
     pub figures: BTreeMap<String, f64>,
@@ -86,7 +86,7 @@ pub struct BatchRow {
 pub struct KeptCase {
     /// Id of the unit.
     pub unit: String,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     pub code: String,
     /// Hash of the scene.
     pub scene: String,

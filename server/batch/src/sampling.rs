@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 /// Most draws of one situation for one road user.
 pub const MOST_DRAWS: u64 = 1_000_000;
 
-/// How the numbers of a situation are chosen.
+/// Method by which the numbers of a situation are chosen.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BatchSampling {
     /// A grid takes every combination; the other methods take `draws` draws.
     pub method: SamplingMethod,
-    /// Draws for each scene, situation and road user; tries of each search.
+    /// Draws per scene, situation and road user; tries per search.
     #[schemars(range(min = 1, max = 1000000))]
     pub draws: u64,
     /// Seed of the draws.
@@ -28,7 +28,7 @@ impl Default for BatchSampling {
     }
 }
 
-/// How the numbers of a situation are chosen.
+/// Method by which the numbers of a situation are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SamplingMethod {
@@ -40,7 +40,7 @@ pub enum SamplingMethod {
     LatinHypercube,
     /// Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
     Sobol,
-    /// Tries that come nearer to `where`: CMA-ES over the ranges, for each seed of its own.
+    /// Search for results that satisfy `where`: CMA-ES over the ranges, separately for each seed.
     Search,
 }
 

@@ -29,7 +29,7 @@ enum SchemaOf {
     Scene,
     /// Plan of a batch.
     Batch,
-    /// Pattern of the road with road users.
+    /// Pattern: a road with road users.
     Pattern,
 }
 

@@ -23,7 +23,7 @@ pub struct HealthArgs {
     /// listens, by its variables and the file of DRAGTRAFFIC_CONFIG.
     #[arg(value_name = "URL")]
     server: Option<String>,
-    /// Ask whether the process answers (/healthz), in place of whether it takes work (/readyz).
+    /// Check whether the process answers (/healthz), instead of whether it accepts work (/readyz).
     #[arg(long)]
     alive: bool,
     /// Longest time to connect, and to wait for the reply, seconds.

@@ -90,10 +90,10 @@ enum Command {
     /// Reproduce results of a batch from their references: scenes with futures, byte for byte.
     #[command(after_help = examples!("dragtraffic replay out/ S63D1R -o scene.json", "dragtraffic replay out/ --kept -o cases/"))]
     Replay(batch::ReplayArgs),
-    /// Make a table of what moving road users do in recorded scenes, to choose scenes by.
+    /// Write a table of the moving road users in recorded scenes, to select scenes.
     #[command(after_help = examples!("dragtraffic index logs/ -o index.parquet", "dragtraffic index 'logs/**/*.tfrecord*' -o index.parquet --force"))]
     Index(index::IndexArgs),
-    /// Tag what happens in recorded scenes: near misses, cut-ins, hard braking, red lights and the like.
+    /// Tag events in recorded scenes: near misses, cut-ins, hard braking, red-light violations and the like.
     #[command(after_help = examples!("dragtraffic mine logs/ -o events.parquet", "dragtraffic mine 'logs/**/*.tfrecord*' --json"))]
     Mine(mine::MineArgs),
     /// Find the places of maps where a pattern fits, and make a scene for each.
@@ -123,7 +123,7 @@ enum Command {
     /// Write every saved scene of a store as a file.
     #[command(after_help = examples!("dragtraffic export-all -o scenes/", "dragtraffic export-all scenes.sqlite -o scenes/ --format openscenario"))]
     ExportAll(export_all::ExportAllArgs),
-    /// Ask a running server whether it works: exit code 0 or 1.
+    /// Check whether a running server works: exit code 0 or 1.
     #[command(after_help = examples!("dragtraffic health", "dragtraffic health http://127.0.0.1:9090 --timeout 2"))]
     Health(health::HealthArgs),
     /// Check whether this machine has what the server needs.

@@ -86,7 +86,7 @@ pub struct ServeArgs {
     /// Address such as 127.0.0.1:9090 that answers /healthz, /readyz and /metrics without token.
     #[arg(long, env = "DRAGTRAFFIC_OPS_ADDRESS", value_name = "IP:PORT")]
     pub(super) ops_address: Option<String>,
-    /// Port of 127.0.0.1 for AlpaSim's TrafficService over gRPC; 0 takes a free port. It has no tokens: every process of
+    /// Port on 127.0.0.1 for AlpaSim's TrafficService over gRPC; 0 takes a free port. It has no tokens: every process on
     /// this machine may call it.
     #[arg(long, env = "DRAGTRAFFIC_GRPC", value_name = "PORT")]
     pub(super) grpc: Option<u16>,

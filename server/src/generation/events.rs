@@ -35,14 +35,14 @@ pub struct Envelope<'a, T: EventBody> {
     /// Type of the event.
     #[schemars(schema_with = "names::<T>")]
     pub event: &'static str,
-    /// Rises by one an event; a gap shows events that were dropped for a slow reader.
+    /// Increases by one per event; a gap marks events that were dropped for a slow reader.
     pub seq: u64,
     /// Id of the job.
     pub job: &'a str,
-    /// Revision of the request, when it had one.
+    /// Revision of the request, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub revision: Option<u64>,
-    /// Since the request was read, milliseconds.
+    /// Time since the request was read, milliseconds.
     pub elapsed_ms: f64,
     /// Body of the event.
     #[serde(flatten)]
@@ -55,7 +55,7 @@ pub struct Envelope<'a, T: EventBody> {
 pub struct AcceptedBody {
     #[serde(flatten)]
     accepted: Accepted,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     queue_position: usize,
 }
 
@@ -70,7 +70,7 @@ impl AcceptedBody {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Error")]
 pub struct ErrorBody {
-    /// Problem that a refusal before the stream would have returned.
+    /// The problem, as a refusal before the stream returns it.
     problem: ProblemDoc,
 }
 
@@ -85,11 +85,11 @@ impl ErrorBody {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Superseded")]
 pub struct SupersededBody {
-    /// The newer one.
+    /// The newer revision.
     pub by_revision: u64,
 }
 
-/// A sign of life between events, only in NDJSON: SSE has comments for it.
+/// Keep-alive between events, only in NDJSON; SSE uses comments.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "HeartbeatEvent")]
 pub struct Heartbeat {
@@ -139,10 +139,10 @@ macro_rules! names {
 }
 
 names! {
-    AcceptedBody "accepted" "First event: what will be done.";
+    AcceptedBody "accepted" "First event: the planned work.";
     FinalBody "final" "Last event of a call that succeeded: the answer.";
     ErrorBody "error" "Last event of a call that failed or was cancelled.";
-    SupersededBody "superseded" "Last event of a call that a newer revision of its client took over.";
+    SupersededBody "superseded" "Last event of a call that a newer revision of its client replaced.";
 }
 
 impl EventBody for DraftBody {

@@ -20,11 +20,11 @@ use work::JobKind;
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "SearchAccepted")]
 pub struct SearchAcceptedBody {
-    /// Most tries that are made.
+    /// Maximum number of tries.
     tries: u64,
     /// Paths of the numbers that are varied.
     varied: Vec<String>,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     queue_position: usize,
 }
 
@@ -55,7 +55,7 @@ pub struct SearchFinalBody {
 
 impl EventBody for SearchAcceptedBody {
     const NAMES: &'static [&'static str] = &["accepted"];
-    const ABOUT: &'static str = "First event: what will be tried.";
+    const ABOUT: &'static str = "First event: the extent of the search.";
 }
 
 impl EventBody for SearchTriedBody {

@@ -245,7 +245,7 @@ fn is_id(name: &str) -> bool {
     (1..=64).contains(&name.len()) && name.chars().all(|c| c.is_ascii_alphanumeric() || "_.:-".contains(c))
 }
 
-/// The lights of the scene, within its new duration.
+/// The signals of the scene, within its new duration.
 fn signals(signals: &[Signal], steps: usize) -> Vec<Signal> {
     let within = |signal: &Signal| {
         let runs: Vec<_> = signal.runs.iter().copied().filter(|(first, _)| *first < steps).collect();

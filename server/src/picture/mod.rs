@@ -1,4 +1,4 @@
-//! Pictures of scenes as PNG: roads, lights, road users with their ids, chosen futures, goals, and a scale.
+//! Pictures of scenes as PNG: roads, signals, road users with their ids, chosen futures, goals, and a scale.
 //!
 //! Equal scenes give equal bytes: text uses built-in letters, no font of the machine.
 

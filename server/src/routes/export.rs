@@ -30,10 +30,10 @@ const FILE_BYTES: u64 = 40 << 20;
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub struct ExportParams {
-    /// A name of the formats table.
+    /// Id of the format.
     #[param(default = "dragtraffic")]
     format: String,
-    /// Which sample of the generated futures; the chosen one when absent.
+    /// Sample of the generated futures; the chosen one when absent.
     sample: Option<usize>,
     /// `chosen` futures, or only the `log`.
     #[param(default = "chosen", value_type = String, pattern = "^(chosen|log)$")]

@@ -12,13 +12,13 @@ use serde::Serialize;
 use std::sync::atomic::Ordering;
 use work::PoolLane;
 
-/// Health of the server in a word, for its operators.
+/// Health of the server in one word, for its operators.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HealthStatus {
     /// The process answers.
     Ok,
-    /// It takes work.
+    /// It accepts work.
     Ready,
 }
 
@@ -39,9 +39,10 @@ pub async fn healthz() -> axum::Json<Health> {
     axum::Json(Health { status: HealthStatus::Ok })
 }
 
-/// Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer, and
-/// a worker is free of calls that have ended, for long calls and for those in the background. `failing` lists those of
-/// `experts`, `store`, `queue`, `workers`, `readers`, `long-workers`, `background-workers` and `data` that fail.
+/// Checks whether the server accepts work. Experts are loaded, the store reads and writes, the queue has room, and
+/// workers, readers and the data folder respond. For long calls and for background calls, at least one worker is not
+/// blocked by a call that has ended. `failing` lists those of `experts`, `store`, `queue`, `workers`, `readers`,
+/// `long-workers`, `background-workers` and `data` that fail.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "server",
     responses((status = 200, description = "ready for work", body = ref("#/components/schemas/Health")),
         NotYet))]

@@ -1,4 +1,4 @@
-//! `/v1/info`: what this server is and can do.
+//! `/v1/info`: description of the server.
 
 use crate::app::App;
 use crate::scenes::store::SCHEMA;

@@ -7,9 +7,9 @@ use axum::http::StatusCode;
 
 refusals!(Refused: CHANGES, NotFound);
 
-/// Cancels a generation of the same caller (user, token or address); an id that is not under way is nothing to do.
+/// Cancels a generation of the same caller (user, token or address). An id without a running or queued job is no error.
 #[utoipa::path(delete, path = "/v1/jobs/{job}", operation_id = "cancelJob", tag = "generate",
-    params(("job" = String, Path)), responses((status = 204, description = "not under way any more"), Refused))]
+    params(("job" = String, Path)), responses((status = 204, description = "no longer running"), Refused))]
 pub async fn cancel(State(app): State<App>, connection: Connection, Id(job): Id) -> StatusCode {
     app.pool.cancel(connection.party, &job);
     StatusCode::NO_CONTENT

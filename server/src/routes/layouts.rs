@@ -16,7 +16,7 @@ refusals!(Refused: CHANGES BODY WORK);
 refusals!(Unread:);
 
 /// Draws a map from a template and its parameters: lanes with links, neighbours and boundaries, kerbs, crosswalks,
-/// stop signs, lights over nine seconds. Stores nothing.
+/// stop signs, signals over nine seconds. Stores nothing.
 #[utoipa::path(post, path = "/v1/map", operation_id = "makeMap", tag = "maps",
     request_body(content = ref("#/components/schemas/MapBody"), content_type = "application/json",
         example = json!({"template": "four-arms", "parameters": {"kerb_radius_m": 6.0, "control": "equal"}})),

@@ -19,11 +19,11 @@ use serde::Serialize;
 pub struct MapItem {
     /// Content hash, 64 hex digits.
     sha256: String,
-    /// Size of its JSON.
+    /// Size of its JSON, bytes.
     bytes: u64,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     polylines: u64,
-    /// Points of them all.
+    /// Total number of their points.
     points: u64,
 }
 
@@ -50,7 +50,7 @@ pub async fn list(OwnCatalog(catalog): OwnCatalog) -> Result<axum::Json<MapList>
     Ok(axum::Json(MapList { maps: maps.collect() }))
 }
 
-/// Reads a map. It never changes, so it may be kept for ever.
+/// Reads a map. It never changes, so it may be cached for ever.
 #[utoipa::path(get, path = "/v1/maps/{sha256}", operation_id = "readMap", tag = "maps",
     params(("sha256" = String, Path)),
     responses((status = 200, description = "the map", body = ref("#/components/schemas/Map"),

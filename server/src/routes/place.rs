@@ -17,9 +17,9 @@ const PLACE_COST: Duration = Duration::from_millis(50);
 
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 
-/// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-/// cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m
-/// apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
+/// Places road users on a map: vehicles on lanes, pedestrians on crosswalks and pavements, cyclists on cycle
+/// lanes or on the right, traffic that enters by the arms at a rate, and parked cars. Boxes are at least 0.1
+/// m apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
 #[utoipa::path(post, path = "/v1/place", operation_id = "place", tag = "generate",
     request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json",
         example = json!({
@@ -27,7 +27,7 @@ refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
             "types": {"vehicle": 0.7, "pedestrian": 0.2, "cyclist": 0.1},
             "region": {"circle": {"x_m": 0.0, "y_m": 0.0, "radius_m": 60.0}},
         })),
-    responses((status = 200, description = "what was placed", body = ref("#/components/schemas/PlaceReply")),
+    responses((status = 200, description = "result of the placement", body = ref("#/components/schemas/PlaceReply")),
         Refused))]
 pub async fn place(
     State(app): State<App>,

@@ -30,9 +30,9 @@ const STEP_COST: Duration = Duration::from_millis(10);
 
 refusals!(Unbegun: CHANGES BODY SCENE SCENE_REF STORE WORK, TooManyRuns, NonFiniteOutput);
 
-/// Begins a run in a scene, or takes one up from a snapshot. The client drives the road users in `egos`; the server
-/// drives all others from step to step. They know what has happened and what egos announce. The run is kept in memory
-/// and forgotten when it is not used for `idle_s`.
+/// Begins a run in a scene, or continues one from a snapshot. The client drives the road users in `egos`; the server
+/// drives all others from step to step, with knowledge of the past and of the plans that egos announce. The run is
+/// kept in memory and deleted after `idle_s` without use.
 #[utoipa::path(post, path = "/v1/runs", operation_id = "beginRun", tag = "runs",
     request_body(content = ref("#/components/schemas/RunBody"), content_type = "application/json",
         example = json!({"scene_id": "demo-crossing", "egos": ["5"], "seed": 7})),
@@ -59,9 +59,9 @@ pub async fn begin(
 
 refusals!(Unseen: WORK, NotFound, NotAcceptable);
 
-/// Says how a run is: who is where, how long it may go on, when it was used. By Accept, NDJSON or SSE follow it: the run
-/// first, then each step as it is made, until the run is forgotten. Looking at a run and following it are no use of it,
-/// and change nothing.
+/// Returns the state of a run: the current states, the remaining steps, the time since its last use. With NDJSON or SSE
+/// in Accept, the reply follows the run: first the run, then each step, until the run is deleted. Reading or following a
+/// run does not count as use and changes nothing.
 #[utoipa::path(get, path = "/v1/runs/{id}", operation_id = "readRun", tag = "runs",
     params(("id" = String, Path)),
     responses((status = 200, description = "the run", content(
@@ -91,7 +91,7 @@ pub async fn read(
 
 refusals!(Unshown: WORK, NotFound);
 
-/// Gives the scene of a run as it was when the run began.
+/// Returns the scene of a run as it was when the run began.
 #[utoipa::path(get, path = "/v1/runs/{id}/scene", operation_id = "readRunScene", tag = "runs",
     params(("id" = String, Path)),
     responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene")), Unshown))]
@@ -104,15 +104,15 @@ pub async fn scene(State(app): State<App>, connection: Connection, Id(id): Id) -
 
 refusals!(Unstepped: CHANGES BODY WORK, NotFound, StepOrder, UnknownAgent, NonFiniteOutput);
 
-/// Makes a step: the egos are where the body says, all others go on, and answer to what they see then. Steps are
-/// numbered from 1 on. The last number again gives the same reply again, whatever its body, so that a lost reply can be
-/// asked for; any other number than the next one is refused (`step-order`).
+/// Makes a step: the egos take the states of the body, and all others move on and react to them. Steps are numbered
+/// from 1. Repeating the last number returns the same reply, whatever the body, so that a client can recover a lost
+/// reply; any other number than the next one is refused (`step-order`).
 #[utoipa::path(post, path = "/v1/runs/{id}/step", operation_id = "stepRun", tag = "runs",
     params(("id" = String, Path)),
     request_body(content = ref("#/components/schemas/StepBody"), content_type = "application/json",
         example = json!({"number": 1, "egos": [
             {"id": "5", "x_m": 1.8, "y_m": -20.0, "heading_rad": 1.57, "vx_mps": 0.0, "vy_mps": 8.0}]})),
-    responses((status = 200, description = "what the step came to", body = ref("#/components/schemas/StepReply")),
+    responses((status = 200, description = "result of the step", body = ref("#/components/schemas/StepReply")),
         Unstepped))]
 pub async fn step(
     State(app): State<App>,
@@ -136,8 +136,8 @@ pub async fn step(
 
 refusals!(NoLine: CHANGES, NotFound, UpgradeRequired);
 
-/// A WebSocket for the steps of a run: messages are those of the line for generations, each `body` that of a step. A
-/// client waits for the reply to a step before it sends the next one.
+/// A WebSocket for the steps of a run. Messages have the form of those for generations (`GET /v1/generate`), with
+/// the body of a step as `body`. A client waits for the reply to a step before it sends the next one.
 #[utoipa::path(get, path = "/v1/runs/{id}/step", operation_id = "openRunLine", tag = "runs",
     params(("id" = String, Path)),
     responses((status = 101, description = "the connection is a WebSocket now"), NoLine))]
@@ -158,12 +158,13 @@ pub async fn line(
 
 refusals!(Unpeeked: CHANGES BODY WORK, NotFound, UnknownAgent, NonFiniteOutput);
 
-/// Says what the others would do over the next nine seconds if egos drove these plans. The run does not change.
+/// Predicts the motion of the others over the next nine seconds if the egos drove these plans. The run does
+/// not change.
 #[utoipa::path(post, path = "/v1/runs/{id}/peek", operation_id = "peekRun", tag = "runs",
     params(("id" = String, Path)),
     request_body(content = ref("#/components/schemas/PeekBody"), content_type = "application/json",
         example = json!({"plans": {}})),
-    responses((status = 200, description = "what they would do", body = ref("#/components/schemas/PeekReply")),
+    responses((status = 200, description = "predicted motion", body = ref("#/components/schemas/PeekReply")),
         Unpeeked))]
 pub async fn peek(
     State(app): State<App>,
@@ -182,8 +183,8 @@ pub async fn peek(
 
 refusals!(Unsaved: CHANGES WORK, NotFound);
 
-/// Gives the run as a text that begins another one: in this server or another, now or later. It goes on with the same
-/// bytes as this one.
+/// Returns the run as text, from which another run can begin: on this server or another, now or later. It continues
+/// with the same bytes as this one.
 #[utoipa::path(post, path = "/v1/runs/{id}/snapshot", operation_id = "saveRun", tag = "runs",
     params(("id" = String, Path)),
     responses((status = 200, description = "the run", body = ref("#/components/schemas/SnapshotReply")), Unsaved))]
@@ -199,7 +200,7 @@ pub async fn snapshot(
 
 refusals!(Undeleted: CHANGES, NotFound);
 
-/// Forgets a run.
+/// Deletes a run.
 #[utoipa::path(delete, path = "/v1/runs/{id}", operation_id = "deleteRun", tag = "runs",
     params(("id" = String, Path)), responses((status = 204, description = "forgotten"), Undeleted))]
 pub async fn remove(State(app): State<App>, Id(id): Id) -> Result<StatusCode, Refusal> {

@@ -21,9 +21,9 @@ use work::Caller;
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK, NotAcceptable, Exists);
 
 /// Searches a scene for results that satisfy a condition. Each try draws the numbers of the situation, generates once
-/// and is scored; the numbers of the next tries follow from how near the tries before came. The reply is a stream of
-/// events (NDJSON or SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends
-/// after most of `generate_s` with the tries that it has made; a client that leaves ends it at once. Stores nothing.
+/// and is scored; earlier scores determine the numbers of the next tries. The reply is a stream of events (NDJSON or
+/// SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends after most of
+/// `generate_s` with the tries made so far, or at once when the client disconnects. Stores nothing.
 #[utoipa::path(post, path = "/v1/search", operation_id = "search", tag = "generate",
     request_body(content = ref("#/components/schemas/SearchBody"), content_type = "application/json",
         example = json!({

@@ -5,12 +5,12 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scene as lists show it.
+/// A scene in a list.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SceneItem {
     /// Id of the scene.
     pub id: String,
-    /// For people.
+    /// Display name.
     pub name: String,
     /// With quotes, as in the ETag header.
     pub etag: String,
@@ -23,18 +23,18 @@ pub struct SceneItem {
     pub facts: Facts,
     /// Content hash of the map, 64 hex digits.
     pub map_sha256: String,
-    /// Words to find it by.
+    /// Search terms.
     pub tags: Vec<String>,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
-    /// Size as stored.
+    /// Size in the store, bytes.
     pub bytes: u64,
-    /// Demo scenes and those of the data folder; duplicate one to change it.
+    /// Whether it is read-only, as demo scenes and those of the data folder are; duplicate one to change it.
     pub readonly: bool,
-    /// User whose scene it is, on a server whose scenes have owners.
+    /// Owner of the scene, on a server whose scenes have owners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub owner: Option<String>,
-    /// What others may do with it.
+    /// Rights of other users on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shared: Option<SceneShare>,
 }
@@ -54,15 +54,15 @@ pub struct Counts {
 pub struct Facts {
     /// Road users by type.
     pub counts: Counts,
-    /// Steps of 0.1 s.
+    /// Number of steps of 0.1 s.
     pub steps: usize,
-    /// Format or tool it came from.
+    /// Source: format or tool.
     pub source: String,
     /// Id in the source.
     pub source_id: Option<String>,
     /// Licence of the content.
     pub licence: Option<String>,
-    /// Has generated futures.
+    /// Whether it has generated futures.
     pub generated: bool,
 }
 

@@ -84,7 +84,7 @@ impl JobRequest {
 /// Why a job ends without its result.
 #[derive(Clone, Debug)]
 pub enum Stop {
-    /// A newer revision of the same client took over.
+    /// A newer revision of the same client replaced it.
     Superseded(u64),
     /// A refusal, a failure or a cancellation.
     Problem(Problem),
@@ -125,7 +125,7 @@ pub struct Ticket {
     pub client: Option<(String, u64)>,
     /// Set when the job is stopped.
     pub cancel: Cancel,
-    /// Jobs before this one when it was queued.
+    /// Number of jobs ahead of this one when it was queued.
     pub queue_position: usize,
     asked: Instant,
 }

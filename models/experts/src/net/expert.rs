@@ -30,7 +30,7 @@ pub struct Card {
     pub licence: String,
     /// Data that they were trained on.
     pub trained_on: String,
-    /// Random weights, for tests.
+    /// Whether the weights are random, for tests.
     pub untrained: bool,
     /// Other facts: hash of the records, steps, figures.
     #[serde(default)]

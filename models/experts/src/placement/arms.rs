@@ -20,12 +20,12 @@ const MOST_LEGS: usize = 200;
 /// Distance between the samples of travel time, metres.
 const TIME_STEP_M: f64 = 2.0;
 
-/// A lane by which an arm leads in.
+/// A lane by which an arm enters the map or the region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmLane {
     /// Index into the graph's lanes.
     pub lane: usize,
-    /// Arc length at which it comes in, metres.
+    /// Arc length of the entry, metres.
     pub s_m: f64,
     /// The map begins there, so later arrivals appear at this place.
     pub at_map_edge: bool,
@@ -38,7 +38,7 @@ pub struct Arm {
     pub id: String,
     /// Middle of its lanes at the entry, metres.
     pub position: Vec2,
-    /// Direction in which it leads, radians.
+    /// Driving direction at the entry, radians.
     pub heading_rad: f64,
     /// Its lanes, from right to left.
     pub lanes: Vec<ArmLane>,

@@ -77,7 +77,7 @@ pub struct PlacementModel {
     pub types: BTreeMap<AgentType, TypeModel>,
 }
 
-/// Facts about placement weights.
+/// Description of the placement weights.
 #[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct PlacementInfo {

@@ -27,7 +27,7 @@ pub const MAX_SPEED_MPS: f64 = 40.0;
 pub struct Arrivals {
     /// [`Arm::id`].
     pub arm: String,
-    /// Motor vehicles an hour, all lanes together.
+    /// Motor vehicles per hour, all lanes together.
     pub per_hour: f64,
 }
 
@@ -48,9 +48,9 @@ pub struct ArmTraffic {
     /// Length of its way from the entry to the end line: the first junction, or where the road ends or joins
     /// another, metres.
     pub length_m: f64,
-    /// Most vehicles an hour that its lanes take.
+    /// Capacity of its lanes, vehicles per hour.
     pub most_per_hour: f64,
-    /// Vehicles of its traffic that are there at the start.
+    /// Vehicles of its traffic that are present at the start.
     pub placed: usize,
     /// Vehicles that enter later.
     pub later: usize,
@@ -67,13 +67,13 @@ pub enum Amount {
     Each(BTreeMap<AgentType, usize>),
 }
 
-/// How road users are placed.
+/// Method of placement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlacementMethod {
-    /// By learned rates and distributions.
+    /// Learned rates and distributions.
     Model,
-    /// Even along lanes, at the speed limit: where there are no weights, and to compare with.
+    /// Evenly along lanes, at the speed limit: without weights, and as a baseline.
     LaneSampler,
 }
 

@@ -9,7 +9,7 @@ use scene::{Agent, AgentType, STEP_S, Size, State};
 /// Why a road user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepartureReason {
-    /// The roads of the map end there.
+    /// It left the map.
     LeftTheMap,
     /// It has reached its goal.
     Arrived,

@@ -6,7 +6,7 @@ use scene::judge::{Fault, FaultKind};
 use scene::routes::LaneGraph;
 use scene::{AgentId, AgentType, Size, State, Vec2};
 
-/// A fault and the road user whose it is.
+/// A fault and its road user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFault {
     /// In a collision, the one that drove into the other: its own velocity closes the gap more.

@@ -31,7 +31,7 @@ pub struct Run {
 pub struct RunChange {
     /// The road user.
     pub agent: AgentId,
-    /// What it does, and because of whom.
+    /// What it does, and its cause.
     pub reaction: Reaction,
 }
 
@@ -113,7 +113,7 @@ impl Run {
         self.settings.start_step as f64 * STEP_S + self.elapsed_ms as f64 / 1e3
     }
 
-    /// Steps that may still be made.
+    /// Number of remaining steps.
     pub fn steps_left(&self) -> u64 {
         MOST_RUN_MS.saturating_sub(self.elapsed_ms) / u64::from(self.settings.step_ms)
     }

@@ -195,7 +195,7 @@ impl ParquetTable {
         Err(FieldProblem::new(format!("/{name}"), code::CANNOT_REPRESENT, message).into())
     }
 
-    /// Goes to the next row; false at the end.
+    /// Advances to the next row; false at the end.
     ///
     /// # Errors
     /// `malformed-file`.

@@ -19,7 +19,7 @@ const MAX_TAG: usize = 64 << 10;
 /// Most obstacles and planning problems, and most states of them together.
 const MAX_OBSTACLES: usize = 4_096;
 const MAX_STATES: usize = 600_000;
-/// Most references, signs and lights.
+/// Most references, signs and signals.
 const MAX_OTHERS: usize = 200_000;
 /// Most characters of a word or name.
 const MAX_WORD: usize = 200;
@@ -63,7 +63,7 @@ pub(super) struct Sign {
     pub position: Option<Vec2>,
 }
 
-/// A light.
+/// A traffic light.
 #[derive(Debug)]
 pub(super) struct TrafficLight {
     /// Colours with their durations in steps.

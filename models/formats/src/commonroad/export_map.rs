@@ -1,4 +1,4 @@
-//! Writes a lane map as lanelets, signs and lights.
+//! Writes a lane map as lanelets, signs and traffic lights.
 
 use super::words::{INTERSECTION, color, lane_word, marking};
 use crate::loss::{Loss, code};
@@ -31,7 +31,7 @@ pub(super) struct MapElements<'a> {
     /// Signs at which lanes stop.
     stops: Vec<(i64, &'a StopSign)>,
     lights: Vec<(i64, &'a Signal)>,
-    /// Indices into `stops` and `lights` of the signs and lights that a lane obeys.
+    /// Indices into `stops` and `lights` of the signs and traffic lights that a lane obeys.
     obeys: HashMap<&'a str, (Vec<usize>, Vec<usize>)>,
 }
 
@@ -127,7 +127,7 @@ impl<'a> MapElements<'a> {
         own && covers(neighbor.other_range, *last) && neighbor.boundaries.is_empty()
     }
 
-    /// Lanelets, signs and lights.
+    /// Writes lanelets, signs and traffic lights.
     pub fn write(&self, out: &mut Markup) -> io::Result<()> {
         for lane in &self.scene.map.lanes {
             out.check()?;

@@ -1,4 +1,5 @@
-//! CommonRoad scenarios: lanelets, signs and lights with cycles, obstacles with trajectories, planning problems.
+//! CommonRoad scenarios: lanelets, signs and traffic lights with cycles, obstacles with trajectories,
+//! planning problems.
 
 mod document;
 mod export;

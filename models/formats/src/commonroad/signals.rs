@@ -1,4 +1,4 @@
-//! Turns lights with their cycles into signals over the steps of a scene.
+//! Converts traffic lights with their cycles to signals over the steps of a scene.
 
 use super::document::{CommonRoadDocument, TrafficLight};
 use super::map::{Lanes, stop};
@@ -10,7 +10,7 @@ use scene::map::LaneMap;
 use scene::{STEP_S, Signal, SignalState};
 use std::collections::{HashMap, HashSet};
 
-/// A signal for each lane that a light controls, over `steps` steps from step `first` of the file.
+/// A signal for each lane that a traffic light controls, over `steps` steps from step `first` of the file.
 pub(super) fn signals(
     document: &CommonRoadDocument,
     (map, lanes): (&LaneMap, &Lanes),
@@ -31,7 +31,7 @@ pub(super) fn signals(
             if runs.is_empty() {
                 continue;
             }
-            // A light for a turn controls the ways through the junction with that turn.
+            // A traffic light for a turn controls the paths through the junction with that turn.
             let next =
                 lanelet.successors.iter().filter(|next| turns.get(next).is_some_and(|t| covers(light, t)));
             let next: Vec<usize> = next.filter_map(|next| lanes.get(next)?.first().copied()).collect();

@@ -103,7 +103,7 @@ pub(super) const STOP_SIGNS: [&str; 3] = ["206", "R1-1", "r2"];
 /// Signal state of a colour.
 pub(super) fn signal_state(color: &str) -> Option<SignalState> {
     Some(match color {
-        // A light in red-yellow still forbids crossing the stop line.
+        // Red-yellow still forbids crossing the stop line.
         "red" | "redYellow" => SignalState::Stop,
         "yellow" => SignalState::Caution,
         "green" => SignalState::Go,

@@ -45,13 +45,13 @@ impl Format for Page {
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
         let scene = one_scene(scenes)?;
-        // In one pass: what a scene is called may look like a place to fill.
+        // Placeholders are replaced in one pass, because the name of a scene may look like one.
         let (head, rest) = PAGE.split_once("{{name}}").unwrap_or((PAGE, ""));
         let (before_style, rest) = rest.split_once("{{style}}").unwrap_or((rest, ""));
         let (before_scene, rest) = rest.split_once("{{scene}}").unwrap_or((rest, ""));
         let (before_player, foot) = rest.split_once("{{player}}").unwrap_or((rest, ""));
         let name = if scene.name.is_empty() { "Scene" } else { &scene.name };
-        // Inside a script nothing may look like markup.
+        // `<` is escaped, so that no text in the script looks like markup.
         let data = played(scene, options.motion).to_string().replace('<', "\\u003c");
         let parts =
             [head, &escaped(name), before_style, STYLE, before_scene, &data, before_player, PLAYER, foot];
@@ -64,17 +64,17 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Centimetres: what a picture needs, and no more.
+/// Rounds to centimetres, which is enough for a picture.
 fn short(value: f64) -> f64 {
     (value * 1e2).round() / 1e2 + 0.0
 }
 
-/// x and y of points, one after the other.
+/// Coordinates of points as x, y, x, y and so on.
 fn flat<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Vec<f64> {
     points.into_iter().flat_map(|p| [short(p.x), short(p.y)]).collect()
 }
 
-/// All that the page shows.
+/// The scene as JSON for the player of the page.
 fn played(scene: &Scene, motion: ExportedMotion) -> Value {
     let (tracks, steps) = motion.all(scene);
     let map = &scene.map;
@@ -92,7 +92,7 @@ fn played(scene: &Scene, motion: ExportedMotion) -> Value {
         .iter()
         .map(|lane| {
             let kind = match lane.lane_type {
-                // Across a junction a bike lane has no paint of its own.
+                // Within a junction, a cycle lane is drawn like the road.
                 LaneType::BikeLane if !lane.interpolating => "bike",
                 LaneType::Sidewalk => "walk",
                 _ => "road",

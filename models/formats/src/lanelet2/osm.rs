@@ -87,7 +87,7 @@ pub(super) struct Osm {
 ///
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the limits of a file, `cannot-represent` for another kind of
-/// file, `invalid-field` for what is no number, `map-too-large`.
+/// file, `invalid-field` for a value that is not a number, `map-too-large`.
 pub(super) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Osm, ReadError> {
     let near = Near::of(file, chosen)?;
     let mut osm = Osm::default();

@@ -32,7 +32,7 @@ fn subtypes(_: &mut SchemaGenerator) -> Schema {
     ])
 }
 
-/// Recorded states as columns, one value a step from `first_step`.
+/// Recorded states as columns, one value per step from `first_step`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrackDoc {
@@ -128,7 +128,7 @@ impl TrackDoc {
         Track { first_step: self.first_step as usize, states, z_m }
     }
 
-    /// Which of the values count.
+    /// For each step, whether the track has a value.
     fn seen(&self, steps: usize, pointer: &str, problems: &mut Problems) -> Vec<bool> {
         let Some(ranges) = &self.valid else { return vec![true; steps] };
         let mut seen = vec![false; steps];
@@ -164,29 +164,29 @@ fn valid_ranges(track: &Track) -> Vec<[u64; 2]> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AgentDoc {
-    /// Unique in the scene, `[A-Za-z0-9_.:-]{1,64}`.
+    /// Id, unique in the scene, `[A-Za-z0-9_.:-]{1,64}`.
     #[schemars(schema_with = "id")]
     pub id: String,
-    /// Selects expert and motion model; `other` is shown, never regenerated.
+    /// Type, which selects expert and motion model; `other` is shown, but never regenerated.
     #[serde(rename = "type")]
     #[schemars(schema_with = "agent_types")]
     pub agent_type: AgentType,
-    /// Sets default size and limits.
+    /// Finer type, which sets default size and limits.
     #[serde(default)]
     #[schemars(schema_with = "subtypes")]
     pub subtype: Subtype,
     /// Role in the source, such as `ego`.
     #[serde(default)]
     pub role: Option<String>,
-    /// Metres; the subtype's when absent.
+    /// Length, metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub length_m: Option<f64>,
-    /// Metres; the subtype's when absent.
+    /// Width, metres. Default: that of the subtype.
     #[serde(default)]
     #[schemars(range(min = 0.05, max = 60.0))]
     pub width_m: Option<f64>,
-    /// Metres.
+    /// Height, metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub height_m: Option<f64>,
@@ -214,10 +214,11 @@ impl AgentDoc {
         }
     }
 
-    /// The domain's road user. `pointer` is where this document lies, such as `/add_agents/0`.
+    /// Converts to the domain's road user. `pointer` is the JSON pointer of this document, such as
+    /// `/add_agents/0`.
     ///
     /// # Errors
-    /// All faults of its track and conditions. Ids and sizes are left to `Scene::checked`.
+    /// All faults of its track and conditions. `Scene::checked` checks ids and sizes.
     pub fn into_agent(self, pointer: &str) -> Result<Agent, Vec<FieldProblem>> {
         let mut problems = Problems::default();
         let defaults = Size::default_for(self.agent_type, self.subtype);

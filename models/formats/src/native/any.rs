@@ -1,4 +1,4 @@
-//! JSON that is kept as it is: other tools' members, requests, scores.
+//! JSON that is kept unchanged: members of other tools, requests, scores.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -7,11 +7,11 @@ use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Most values (numbers, texts, lists, objects) that are kept as they are: in one member, or in all of a scene's own
-/// members together.
+/// Maximum number of values (numbers, texts, lists, objects) that are kept unchanged: in one member, or in all own
+/// members of a scene together.
 pub const MAX_VALUES: usize = 50_000;
 
-/// Any JSON, kept as it is, up to `MOST` values; repeated member names are refused.
+/// Any JSON, kept unchanged, up to `MOST` values; repeated member names are refused.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct AnyDoc<const MOST: usize = MAX_VALUES>(pub Value);
@@ -39,7 +39,7 @@ impl AnyValues {
     }
 }
 
-/// Builds a value while counting down.
+/// Builds a value and counts down the remaining values.
 pub(super) struct AnyVisitor<'a>(&'a mut AnyValues);
 
 impl<'de> DeserializeSeed<'de> for AnyVisitor<'_> {

@@ -108,7 +108,7 @@ pub struct StartDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -116,7 +116,7 @@ pub struct StartDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub speed_mps: Option<f64>,
-    /// In place of `speed_mps`; fixes a free heading too.
+    /// Velocity in place of `speed_mps`; it also fixes a free heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<VelocityDoc>,
 }
@@ -134,7 +134,7 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: Option<f64>,
-    /// Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub heading_rad: Option<f64>,
@@ -146,7 +146,8 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1500.0, max = 1500.0))]
     pub left_m: Option<f64>,
-    /// Frame `agent`: radians from the start's heading, then wrapped; a request takes at most a turn either way, 6.2832.
+    /// Frame `agent`: radians from the start's heading, wrapped when read; a request may have at most a full
+    /// turn either way, 6.2832.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub turn_rad: Option<f64>,
@@ -154,20 +155,20 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub speed_mps: Option<f64>,
-    /// In place of `speed_mps`; fixes a free heading too.
+    /// Velocity in place of `speed_mps`; it also fixes a free heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity: Option<VelocityDoc>,
     /// Scene time, seconds; the end of the window when free. Snapped to 0.1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.45, max = 80.05))]
     pub time_s: Option<f64>,
-    /// Ids of road edges of the map, such as those of a median, that the road user may drive over: no fault, and no
-    /// reason to go another way.
+    /// Ids of road edges of the map, such as those of a median, that the road user may drive over, without a fault
+    /// and without a detour.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 32))]
     pub may_cross: Vec<String>,
-    /// What the goal is relative to. It replaces place, heading and, where none is fixed, speed; with `after_s` it
-    /// replaces the time.
+    /// Road user that the goal is relative to. The relation replaces position, heading and, where none is fixed,
+    /// speed; with `after_s` it replaces the time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relation: Option<GoalRelationDoc>,
 }
@@ -178,13 +179,13 @@ pub struct GoalDoc {
 #[serde(deny_unknown_fields)]
 #[schemars(transform = one_place)]
 pub struct GoalRelationDoc {
-    /// Id of the other road user. Relations form no ring, and no row of more than four.
+    /// Id of the other road user. Relations form no cycle, and no chain of more than four.
     pub to: String,
-    /// Gap from the front of the other one to the own rear, along the lanes, metres.
+    /// Gap from the front of the other one to the rear of this road user, along the lanes, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 500.0))]
     pub ahead_m: Option<f64>,
-    /// Gap from the own front to the rear of the other one, along the lanes, metres.
+    /// Gap from the front of this road user to the rear of the other one, along the lanes, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 500.0))]
     pub behind_m: Option<f64>,
@@ -192,23 +193,25 @@ pub struct GoalRelationDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 20.0))]
     pub behind_s: Option<f64>,
-    /// The goal's own place is reached so many seconds after the other one was nearest to it; negative is before.
+    /// Seconds from the moment when the other one is nearest to the goal's position until the goal is
+    /// reached; negative is before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -30.0, max = 30.0))]
     pub after_s: Option<f64>,
-    /// How much slower than the other one, m/s; negative is faster. Not with `after_s`; 0 when free.
+    /// Speed difference to the other one, m/s: positive is slower, negative is faster. Not with `after_s`; 0
+    /// when free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -60.0, max = 60.0))]
     pub slower_mps: Option<f64>,
-    /// Lanes to the left of the other one's lane in its direction; negative is to the right. Not with `after_s`; 0 when
-    /// free.
+    /// Number of lanes to the left of the other one's lane, in its direction; negative is to the right. Not with
+    /// `after_s`; 0 when free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -4, max = 4))]
     pub lanes_left: Option<i32>,
 }
 
 impl GoalRelationDoc {
-    /// Its places as given, in the order of [`PLACES`].
+    /// Its members named in [`PLACES`], in that order.
     pub(super) fn places(&self) -> [Option<f64>; PLACES.len()] {
         [self.ahead_m, self.behind_m, self.behind_s, self.after_s]
     }
@@ -233,7 +236,7 @@ impl From<&GoalRelation> for GoalRelationDoc {
     }
 }
 
-/// A place that a road user passes on its way.
+/// A via point of a road user.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ViaDoc {
@@ -243,30 +246,30 @@ pub struct ViaDoc {
     /// Box centre, metres, scene frame.
     #[schemars(range(min = -10000.0, max = 10000.0))]
     pub y_m: f64,
-    /// Passed no farther away than this, metres; 1 when absent.
+    /// Greatest distance at which it counts as passed, metres; 1 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.5, max = 5.0))]
     pub tolerance_m: Option<f64>,
-    /// Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
+    /// Scene time at which it is passed, seconds, with a tolerance of half a second; any time if free. Later than
     /// those before it and no later than the goal. Snapped to 0.1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.45, max = 80.05))]
     pub time_s: Option<f64>,
 }
 
-/// All that a user fixes about one road user. A number fixes a field, null or absence frees it.
+/// Conditions of one road user. A number fixes a field; null or absence leaves it free.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConditionsDoc {
-    /// Expert to use in place of the road user's own type's.
+    /// Type whose expert is used in place of the expert of the road user's own type.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "expert_types")]
     pub agent_type: Option<AgentType>,
-    /// Metres.
+    /// Length, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.2, max = 25.0))]
     pub length_m: Option<f64>,
-    /// Metres.
+    /// Width, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.2, max = 4.0))]
     pub width_m: Option<f64>,
@@ -276,7 +279,7 @@ pub struct ConditionsDoc {
     /// Goal fields.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<GoalDoc>,
-    /// Places that it passes on its way, in this order; always in the frame `scene`.
+    /// Via points in the order in which they are passed, always in the frame `scene`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 4))]
     pub via: Vec<ViaDoc>,

@@ -48,7 +48,7 @@ pub struct MetaDoc {
     pub origin: OriginDoc,
     /// Scene that this one is a variant of.
     pub parent_id: Option<String>,
-    /// Words to find it by.
+    /// Search terms.
     #[schemars(length(max = 256))]
     #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub tags: Vec<String>,
@@ -57,10 +57,10 @@ pub struct MetaDoc {
     pub notes: String,
     /// Version of the program that made it.
     pub created_with: Option<String>,
-    /// WOMD's objects of interest, by road user's id.
+    /// WOMD's objects of interest, by road user id.
     #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_AGENTS>")]
     pub objects_of_interest: Vec<String>,
-    /// WOMD's tracks to predict: road user's id and difficulty.
+    /// WOMD's tracks to predict: id of the road user, and difficulty.
     #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_AGENTS>")]
     pub tracks_to_predict: Vec<(String, u32)>,
     /// The source's times of the steps, seconds, when they are not exactly 0.1 s apart from zero.
@@ -89,7 +89,7 @@ fn step_s() -> f64 {
     STEP_S
 }
 
-/// One run of a signal: from this step on, this state.
+/// A run of a signal: its first step and its state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunDoc(pub u64, pub SignalState);
 
@@ -117,12 +117,12 @@ impl JsonSchema for RunDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SignalDoc {
-    /// Lane that obeys it.
+    /// Id of the lane that obeys it.
     pub lane: String,
     /// Stop position.
     #[serde(default)]
     pub stop_m: Option<PointDoc>,
-    /// Run-length states; first steps rise.
+    /// Run-length encoded states, in order of their first steps.
     #[schemars(length(min = 1))]
     #[serde(deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub states: Vec<RunDoc>,
@@ -150,7 +150,7 @@ pub struct SceneDoc {
     /// Set by the server.
     #[serde(default)]
     pub id: Option<String>,
-    /// For people.
+    /// Display name.
     #[serde(default)]
     #[schemars(length(max = 200))]
     pub name: String,
@@ -172,7 +172,7 @@ pub struct SceneDoc {
     /// Futures added by the generator.
     #[serde(default)]
     pub generated: Option<GeneratedDoc>,
-    /// Members under `x_` keys, kept as they are; any other is refused.
+    /// Members under `x_` keys, kept unchanged; any other is refused.
     #[serde(flatten)]
     pub extra: Members<AnyDoc>,
 }
@@ -184,7 +184,7 @@ fn only_x_members(schema: &mut Schema) {
 }
 
 impl SceneDoc {
-    /// The domain's scene. `resolve_map` gives the map of a hash, where it is known.
+    /// Converts to the domain's scene. `resolve_map` returns the map of a known hash.
     ///
     /// # Errors
     /// `unsupported-version`, `unknown-map`, and all faults of fields with their JSON pointers.

@@ -1,5 +1,5 @@
-//! Parsing of the outermost object. Serde's own flatten would keep every member that it does not know in
-//! memory before it could be refused.
+//! Parsing of the outermost object. Serde's flatten would hold every unknown member in memory before it could
+//! be refused.
 
 use super::any::{AnyDoc, AnyValues, MAX_VALUES};
 use super::document::SceneDoc;
@@ -21,7 +21,7 @@ impl<'de> Deserialize<'de> for SceneDoc {
 
 struct SceneVisitor;
 
-/// Fails on whatever value, so that the fault lies at the member's own place.
+/// Fails on any value, so that the fault has the place of the member.
 struct Refused;
 
 impl<'de> Deserialize<'de> for Refused {
@@ -31,7 +31,7 @@ impl<'de> Deserialize<'de> for Refused {
     }
 }
 
-/// Fills a slot once.
+/// Fills a slot; a second value for it is a fault.
 fn once<'de, A: MapAccess<'de>, T: Deserialize<'de>>(
     slot: &mut Option<T>,
     name: &'static str,

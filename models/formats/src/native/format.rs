@@ -1,4 +1,4 @@
-//! The native form as a format among others.
+//! Native scene JSON as an import and export format.
 
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::source::Source;

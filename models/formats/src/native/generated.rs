@@ -12,19 +12,19 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Greatest speed of a future along x and along y, as of a track.
+/// Greatest speed of a future along x and along y, as for a track.
 const MAX_SPEED_MPS: f64 = 150.0;
 
-/// One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
-/// 0.001 m, 0.0001 rad and 0.001 m/s.
+/// One possible motion as columns, one value per step from `first_step`, without gaps. Rounded to 0.001 m,
+/// 0.0001 rad and 0.001 m/s.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FutureDoc {
-    /// Share of belief among the road user's futures.
+    /// Probability among the road user's futures.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub probability: f64,
-    /// Which of the generator's anchors it follows: the same number while a goal is dragged is the same
-    /// idea.
+    /// Index of the generator's anchor that it follows. While a goal is dragged, an equal index means the
+    /// same plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<u32>,
     /// Scene step of the first value: one after the start.
@@ -54,12 +54,12 @@ pub struct FutureDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AgentFuturesDoc {
-    /// Index into `modes` of the one that is shown and exported.
+    /// Index into `modes` of the future that is shown and exported.
     pub chosen: u64,
-    /// By falling probability.
+    /// In order of decreasing probability.
     #[serde(deserialize_with = "bounded::<_, _, 64>")]
     pub modes: Vec<FutureDoc>,
-    /// Why it gave up the motion that it had.
+    /// Why it left its previous motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reaction: Option<Reaction>,
 }
@@ -71,7 +71,7 @@ pub const MAX_SCORE_VALUES: usize = 20_000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleDoc {
-    /// Road user's id to its futures.
+    /// Futures by id of the road user.
     pub agents: Members<AgentFuturesDoc>,
     /// Score as the API gave it.
     #[serde(default)]
@@ -82,12 +82,12 @@ pub struct SampleDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GeneratedDoc {
-    /// Hash of the user's part that these futures answer.
+    /// Hash of the user's part of the scene, from which the futures were generated.
     pub input_sha256: String,
-    /// The user's part has changed since.
+    /// Whether the user's part has changed since.
     #[serde(default)]
     pub stale: bool,
-    /// Expert's name to the hash of its weights.
+    /// Hash of the weights by expert.
     #[serde(default)]
     pub weights: Members<String>,
     /// Seed that repeats the answer, 0 to 2^53 - 1.
@@ -97,10 +97,10 @@ pub struct GeneratedDoc {
     /// The request's options as sent.
     #[serde(default)]
     pub request: AnyDoc,
-    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    /// Licence of the answer if it is stricter than that of the scene: the licence of the weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
-    /// RFC 3339 time; absent where equal calls are to give equal files.
+    /// RFC 3339 time; absent where equal calls must give equal files.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub created_at: String,
     /// Index into `samples`.
@@ -142,7 +142,7 @@ impl FutureDoc {
             problems.invalid(format!("{pointer}/{name}"), unequal_columns(length, steps, "x_m"));
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);
-        // A future may go on a little beyond where a track may be.
+        // A future may go beyond the limit for tracks.
         let far_m = 2.0 * MAX_COORDINATE_M;
         for (name, column, most) in [
             ("x_m", &self.x_m, far_m),

@@ -26,7 +26,7 @@ pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
     parse(|| Ok(Deserializer::from_slice(bytes)))
 }
 
-/// Most bytes of a document that is read into memory first, which is faster.
+/// Most bytes of a document that is read into memory before it is parsed, which is faster.
 const WHOLE_BYTES: u64 = 8 << 20;
 /// Memory for detecting a longer text, and for holding a long one while it is parsed.
 const WHOLE_MEMORY: u64 = 24 << 20;

@@ -24,7 +24,7 @@ fn edge_types(_: &mut SchemaGenerator) -> Schema {
     words(&scene::map::ROAD_EDGE_TYPES)
 }
 
-/// A stretch of a lane's side and the line or edge that bounds it.
+/// A section of a lane's side, with the road line or edge that bounds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundaryDoc {
@@ -60,7 +60,7 @@ pub struct NeighborDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LaneDoc {
-    /// Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`.
+    /// Id, unique among lanes, `[A-Za-z0-9_.:-]{1,64}`.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Kind of lane.
@@ -70,7 +70,7 @@ pub struct LaneDoc {
     /// Centre line in driving direction, at least two points.
     #[schemars(extend("minItems" = 2))]
     pub points_m: PointsDoc,
-    /// Metres; assumed by type when absent.
+    /// Width, metres; assumed by type when absent.
     #[serde(default)]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub width_m: Option<f64>,
@@ -84,7 +84,7 @@ pub struct LaneDoc {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_limit_mps: Option<f64>,
-    /// Ids of lanes that lead here.
+    /// Ids of lanes that lead to this one.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
     pub predecessors: Vec<String>,
     /// Ids of lanes that this one leads to.
@@ -96,7 +96,7 @@ pub struct LaneDoc {
     /// Lanes on the right.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
     pub right_neighbors: Vec<NeighborDoc>,
-    /// Leads through a junction between two lanes.
+    /// Whether it connects two lanes through a junction.
     #[serde(default)]
     pub interpolating: bool,
 }
@@ -105,30 +105,30 @@ pub struct LaneDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadLineDoc {
-    /// Unique among road lines.
+    /// Id, unique among road lines.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case.
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "line_types")]
     pub line_type: String,
-    /// In order.
+    /// Points in order.
     #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }
 
-/// The end of the road's surface.
+/// An edge of the road surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadEdgeDoc {
-    /// Unique among road edges.
+    /// Id, unique among road edges.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case, or `sidewalk`.
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "edge_types")]
     pub line_type: String,
-    /// In order.
+    /// Points in order.
     #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }
@@ -141,7 +141,7 @@ fn unknown() -> String {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AreaDoc {
-    /// Unique among areas of the kind.
+    /// Id, unique among areas of the kind.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
@@ -149,11 +149,11 @@ pub struct AreaDoc {
     pub polygon_m: PointsDoc,
 }
 
-/// A surface that may be driven on.
+/// A drivable surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrivableDoc {
-    /// Unique among drivable areas.
+    /// Id, unique among drivable areas.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
@@ -168,7 +168,7 @@ pub struct DrivableDoc {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StopSignDoc {
-    /// Unique among stop signs.
+    /// Id, unique among stop signs.
     #[schemars(schema_with = "id")]
     pub id: String,
     /// Position of the sign.
@@ -178,7 +178,7 @@ pub struct StopSignDoc {
     pub lanes: Vec<String>,
 }
 
-/// Everything that does not move.
+/// The map of a scene: lanes, lines, edges, areas and stop signs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MapDoc {
@@ -188,7 +188,7 @@ pub struct MapDoc {
     /// Painted lines.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub road_lines: Vec<RoadLineDoc>,
-    /// Ends of the road's surface.
+    /// Edges of the road surface.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub road_edges: Vec<RoadEdgeDoc>,
     /// Crosswalks.
@@ -203,7 +203,7 @@ pub struct MapDoc {
     /// Stop signs.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub stop_signs: Vec<StopSignDoc>,
-    /// Surfaces that may be driven on.
+    /// Drivable surfaces.
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     pub drivable: Vec<DrivableDoc>,
 }
@@ -229,7 +229,7 @@ impl JsonSchema for MapField {
     }
 }
 
-/// Names a map by its content.
+/// Reference to a map by its content hash.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapRef {

@@ -20,7 +20,7 @@ const HEADING_SPEED_MPS: f64 = 0.05;
 const ANGLE_RAD: (f64, f64) = (-1_000.0, 1_000.0);
 const COORDINATE_M: (f64, f64) = (-MAX_COORDINATE_M, MAX_COORDINATE_M);
 
-/// Allowed sizes and speeds of one agent type; both ends are allowed.
+/// Ranges of the sizes and speeds of one agent type; both ends are included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 #[schemars(rename = "ConditionRange")]
 pub struct Ranges {

@@ -157,7 +157,7 @@ impl JsonSchema for PointsDoc {
     }
 }
 
-/// A JSON object of at most [`MAX_MEMBERS`] members whose names may not repeat.
+/// A JSON object of at most [`MAX_MEMBERS`] members with unique names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Members<T>(pub BTreeMap<String, T>);

@@ -1,12 +1,12 @@
-//! Centre lines of lanes: rows of paths of three pieces, each an arc or straight.
+//! Centre lines of lanes: sequences of paths with three pieces, each an arc or straight.
 
 use scene::Vec2;
 use scene::geometry::direction;
 use serde::Deserialize;
 
-/// Distance of points along a line, metres.
+/// Spacing of points along a line, metres.
 const SPACING_M: f64 = 1.0;
-/// Longest piece, and most points of a line.
+/// Greatest length of a piece, metres, and most points of a line.
 const LONGEST_M: f64 = 2_000.0;
 const MAX_POINTS: usize = 20_000;
 
@@ -17,12 +17,13 @@ pub(super) struct ArcPath {
     start_pose: [f64; 3],
     /// Pieces: `L` to the left, `R` to the right, `S` straight.
     shape: String,
-    /// Of all arcs, metres.
+    /// Radius of all arcs, metres.
     radius: f64,
     segment_length: [f64; 3],
 }
 
-/// Points of a row of paths, about 1 m apart; nothing for one with a number that cannot be.
+/// Points of a sequence of paths, about 1 m apart; `None` if a number is not finite, a piece is too long, or
+/// there are too many points.
 pub(super) fn points(paths: &[ArcPath]) -> Option<Vec<Vec2>> {
     let mut line: Vec<Vec2> = Vec::new();
     for path in paths {
@@ -44,7 +45,7 @@ pub(super) fn points(paths: &[ArcPath]) -> Option<Vec<Vec2>> {
             let (from, begins) = (at, heading);
             for i in 1..=steps as usize {
                 let along_m = length_m * i as f64 / steps;
-                // The chord of an arc lies halfway between the headings of its ends.
+                // The direction of an arc's chord is the mean of the headings at its ends.
                 let half = curvature * along_m / 2.0;
                 let chord_m = if half.abs() < 1e-9 { along_m } else { along_m * half.sin() / half };
                 at = from + direction(begins + half) * chord_m;

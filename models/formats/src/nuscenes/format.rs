@@ -1,4 +1,4 @@
-//! nuScenes as users import it.
+//! nuScenes as an import format.
 
 use super::recording::NuScenes;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, only_read};
@@ -6,7 +6,7 @@ use crate::source::Source;
 use scene::Scene;
 use std::io;
 
-/// Tables that only this data set has, by their names in a zip.
+/// Names in a zip of tables that only this data set has.
 const TABLES: [&str; 4] =
     ["calibrated_sensor.json", "ego_pose.json", "sample_annotation.json", "sample_data.json"];
 

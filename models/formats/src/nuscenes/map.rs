@@ -1,4 +1,4 @@
-//! The map expansion: lanes with their connections, crossings, dividers and the ground of vehicles.
+//! The map expansion: lanes with their connections, crosswalks, dividers and drivable areas.
 
 use super::arcs::{self, ArcPath};
 use crate::polyline::{length, ring_area_m2, simplify};
@@ -13,9 +13,9 @@ use scene::map::{Area, Lane, LaneMap, LaneType, Points, TypedLine};
 use serde::Deserialize;
 use std::collections::HashMap;
 
-/// Widths that lanes can have, metres.
+/// Range of lane widths, metres.
 const WIDTHS_M: (f64, f64) = (1.5, 8.0);
-/// Points of lines and areas are kept to this, with pieces no longer than, metres.
+/// Tolerance of simplified lines and areas, and greatest length of their pieces, metres.
 const KEPT_M: (f64, f64) = (0.02, 40.0);
 
 #[derive(Deserialize)]
@@ -47,7 +47,7 @@ struct LineRow {
     node_tokens: Vec<String>,
 }
 
-/// A lane, a crossing or the ground.
+/// A lane, a crosswalk or a drivable area.
 #[derive(Deserialize)]
 struct AreaRow {
     token: String,
@@ -97,7 +97,7 @@ impl Expansion {
             .map_err(|error| ReadError::malformed_json(&error, error.to_string()).under(&format!("/{name}")))
     }
 
-    /// The map about a place of the file.
+    /// The map, with its origin at a position of the file.
     pub fn map(&self, origin: Vec2) -> (LaneMap, Vec<ImportWarning>) {
         let place = |node: &NodeRow| Vec2::new(node.x, node.y) - origin;
         let nodes: HashMap<&str, Vec2> = (self.node.iter())
@@ -159,7 +159,7 @@ impl Expansion {
         for row in self.road_divider.iter().chain(&self.lane_divider) {
             let points = lines.get(row.line_token.as_str()).map(|row| line(&row.node_tokens));
             let Some(points) = points.filter(|points| points.len() > 1) else { continue };
-            // The expansion says where paint divides, not what it looks like.
+            // The expansion has the positions of dividers, not their kind of paint.
             let line_type = "unknown".to_owned();
             map.road_lines.push(TypedLine { id: ids.take(&row.token), line_type, points: points.into() });
         }

@@ -1,7 +1,7 @@
 //! nuScenes: tables of annotations, and its map expansion, as one zip.
 //!
-//! Written after the published schema of the tables and of the map expansion; no file of the data set itself was at
-//! hand.
+//! Implements the published schema of the tables and of the map expansion; it has not been tested with a file of
+//! the data set itself.
 
 mod arcs;
 pub(crate) mod format;

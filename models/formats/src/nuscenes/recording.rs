@@ -1,4 +1,4 @@
-//! From the tables to scenes: road users where they are annotated, the ego where its pose is.
+//! Converts the tables to scenes: road users from the annotations, the ego from its poses.
 
 use super::map::Expansion;
 use super::tables::{SceneRow, Tables};
@@ -14,21 +14,21 @@ use scene::geometry::direction;
 use scene::{AgentType, Meta, Origin, Subtype, Vec2};
 use std::collections::{BTreeMap, HashMap};
 
-/// Memory per byte of the tables until they are scenes, bytes.
+/// Memory for reading the tables as scenes, bytes per byte of the tables.
 const TABLE_MEMORY: u64 = 3;
 /// Licence of the data set.
 const LICENCE: &str = "cc-by-nc-sa-4.0";
-/// The data set's car (Renault Zoe): length, width and height, and how far its middle is ahead of the rear axle, which
-/// its poses are of, metres.
+/// The ego vehicle of the data set (Renault Zoe): length, width and height, and distance from the rear axle, to which
+/// its poses refer, to its centre, metres.
 const EGO_SIZE_M: [f64; 3] = [4.084, 1.730, 1.562];
 const EGO_AHEAD_M: f64 = 1.385;
-/// Seconds of a unit of the tables' times.
+/// Unit of the tables' times, seconds.
 const TICK_S: f64 = 1e-6;
 
 /// The tables and maps of a zip.
 pub(super) struct NuScenes {
     tables: Tables,
-    /// Map expansions by the place of the log.
+    /// Map expansions by location of the log.
     maps: HashMap<String, Expansion>,
     licence: Option<String>,
 }
@@ -114,7 +114,7 @@ impl NuScenes {
         Recording { said, users: all, futures: Vec::new() }
     }
 
-    /// Lays the map of the place under a scene, as far as its road users reach.
+    /// Adds the map of the location to a scene, cut to the reach of its road users.
     fn lay_map(&self, row: &SceneRow, users: &[RecordedAgent], said: &mut Said) {
         let expansion = self.tables.locations.get(&row.log_token).and_then(|place| self.maps.get(place));
         let (Some(expansion), Some((origin, radius_m))) = (expansion, reach(users)) else { return };

@@ -1,4 +1,4 @@
-//! The tables that scenes are made of, row by row; what is not needed is passed over.
+//! Reads the tables of which scenes consist, row by row; unneeded content is skipped.
 
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::refusals::{self, what};
@@ -10,9 +10,9 @@ use std::fmt;
 use std::io::Read;
 use std::marker::PhantomData;
 
-/// Most rows of a table: those of the whole data set, and a third more.
+/// Most rows of a table: a third more than in the whole data set.
 const MAX_ROWS: usize = 4_000_000;
-/// Sensor whose sweep a sample's time and place of the ego are taken from.
+/// Sensor whose sweep has the time of a sample and the pose of the ego.
 const SENSOR: &str = "LIDAR_TOP";
 
 #[derive(Clone, Debug, Deserialize)]
@@ -28,7 +28,7 @@ pub(super) struct SceneRow {
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct SampleRow {
     token: String,
-    /// Microseconds.
+    /// Time, microseconds.
     pub timestamp: i64,
     #[serde(default)]
     pub next: String,
@@ -41,7 +41,7 @@ pub(super) struct AnnotationRow {
     pub translation: [f64; 3],
     /// Width, length and height, metres.
     pub size: [f64; 3],
-    /// w, x, y and z.
+    /// Quaternion: w, x, y and z.
     pub rotation: [f64; 4],
 }
 
@@ -87,13 +87,13 @@ pub(super) struct EgoPoseRow {
 pub(super) struct Tables {
     pub scenes: Vec<SceneRow>,
     pub samples: HashMap<String, SampleRow>,
-    /// By sample.
+    /// Annotations by sample.
     pub annotations: HashMap<String, Vec<AnnotationRow>>,
-    /// Category of an instance.
+    /// Categories by instance.
     pub categories: HashMap<String, String>,
-    /// Places of logs.
+    /// Locations by log.
     pub locations: HashMap<String, String>,
-    /// Pose of the ego of a sample.
+    /// Poses of the ego by sample.
     pub egos: HashMap<String, EgoPoseRow>,
 }
 
@@ -158,12 +158,12 @@ impl Tables {
         Ok(())
     }
 
-    /// Samples of a scene in their order.
+    /// Samples of a scene, in order.
     pub fn samples_of(&self, scene: &SceneRow) -> Vec<(&str, &SampleRow)> {
         let mut samples: Vec<(&str, &SampleRow)> = Vec::new();
         let mut next = scene.first_sample_token.as_str();
         while let Some((token, row)) = self.samples.get_key_value(next) {
-            // A chain that comes back to itself has no end.
+            // A cyclic chain of samples has no end.
             if samples.len() >= self.samples.len() {
                 break;
             }
@@ -174,7 +174,7 @@ impl Tables {
     }
 }
 
-/// Hands over the rows of a table.
+/// Passes each row of a table to `take`.
 fn rows<T: DeserializeOwned>(bytes: &[u8], table: &str, take: impl FnMut(T)) -> Result<(), ReadError> {
     struct TableRows<T, F>(F, PhantomData<T>);
 

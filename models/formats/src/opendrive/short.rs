@@ -1,24 +1,24 @@
-//! Links of lanes through sections that are too short to have lanes. The crate leaves such sections out, and with
-//! them the renumbering that they carry: here the links around them are joined to one.
+//! Links of lanes through sections that are too short to have lanes. The OpenDRIVE crate drops such sections
+//! together with their renumbering of lanes. This module joins the links before and after them.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use std::ops::Range;
 
-/// Sections shorter than this have no lanes in the crate, metres.
+/// Sections shorter than this have no lanes in the OpenDRIVE crate, metres.
 pub(super) const SHORT_M: f64 = 1e-3;
 
-/// A lane at an end of a road: the road, and the number of the lane there.
+/// A lane at an end of a road: id of the road, and number of the lane.
 pub(super) type RoadLane<'a> = (&'a str, i32);
 
 /// A `<predecessor>` or `<successor>` of a lane.
 #[derive(Clone, Debug)]
 pub(super) struct LaneLink {
     pub lane: i32,
-    /// The successor.
+    /// Whether it is the successor.
     pub after: bool,
     pub to: i32,
-    /// Place of the element in the text.
+    /// Byte range of the element in the text.
     pub at: Range<usize>,
 }
 
@@ -26,7 +26,8 @@ pub(super) struct LaneLink {
 #[derive(Clone, Debug, Default)]
 pub(super) struct LinkedSection {
     pub s_m: f64,
-    /// Sides that the section gives, right and left: the others go on from the section before.
+    /// Whether the section defines its right and its left side; a side that it does not define continues from
+    /// the previous section.
     pub gives: [bool; 2],
     pub links: Vec<LaneLink>,
     pub is_short: bool,
@@ -37,7 +38,7 @@ pub(super) struct LinkedSection {
 pub(super) struct RoadEnd {
     pub is_junction: bool,
     pub id: String,
-    /// The end of that road, else its start.
+    /// Whether it is the end of that road; otherwise its start.
     pub at_end: bool,
 }
 
@@ -45,7 +46,7 @@ pub(super) struct RoadEnd {
 #[derive(Clone, Debug, Default)]
 pub(super) struct RoadLinks {
     pub sections: Vec<LinkedSection>,
-    /// At the start, at the end.
+    /// Targets at the start and at the end.
     pub ends: [Option<RoadEnd>; 2],
 }
 
@@ -59,7 +60,7 @@ impl RoadLinks {
         }
     }
 
-    /// The lane behind the short sections from `section` on, and whether it lies beyond the road.
+    /// The lane after the short sections that begin with `section`, and whether it lies on the next road.
     fn through(&self, mut section: usize, mut lane: i32, after: bool) -> Option<(i32, bool)> {
         while let Some(found) = self.sections.get(section) {
             if !found.is_short {
@@ -79,7 +80,7 @@ impl RoadLinks {
         self.through(next, link.to, link.after).filter(|(_, beyond)| *beyond).map(|(lane, _)| lane)
     }
 
-    /// The lane that carries on a lane of the first or last section, where that section is short.
+    /// The lane of the first section with lanes that continues a lane at an end of the road.
     fn inward(&self, at_end: bool, lane: i32) -> Option<i32> {
         let first = if at_end { self.sections.len().saturating_sub(1) } else { 0 };
         self.through(first, lane, !at_end).filter(|(_, beyond)| !beyond).map(|(lane, _)| lane)
@@ -101,7 +102,7 @@ pub(super) struct JunctionLink {
     pub junction: String,
     pub incoming: String,
     pub connecting: String,
-    /// The connecting road is entered at its end.
+    /// Whether the connecting road is entered at its end.
     pub at_end: bool,
     pub from: i32,
     pub to: i32,
@@ -116,7 +117,7 @@ pub(super) struct Links {
 }
 
 impl Links {
-    /// Changes of the text: places with what stands there instead.
+    /// Changes of the text: byte ranges with their replacements.
     pub fn edits(&self) -> Vec<(Range<usize>, String)> {
         let mut edits = Vec::new();
         if !self.roads.values().any(|road| road.sections.iter().any(|section| section.is_short)) {
@@ -139,8 +140,7 @@ impl Links {
         edits
     }
 
-    /// Lanes that the file links across the end of a road, each as its road and its number there: by the lane's own
-    /// link, and by a junction.
+    /// Pairs of lanes that the file links across the end of a road, by a link of the lane or by a junction.
     pub fn stated(&self) -> Vec<(RoadLane<'_>, RoadLane<'_>)> {
         let mut pairs = Vec::new();
         let mut joined = HashSet::new();
@@ -157,7 +157,7 @@ impl Links {
         for (id, road) in roads {
             for (after, end) in road.ends.iter().enumerate() {
                 let Some(end) = end.as_ref().filter(|end| !end.is_junction) else { continue };
-                // Where a junction links lanes of the two roads, it says all of them.
+                // A junction that links lanes of the two roads lists all of these links.
                 let other = end.id.as_str();
                 if joined.contains(&(id.as_str(), other)) || joined.contains(&(other, id.as_str())) {
                     continue;
@@ -174,7 +174,8 @@ impl Links {
         pairs
     }
 
-    /// Lanes that the file links within a road: the road, and for both its section and its number there.
+    /// Pairs of lanes that the file links within a road: id of the road, and for each lane its section and
+    /// its number.
     pub fn stated_within(&self) -> Vec<(&str, [(usize, i32); 2])> {
         let mut pairs = Vec::new();
         let mut roads: Vec<_> = self.roads.iter().collect();
@@ -204,7 +205,7 @@ impl Links {
                     (Some((lane, true)), Some(end)) if !end.is_junction => {
                         self.inward(&end.id, end.at_end, lane)
                     }
-                    // Across a junction its own links count.
+                    // Across a junction, the links of the junction apply.
                     (_, Some(end)) if end.is_junction && through.is_none_or(|(_, beyond)| beyond) => {
                         Some(link.to)
                     }
@@ -223,12 +224,13 @@ impl Links {
         }
     }
 
-    /// A lane at an end of a road, inside of its short sections; the lane itself for a road that is not there.
+    /// The lane within a road that continues a lane at its end, past its short sections; for a missing road
+    /// the lane itself.
     fn inward(&self, road: &str, at_end: bool, lane: i32) -> Option<i32> {
         self.roads.get(road).map_or(Some(lane), |road| road.inward(at_end, lane))
     }
 
-    /// The lane from which a junction's link leaves.
+    /// The lane at which a link of a junction starts.
     fn incoming(&self, link: &JunctionLink) -> Option<i32> {
         let connecting = self.roads.get(&link.connecting);
         let behind = connecting.and_then(|road| road.ends[usize::from(link.at_end)].as_ref());
@@ -242,7 +244,7 @@ impl Links {
     }
 }
 
-/// The text with its places changed.
+/// The text with these byte ranges replaced.
 pub(super) fn edited(text: String, mut edits: Vec<(Range<usize>, String)>) -> String {
     if edits.is_empty() {
         return text;

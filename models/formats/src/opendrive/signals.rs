@@ -1,4 +1,4 @@
-//! Lights and stop signs along the roads of a network.
+//! Traffic lights and stop signs along the roads of a network.
 
 use super::lanes::Found;
 use super::objects;
@@ -10,26 +10,27 @@ use scene::{Vec2, geometry::polyline::Polyline};
 use std::collections::HashMap;
 use xodr::{ControllerId, LaneId, Provenance, RoadNetwork, Signal, SignalId};
 
-/// Type of a stop line in the German catalogue, on which OpenDRIVE's own leans.
+/// Type of a stop line in the German catalogue, which the catalogue of OpenDRIVE follows.
 pub(super) const STOP_LINE: &str = "294";
-/// Types of lights for vehicles and cyclists in the generic catalogue of OpenDRIVE, up to what follows a dash.
+/// Types of traffic lights for vehicles and cyclists in the generic catalogue of OpenDRIVE, without the part
+/// after a dash.
 const LIGHTS: [&str; 8] =
     ["1000001", "1000009", "1000010", "1000011", "1000012", "1000013", "1000014", "1000020"];
-/// A light for people on foot.
+/// Type of a pedestrian light.
 const WALKERS: &str = "1000002";
-/// Stop signs: German, of the Vienna convention, American.
+/// Types of stop signs: German, Vienna convention, US.
 const STOP_SIGNS: [&str; 3] = ["206", "B2a", "R1-1"];
-/// A painted line this far ahead of a head or behind it is where its traffic stops, metres.
+/// A painted line within this distance along the lane from a signal head is its stop line, metres.
 const LINE_REACH_M: f64 = 25.0;
-/// A stop line lies this near to the lane that it is for, metres.
+/// Greatest distance of a stop line from its lane, metres.
 const LINE_WIDTH_M: f64 = 2.5;
 
-/// A light, by its type.
+/// Whether a signal of this type is a traffic light.
 pub(super) fn is_light(kind: Option<&str>) -> bool {
     kind.is_some_and(|kind| LIGHTS.contains(&kind) || kind == WALKERS)
 }
 
-/// A stop sign, by its type or name.
+/// Whether a signal of this type or name is a stop sign.
 pub(super) fn is_stop_sign(kind: Option<&str>, name: Option<&str>) -> bool {
     let named = |name: &str| {
         let letters: String = name.chars().filter(char::is_ascii_alphabetic).collect();
@@ -42,14 +43,14 @@ pub(super) fn is_stop_sign(kind: Option<&str>, name: Option<&str>) -> bool {
 #[derive(Debug, Default)]
 pub(super) struct LaneControls {
     pub heads: Vec<SignalHead>,
-    /// Every light of every lane, by its id in the file.
+    /// All traffic lights of lanes, with their ids in the file.
     pub lights: Vec<RoadLight>,
     pub signs: Vec<StopSign>,
-    /// Lights that no lane of the map obeys.
+    /// Number of traffic lights that control no lane of the map.
     pub unused: usize,
 }
 
-/// Finds heads and stop signs.
+/// Finds signal heads and stop signs.
 pub(super) fn find(
     network: &RoadNetwork,
     provenance: &Provenance,
@@ -102,7 +103,7 @@ pub(super) fn find(
     ruled
 }
 
-/// Lanes of the map that a signal rules, with those of the network.
+/// Lanes of the map that a signal controls, with those of the network.
 fn lanes_of(signal: &Signal, found: &Found, map: &LaneMap) -> Vec<(LaneId, usize)> {
     let drawn =
         signal.lanes.iter().flat_map(|id| found.get(id).into_iter().flatten().map(|drawn| (*id, drawn.lane)));
@@ -132,7 +133,7 @@ fn stop(
     path.position_at(*line.unwrap_or(&foot))
 }
 
-/// Places along lanes, by index, at which a line is painted across, metres.
+/// Arc lengths of the painted stop lines by lane index, metres.
 fn stop_lines(
     network: &RoadNetwork,
     frame: &NetworkFrame,
@@ -156,7 +157,7 @@ fn stop_lines(
     lines
 }
 
-/// The place of each controller in the cycle of its junction.
+/// Position of each controller in the cycle of its junction.
 fn controllers(provenance: &Provenance) -> HashMap<ControllerId, (u32, String)> {
     let place = |c: &xodr::ControllerProvenance| {
         let sequence = c.junctions.iter().filter_map(|j| j.sequence).min().unwrap_or(0);
@@ -165,7 +166,7 @@ fn controllers(provenance: &Provenance) -> HashMap<ControllerId, (u32, String)> 
     provenance.controllers.iter().map(place).collect()
 }
 
-/// The junction that a lane leads through, or else leads into.
+/// The junction that a lane crosses, otherwise the one to which it leads.
 fn junctions(network: &RoadNetwork) -> HashMap<LaneId, String> {
     let of = |id: LaneId| network.road(network.road_lane(id)?.road)?.junction().map(str::to_owned);
     let mut found: HashMap<LaneId, String> = HashMap::new();

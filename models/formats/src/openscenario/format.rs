@@ -1,4 +1,4 @@
-//! OpenSCENARIO as users export it.
+//! OpenSCENARIO as an import and export format.
 
 use super::{read, scenario};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene};

@@ -17,7 +17,7 @@ const FRONT: f64 = 0.3;
 /// Vehicle properties that a scenario requires and a scene lacks: maximum speed, acceleration and braking.
 const PERFORMANCE: [(&str, &str); 3] =
     [("maxSpeed", "70"), ("maxAcceleration", "10"), ("maxDeceleration", "10")];
-/// A road user that moves less than this in the last step stands, metres.
+/// A road user that moves less than this in the last step is at rest, metres.
 const STANDS_M: f64 = 0.05;
 /// Rule of a condition that holds from a time on.
 const FROM: &str = "greaterOrEqual";
@@ -209,7 +209,7 @@ fn entity(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     out.close();
 }
 
-/// A word for a sort of vehicle.
+/// The category of a vehicle.
 fn category(agent_type: AgentType, subtype: Subtype) -> &'static str {
     match (agent_type, subtype) {
         (_, Subtype::Truck) => "truck",
@@ -344,7 +344,7 @@ fn present(name: &str, out: &mut Markup, action: impl FnOnce(&mut Markup)) {
     out.close();
 }
 
-/// Its trajectory, by the clock of the scenario.
+/// Writes its trajectory, timed by the clock of the scenario.
 fn follow(road_user: &ScenarioEntity<'_>, out: &mut Markup) {
     out.open("PrivateAction", &[]);
     out.open("RoutingAction", &[]);

@@ -6,7 +6,7 @@ use crate::opendrive::export::light_id;
 use scene::{STEP_S, Scene, SignalState};
 use std::collections::BTreeSet;
 
-/// A state in the words of its phase, and of the light: red, yellow and green.
+/// The name of a state's phase, and the states of the lamps: red, yellow and green.
 fn words(state: SignalState) -> (&'static str, &'static str) {
     match state {
         SignalState::Stop | SignalState::ArrowStop => ("stop", "on;off;off"),
@@ -18,7 +18,7 @@ fn words(state: SignalState) -> (&'static str, &'static str) {
     }
 }
 
-/// Writes a controller for each light of a lane; arrows become plain lights.
+/// Writes a controller for each signal of a lane; arrows become full signals.
 pub(super) fn write(scene: &Scene, out: &mut Markup, losses: &mut BTreeSet<Loss>) {
     let known = |id: &str| scene.map.lanes.iter().any(|lane| lane.id == id);
     if scene.signals.iter().any(|signal| !known(&signal.lane)) {

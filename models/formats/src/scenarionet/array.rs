@@ -1,8 +1,8 @@
-//! Arrays of numbers as NumPy lays them out.
+//! Arrays of numbers in the memory layout of NumPy.
 
 use std::rc::Rc;
 
-/// Most numbers of one array.
+/// Most items of one array.
 const MAX_ITEMS: usize = 1 << 24;
 
 /// Kind of an array's items.
@@ -16,7 +16,7 @@ pub(super) struct Dtype {
 }
 
 impl Dtype {
-    /// Of a word such as `<f4` or `bool`.
+    /// The type with a name such as `<f4` or `bool`.
     pub fn of(word: &str) -> Option<Self> {
         let (big, word) = match word.as_bytes().first()? {
             b'<' | b'|' | b'=' => (false, word.get(1..)?),
@@ -47,7 +47,7 @@ impl Dtype {
             b'U' => (1..=1 << 10).contains(&count),
             _ => false,
         };
-        // A letter is four bytes.
+        // A character has four bytes.
         known.then_some(Self { kind, size: if kind == b'U' { 4 * count } else { count }, big })
     }
 }
@@ -57,29 +57,29 @@ impl Dtype {
 pub(super) struct Array {
     pub shape: Vec<usize>,
     pub dtype: Option<Dtype>,
-    /// Columns come first.
+    /// Whether the order is column-major.
     pub fortran: bool,
     pub data: Rc<[u8]>,
 }
 
 impl Array {
-    /// One that is still to be filled.
+    /// An array without content yet.
     pub fn empty() -> Self {
         Self { shape: vec![0], dtype: None, fortran: false, data: Rc::from([]) }
     }
 
-    /// Numbers in it.
+    /// Number of its items.
     pub fn len(&self) -> usize {
         self.shape.iter().try_fold(1, |all: usize, n| all.checked_mul(*n)).unwrap_or(usize::MAX)
     }
 
-    /// Its number of bytes matches its shape.
+    /// Whether its number of bytes matches its shape.
     pub fn is_whole(&self) -> bool {
         let bytes = self.dtype.and_then(|dtype| self.len().checked_mul(dtype.size));
         self.len() <= MAX_ITEMS && bytes == Some(self.data.len())
     }
 
-    /// Bytes of an item, counted row by row.
+    /// Type and bytes of the item with an index in row-major order.
     fn item(&self, i: usize) -> Option<(Dtype, &[u8])> {
         let dtype = self.dtype?;
         let i = if self.fortran { self.by_columns(i)? } else { i };
@@ -98,7 +98,7 @@ impl Array {
         Some(at)
     }
 
-    /// The number at a place, counted row by row.
+    /// The number with an index in row-major order.
     pub fn number(&self, i: usize) -> Option<f64> {
         let (dtype, bytes) = self.item(i)?;
         let mut eight = [0; 8];
@@ -121,7 +121,7 @@ impl Array {
         })
     }
 
-    /// The text at a place.
+    /// The text with an index in row-major order.
     pub fn text(&self, i: usize) -> Option<String> {
         let (dtype, bytes) = self.item(i).filter(|(dtype, _)| dtype.kind == b'U')?;
         let letter = |four: &[u8]| {

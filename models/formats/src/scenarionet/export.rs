@@ -1,4 +1,4 @@
-//! From a scene to a scenario's dictionary.
+//! Converts a scene to the dictionary of a scenario.
 
 use super::export_map;
 use super::import::OWN;
@@ -17,7 +17,7 @@ const VERSION: &str = "MetaDrive v0.4.3";
 /// Name of the data set.
 const DATASET: &str = "dragtraffic";
 
-/// Writes a scene, in its own frame; where that lies is in the metadata.
+/// Writes a scene in its own frame; the metadata have the origin of the frame.
 pub(super) fn write(scene: &Scene, options: &ExportOptions) -> Exported {
     let mut losses = BTreeSet::new();
     let (shown, steps) = options.motion.all(scene);
@@ -107,7 +107,7 @@ fn track(agent: &Agent, shown: &Shown<'_>, steps: usize, w: &mut PickleWriter) {
     let word = agent_word(shown.agent_type);
     let state = |step: usize| shown.track.at(step);
     let valid: Vec<bool> = (0..steps).map(|step| state(step).is_some()).collect();
-    // Heights are the log's, the last known one where it has none.
+    // Heights are those of the log; a missing one is the last known height.
     let mut height = 0.0;
     let position: Vec<f64> = (0..steps)
         .flat_map(|step| {
@@ -198,7 +198,7 @@ fn tell(scene: &Scene, motion: ExportedMotion, losses: &mut BTreeSet<Loss>) {
     let largest =
         agents.iter().flat_map(|a| a.track.states.iter().flatten()).map(|s| s.x_m.abs().max(s.y_m.abs()));
     let lines = map.lanes.iter().flat_map(|lane| &lane.points.xy).map(|p| p.amax());
-    // Half of the least step between two numbers of 24 bits.
+    // Half the spacing of single-precision numbers, which have a significand of 24 bits.
     let off_m = largest.chain(lines).fold(1.0, f64::max) / f64::from(1 << 24);
     let all = [
         (unknown, code::NO_Z, "unknown heights become zero"),

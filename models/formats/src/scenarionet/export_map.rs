@@ -1,4 +1,4 @@
-//! A lane map as map features.
+//! Converts a lane map to map features.
 
 use super::words::{lane_word, line_word};
 use super::writer::PickleWriter;
@@ -15,7 +15,7 @@ struct Keys {
 }
 
 impl Keys {
-    /// The id where no feature before has it, else with its kind before it.
+    /// The id, or the id with its kind as a prefix if an earlier feature has it.
     fn take(&mut self, kind: &str, id: &str) -> String {
         let mut key = id.to_owned();
         while !self.used.insert(key.clone()) {

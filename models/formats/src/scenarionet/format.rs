@@ -1,4 +1,4 @@
-//! ScenarioNet as a format among others.
+//! ScenarioNet as an import and export format.
 
 use super::{export, import};
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene, only};

@@ -1,4 +1,4 @@
-//! From a scenario's dictionary to a scene.
+//! Converts the dictionary of a scenario to a scene.
 
 use super::import_map;
 use super::machine;
@@ -28,7 +28,7 @@ const MAX_BYTES: u64 = 64 << 20;
 const MAX_TRACKS: usize = 2_048;
 /// Least side of a box, metres.
 const LEAST_SIZE_M: f64 = 0.05;
-/// Key of this program's dictionary in the metadata.
+/// Key of the dictionary of this program in the metadata.
 pub(super) const OWN: &str = "dragtraffic";
 
 fn invalid(pointer: &str, message: Message) -> ReadError {
@@ -38,8 +38,8 @@ fn invalid(pointer: &str, message: Message) -> ReadError {
 /// Reads a file, plain or gzip.
 ///
 /// # Errors
-/// Those of the machine and of the file; `cannot-represent` for another sort of pickle, `invalid-field`, the faults
-/// of a scene.
+/// Those of the pickle machine and of the file; `cannot-represent` for a pickle of another kind, `invalid-field`,
+/// and the faults of a scene.
 pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
     let mut bytes = Vec::new();
     let opened = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
@@ -69,7 +69,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
         text(own, "source").or_else(|| text(metadata, "dataset")).unwrap_or_else(|| "scenarionet".into());
     let now =
         ["current_time_index", "now_step"].iter().find_map(|key| pickle.whole(pickle.get(metadata, key)?));
-    // Recordings of the Waymo set have a second of past.
+    // Recordings of the Waymo data set have 1 s of history.
     let now = now.and_then(|now| usize::try_from(now).ok()).unwrap_or(if steps == 91 { 10 } else { 0 });
     let timestamps_s = timestamps(&pickle, metadata, steps, &mut warnings);
     let number =
@@ -117,7 +117,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     settle::settled(scene, map, warnings, options)
 }
 
-/// Why a pickle that holds something else is none that is read.
+/// The refusal of a pickle with other content.
 fn other_sort(pickle: &Pickle) -> ReadError {
     let entries = pickle.entries(&pickle.root);
     let of_files = |entries: &[(PickleValue, PickleValue)]| {
@@ -149,7 +149,7 @@ fn steps(pickle: &Pickle, tracks: &PickleValue) -> Result<usize, ReadError> {
     Ok(steps)
 }
 
-/// Road users, and their ids by those of the file.
+/// Road users, and their ids by the ids of the file.
 fn agents(
     pickle: &Pickle,
     tracks: &PickleValue,
@@ -229,7 +229,7 @@ fn agent(pickle: &Pickle, id: &str, track: &PickleValue, steps: usize) -> Result
     }
     let side = |name: &str| {
         let is_size = |v: &f64| v.is_finite() && *v > 0.0;
-        // One for all steps, or one for each.
+        // A size may be one value for all steps or one per step.
         if let Some(only) = pickle.get(state, name).and_then(|value| pickle.number(value)) {
             return Some((only, false)).filter(|(only, _)| is_size(only));
         }
@@ -275,7 +275,7 @@ fn timestamps(
 ) -> Option<Vec<f64>> {
     let listed = pickle.get(metadata, "ts").or_else(|| pickle.get(metadata, "timestep"));
     let (_, times) = pickle.rows(listed?, steps)?;
-    // Single precision counts tenths to the tenth of a millisecond.
+    // In single precision, multiples of 0.1 s are exact to 0.1 ms.
     let off = |(i, t): (usize, &f64)| (t - i as f64 * STEP_S).abs();
     if times.iter().enumerate().all(|time| off(time) < 1e-4) {
         return None;

@@ -1,4 +1,4 @@
-//! Map features of a scenario as a lane map.
+//! Converts the map features of a scenario to a lane map.
 
 use super::value::{Pickle, PickleValue};
 use super::words::{Feature, feature};
@@ -14,10 +14,10 @@ use scene::message::{Message, Word};
 
 /// Most links, neighbours and boundaries.
 const MAX_REFERENCES: usize = 10 * MAX_POLYLINES;
-/// Most characters of an id to which something refers.
+/// Most characters of an id in a reference.
 const MAX_ID: usize = 64;
 
-/// An id of a feature as another refers to it.
+/// The id of a feature in references to it.
 pub(super) fn reference(id: &str) -> String {
     Ids::default().take(&id.chars().take(MAX_ID).collect::<String>())
 }
@@ -33,7 +33,7 @@ struct FeatureCounts {
 /// Sorts features into a map, in their order.
 ///
 /// # Errors
-/// `map-too-large`, `invalid-field` for lines that are none.
+/// `map-too-large`, `invalid-field` for malformed lines.
 pub(super) fn lane_map(
     pickle: &Pickle,
     features: &PickleValue,
@@ -102,7 +102,7 @@ fn too_large(message: Message) -> ReadError {
     FieldProblem::new("/map_features", code::MAP_TOO_LARGE, message).into()
 }
 
-/// The line, ring or place of a feature.
+/// The line, ring or position of a feature.
 fn line(
     pickle: &Pickle,
     value: &PickleValue,
@@ -116,7 +116,7 @@ fn line(
         |wanted: Word| ReadError::from(FieldProblem::new(at.as_str(), code::INVALID_FIELD, expected(wanted)));
     let (across, numbers) =
         pickle.rows(found, 3 * (MAX_MAP_POINTS + 1)).ok_or_else(|| wrong(wanted::ROWS_OF_NUMBERS))?;
-    // A place is one row.
+    // A position is one row.
     let across = if across == 1 && (2..=3).contains(&numbers.len()) { numbers.len() } else { across };
     if numbers.is_empty() {
         return Ok(Points::default());
@@ -191,7 +191,7 @@ fn lane(
     })
 }
 
-/// The median width, where both its halves are known.
+/// The median width, from whole widths or from left and right halves.
 fn width(pickle: &Pickle, value: &PickleValue) -> Option<f64> {
     let (across, numbers) = pickle.rows(pickle.get(value, "width")?, 2 * MAX_MAP_POINTS)?;
     let mut widths: Vec<f64> = match across {

@@ -1,8 +1,8 @@
-//! A machine for pickles that builds values and calls nothing.
+//! A pickle machine that builds values and calls nothing.
 //!
-//! Python's own loader calls whatever a pickle names; that is how a file becomes a program. Here a name is one of a
-//! short list ([`KNOWN`]) or the whole file is refused, and what the names of the list would make is made by hand:
-//! arrays, ordered dictionaries, sets.
+//! Python's loader calls every function that a pickle names, so a file can run code. Here every name must be in a
+//! short list ([`KNOWN`]), otherwise the file is refused. The results of these names (arrays, ordered dictionaries,
+//! sets) are built by this module.
 
 use super::array::{Array, Dtype};
 use super::value::{Pickle, PickleObject, PickleValue};
@@ -11,13 +11,13 @@ use crate::refusals::{self, wanted, what};
 use scene::message::{Placeholder, Word};
 use std::rc::Rc;
 
-/// Newest protocol.
+/// Newest supported protocol.
 const PROTOCOL: u8 = 5;
-/// Most things on the stack over a whole file, most lists and the like, and most that it remembers.
+/// Most values that a file pushes on the stack, most objects, and most memo entries.
 const MAX_VALUES: usize = 1_000_000;
 const MAX_OBJECTS: usize = 250_000;
 const MAX_MEMO: usize = 500_000;
-/// Deepest nesting of what is begun and not ended.
+/// Greatest number of open marks.
 const MAX_DEPTH: usize = 64;
 /// Longest line of the older protocols, and longest name.
 const MAX_LINE: usize = 1 << 20;
@@ -25,23 +25,23 @@ const MAX_LINE: usize = 1 << 20;
 /// Meaning of a global name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Known {
-    /// An array to be filled by what follows.
+    /// Creates an array that a later instruction fills.
     Reconstruct,
-    /// An array of a shape, a type and bytes.
+    /// Creates an array from a shape, a type and bytes.
     Ndarray,
-    /// A copy of an array.
+    /// Copies an array.
     Copy,
-    /// A type of array.
+    /// An array type.
     Dtype,
-    /// A number of a type of array.
+    /// A number with an array type.
     Scalar,
-    /// An array of bytes, a type and a shape.
+    /// Creates an array from bytes, a type and a shape.
     FromBuffer,
     Dict,
     /// A dictionary whose first argument is the default factory.
     DefaultDict,
     List,
-    /// A type whose only use is as the factory of a dictionary: nothing is made by it.
+    /// A type that serves only as the factory of a dictionary and creates nothing.
     Factory,
     /// Bytes from a text with code points below 256.
     Encode,
@@ -90,8 +90,8 @@ const KNOWN: &[(&str, &str, Known)] = &[
 /// Reads a pickle.
 ///
 /// # Errors
-/// `malformed-file` with the byte of what is broken; `pickle-refused` for a name that is not known, or for what only
-/// a program could make of it; `decoded-too-large`.
+/// `malformed-file` with the offset of the fault; `pickle-refused` for an unknown name, or for an object that only
+/// running code could create; `decoded-too-large`.
 pub(super) fn read(bytes: &[u8]) -> Result<Pickle, ReadError> {
     let mut machine = Machine {
         bytes,
@@ -118,7 +118,7 @@ struct Machine<'a> {
     memo: Vec<Option<PickleValue>>,
     objects: Vec<PickleObject>,
     pushed: usize,
-    /// Bytes that were made beside those of the file.
+    /// Bytes that were built from texts.
     made: usize,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Machine<'a> {
         Ok(taken)
     }
 
-    /// A number of so many bytes, the least ones first.
+    /// A little-endian number of this many bytes.
     fn number(&mut self, size: usize) -> Done<u64> {
         let bytes = self.take(size)?;
         Ok(bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte)))
@@ -167,7 +167,7 @@ impl<'a> Machine<'a> {
         let Some(end) = end else { return Err(self.cut_off()) };
         let line = self.take(end + 1)?;
         let line = line.get(..end).unwrap_or_default();
-        // Letters of one byte, as the older protocols have them.
+        // The older protocols have characters of one byte (Latin-1).
         Ok(line.iter().map(|byte| char::from(*byte)).collect())
     }
 
@@ -200,7 +200,7 @@ impl<'a> Machine<'a> {
         self.push(PickleValue::Bytes(bytes))
     }
 
-    /// A text of Python 2, which had bytes for both.
+    /// A string of Python 2, which is either text or bytes.
     fn push_old_text(&mut self, length: usize) -> Done<()> {
         let bytes = self.take(length)?;
         let value = match std::str::from_utf8(bytes) {
@@ -307,7 +307,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Instructions that put something new on the stack.
+    /// Instructions that push a new value.
     fn make(&mut self, op: u8) -> Done<()> {
         match op {
             b'N' => self.push(PickleValue::None),
@@ -360,7 +360,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Instructions that change what is on the stack.
+    /// Instructions that change values on the stack.
     fn change(&mut self, op: u8) -> Done<()> {
         match op {
             b'a' => {
@@ -431,7 +431,7 @@ impl<'a> Machine<'a> {
         self.push(value)
     }
 
-    /// A text on a line of its own: as it is, or in quotes. Escapes stay as they are but for those of Unicode.
+    /// A text on one line, plain or in quotes. Only the Unicode escapes of plain text are decoded.
     fn text_line(&mut self, op: u8) -> Done<()> {
         let line = self.line()?;
         if op == b'S' {
@@ -544,7 +544,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Counts bytes beside those of the file.
+    /// Counts bytes that are built from a text; more than the file has are refused.
     fn make_bytes(&mut self, count: usize) -> Done<()> {
         self.made += count;
         if self.made > self.bytes.len() {
@@ -556,7 +556,7 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// A copy of the items of a list or tuple, which counts.
+    /// A copy of the items of a list or tuple, counted as values.
     fn items(&mut self, from: &PickleValue) -> Done<Vec<PickleValue>> {
         let items = match from {
             PickleValue::Tuple(items) => items.to_vec(),
@@ -637,7 +637,7 @@ impl<'a> Machine<'a> {
         self.push_object(PickleObject::Array(array))
     }
 
-    /// Fills what was made empty.
+    /// Fills an object that was created empty.
     fn build(&mut self, state: &PickleValue) -> Done<()> {
         let Some(PickleValue::Object(at)) = self.stack.last().cloned() else {
             return Err(self.refused(what::STATE));
@@ -659,7 +659,7 @@ impl<'a> Machine<'a> {
                 let big = matches!(order, Some(PickleValue::Text(order)) if &**order == ">");
                 Some(PickleObject::Dtype(Dtype { big, ..*dtype }))
             }
-            // Members of a dictionary's class are of no use.
+            // Attributes of a dictionary object are ignored.
             (Some(PickleObject::Dict(_)), _) => None,
             _ => return Err(self.refused(what::STATE)),
         };

@@ -1,4 +1,4 @@
-//! ScenarioNet scenarios: Python dictionaries with arrays, as MetaDrive keeps them.
+//! ScenarioNet scenarios: pickled Python dictionaries with arrays, the format of MetaDrive.
 
 mod array;
 mod export;

@@ -1,12 +1,12 @@
-//! Content of a pickle, as data: none of it is ever called.
+//! Content of a pickle as data that is never called.
 
 use super::array::Array;
 use std::rc::Rc;
 
-/// Most entries of a dictionary in which something is looked up by its key.
+/// Most entries of a dictionary in which keys are looked up.
 const LOOKED_UP: usize = 256;
 
-/// A value. Lists and dictionaries lie in a [`Pickle`], since several places may hold the same one.
+/// A value. Lists and dictionaries are in the [`Pickle`], since several values may refer to the same one.
 #[derive(Clone, Debug)]
 pub(super) enum PickleValue {
     None,
@@ -16,9 +16,9 @@ pub(super) enum PickleValue {
     Text(Rc<str>),
     Bytes(Rc<[u8]>),
     Tuple(Rc<[PickleValue]>),
-    /// A list, set, dictionary, array or type of array: its place in [`Pickle::objects`].
+    /// A list, set, dictionary, array or array type: its index in [`Pickle::objects`].
     Object(usize),
-    /// Something that the list of what is known names, by its place in that list.
+    /// A known global name: its index in the list of known names.
     Known(usize),
 }
 
@@ -31,7 +31,7 @@ pub(super) enum PickleObject {
     Dtype(super::array::Dtype),
 }
 
-/// All of a pickle.
+/// The content of a pickle.
 #[derive(Debug)]
 pub(super) struct Pickle {
     pub objects: Vec<PickleObject>,
@@ -95,7 +95,7 @@ impl Pickle {
         }
     }
 
-    /// A whole number, written as one or in words.
+    /// A whole number, as a number or as text.
     pub fn whole(&self, value: &PickleValue) -> Option<i64> {
         match value {
             PickleValue::Text(text) => text.parse().ok(),
@@ -103,7 +103,7 @@ impl Pickle {
         }
     }
 
-    /// A text, or a whole number as one: ids are either.
+    /// A text, or a whole number as text: ids may be either.
     pub fn text(&self, value: &PickleValue) -> Option<String> {
         match value {
             PickleValue::Text(text) => Some(text.to_string()),
@@ -111,7 +111,7 @@ impl Pickle {
         }
     }
 
-    /// Numbers of a list or an array, and how many there are in a row of it (one for a plain list of numbers).
+    /// Number of columns (one for a plain list of numbers), and the numbers of a list or an array row by row.
     pub fn rows(&self, value: &PickleValue, most: usize) -> Option<(usize, Vec<f64>)> {
         if let Some(array) = self.array(value) {
             let across = if array.shape.len() > 1 { array.shape.iter().skip(1).product() } else { 1 };

@@ -1,4 +1,4 @@
-//! The words of ScenarioNet beside those of a scene.
+//! The words of ScenarioNet and their counterparts in a scene.
 
 use scene::map::{LaneType, ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::{AgentType, SignalState};
@@ -28,7 +28,7 @@ pub(super) enum Feature {
     Driveway,
 }
 
-/// Kind of a map feature's word; `None` if a scene cannot hold it.
+/// Kind of a map feature by its word; `None` if a scene cannot hold it.
 pub(super) fn feature(word: &str) -> Option<Feature> {
     let lane =
         LANE_TYPES.iter().find(|(known, _)| *known == word).map(|(_, lane_type)| Feature::Lane(*lane_type));
@@ -51,7 +51,7 @@ pub(super) fn feature(word: &str) -> Option<Feature> {
         .or_else(simple)
 }
 
-/// The word for a lane, and whether it is one that the format has.
+/// The word for a lane, and whether the format has this kind of lane.
 pub(super) fn lane_word(lane_type: LaneType) -> (&'static str, bool) {
     match lane_type {
         LaneType::SurfaceStreet => ("LANE_SURFACE_STREET", true),
@@ -77,7 +77,7 @@ const STATES: [(&str, SignalState); 13] = [
     ("LANE_STATE_GO", SignalState::Go),
     ("LANE_STATE_FLASHING_STOP", SignalState::FlashingStop),
     ("LANE_STATE_FLASHING_CAUTION", SignalState::FlashingCaution),
-    // States of MetaDrive itself.
+    // Additional states of MetaDrive.
     ("TRAFFIC_LIGHT_RED", SignalState::Stop),
     ("TRAFFIC_LIGHT_YELLOW", SignalState::Caution),
     ("TRAFFIC_LIGHT_GREEN", SignalState::Go),
@@ -89,7 +89,7 @@ pub(super) fn signal_state(word: &str) -> SignalState {
     STATES.iter().find(|(known, _)| *known == word).map_or(SignalState::Unknown, |(_, state)| *state)
 }
 
-/// The word for what a light shows.
+/// The word for a signal state.
 pub(super) fn signal_word(state: SignalState) -> &'static str {
     STATES.iter().find(|(_, known)| *known == state).map_or("LANE_STATE_UNKNOWN", |(word, _)| word)
 }

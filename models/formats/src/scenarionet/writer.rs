@@ -8,7 +8,7 @@ impl PickleWriter {
         Self(vec![0x80, 3])
     }
 
-    /// The file; what was written is its value.
+    /// The complete pickle of the written value.
     pub fn finish(mut self) -> Vec<u8> {
         self.0.push(b'.');
         self.0
@@ -51,14 +51,15 @@ impl PickleWriter {
         write(self);
     }
 
-    /// A list of what `write` makes of each item.
+    /// Writes a list; `write` writes each item.
     pub fn list<T>(&mut self, items: impl IntoIterator<Item = T>, mut write: impl FnMut(&mut Self, T)) {
         self.0.extend(b"](");
         items.into_iter().for_each(|item| write(self, item));
         self.0.push(b'e');
     }
 
-    /// An array that may be changed: a copy of one that lies over the bytes, which all versions of NumPy know.
+    /// A writable array: a copy of an array over the bytes, since an array over `bytes` is read-only. All
+    /// versions of NumPy have both functions.
     fn array(&mut self, dtype: &str, shape: &[usize], bytes: &[u8]) {
         self.0.extend(b"cnumpy\narray\ncnumpy\nndarray\n(");
         shape.iter().for_each(|n| self.int(*n));
@@ -68,7 +69,7 @@ impl PickleWriter {
         self.0.extend([0x87, b'R', 0x85, b'R']);
     }
 
-    /// Rows of numbers in single precision; with one in a row a plain list.
+    /// Rows of numbers in single precision; one-dimensional if a row has one number.
     pub fn floats(&mut self, across: usize, numbers: &[f64]) {
         let bytes: Vec<u8> = numbers.iter().flat_map(|v| (*v as f32).to_le_bytes()).collect();
         let rows = numbers.len() / across.max(1);
@@ -76,7 +77,7 @@ impl PickleWriter {
         self.array("<f4", &shape, &bytes);
     }
 
-    /// Truth values.
+    /// An array of booleans.
     pub fn bools(&mut self, values: &[bool]) {
         let bytes: Vec<u8> = values.iter().map(|v| u8::from(*v)).collect();
         self.array("|b1", &[values.len()], &bytes);

@@ -11,13 +11,13 @@ use std::io::BufRead;
 pub struct FcdTrack {
     /// SUMO's vehicle type (of the form `type@...` for distributions; cut at the `@`).
     pub vehicle_type: String,
-    /// Times, seconds, rising.
+    /// Times in ascending order, seconds.
     pub times_s: Vec<f64>,
     /// Middle of the *front* bumper of a vehicle, centre of a person.
     pub positions: Vec<Vec2>,
-    /// Radians counter-clockwise from +x.
+    /// Heading, radians counter-clockwise from +x.
     pub headings_rad: Vec<f64>,
-    /// Metres a second.
+    /// Speeds, m/s.
     pub speeds_mps: Vec<f64>,
 }
 

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// Radius of kerbs at corners if there is room, metres.
 const CORNER_RADIUS_M: f64 = 7.5;
 
-/// Both borders of an edge's carriageway (bike lanes and parking strips are part of it).
+/// Both borders of an edge's carriageway, which includes cycle lanes and parking strips.
 #[derive(Clone, Debug)]
 pub struct Borders {
     /// Index in [`Net::edges`].
@@ -160,7 +160,7 @@ fn area(list: &[(&str, Arm)], all: &[Borders]) -> Option<JunctionArea> {
         let next = &sides[(i + 1) % sides.len()].0;
         let outward = -next.direction;
         let turn_rad = cross(last.direction, outward).atan2(last.direction.dot(&outward));
-        // A road that merely bends gets the widest possible bend.
+        // A road that only bends gets the greatest possible radius.
         let radius = if turn_rad.abs() < 0.9 { f64::INFINITY } else { CORNER_RADIUS_M };
         let points = corner(last.point, last.direction, next.point, outward, radius);
         ring.extend(points.iter().skip(1).take(points.len().saturating_sub(2)));
@@ -174,8 +174,8 @@ fn area(list: &[(&str, Arm)], all: &[Borders]) -> Option<JunctionArea> {
     Some(JunctionArea { ring, corners, arms: sides.len() })
 }
 
-/// A border from `p` in direction `d` to `q` in direction `e`: straight, an arc of about `radius`, straight;
-/// a smooth S if the two directions are nearly equal.
+/// A border from `p` in direction `d` to `q` in direction `e`: a straight piece, an arc of about `radius`, a
+/// straight piece; an S-curve if the two directions are nearly equal.
 pub fn corner(p: Vec2, d: Vec2, q: Vec2, e: Vec2, radius: f64) -> Vec<Vec2> {
     let gap = (q - p).norm();
     if gap < 0.05 {

@@ -270,7 +270,7 @@ impl Builder<'_> {
             }
             let (Some(a), Some(b)) = (sidewalk(corner.from.0), sidewalk(corner.to.0)) else { continue };
             let (from, to) = (&net.lanes[a], &net.lanes[b]);
-            // Some networks already contain the way round the corner.
+            // Some networks already contain the path round the corner.
             let is_way = |lane: &usize| {
                 net.lanes[*lane].kind == LaneKind::Sidewalk
                     && net.edge_of(*lane).function == EdgeFunction::Internal

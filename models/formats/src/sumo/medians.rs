@@ -34,8 +34,8 @@ struct BorderEnd {
     median: bool,
 }
 
-/// Joins the loose ends of medians, and of kerbs that nearly meet. Ends for which `cut` holds are at the rim
-/// of the map: they stay open.
+/// Joins the loose ends of medians, and of kerbs that nearly meet. Ends for which `cut` holds are at the edge
+/// of the map and stay open.
 pub fn close(map: &mut LaneMap, cut: impl Fn(Vec2) -> bool) {
     let mut ends = loose(&map.road_edges);
     ends.retain(|e| !cut(e.point));

@@ -27,7 +27,7 @@ pub enum LaneKind {
 /// Function of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EdgeFunction {
-    /// A stretch of road.
+    /// A road section between junctions.
     Normal,
     /// A connection within a junction.
     Internal,
@@ -53,7 +53,7 @@ pub struct NetLane {
     pub kind: LaneKind,
     /// Speed limit, m/s.
     pub speed_mps: f64,
-    /// Metres.
+    /// Width, metres.
     pub width_m: f64,
     /// Centre line, or outline of a walking area; metres, network frame.
     pub shape: Vec<Vec2>,

@@ -113,8 +113,8 @@ impl Builder<'_> {
                 if mixed || both_lots || merging {
                     continue;
                 }
-                // From the right border of a lane inwards to a right border outwards is a kerb; the other
-                // way round is the left side of a stretch between two one-way edges.
+                // A corner from the right border of an inbound edge to the right border of an outbound edge
+                // is a kerb. The reverse is the left side of the road between two one-way edges.
                 let (first, last) = (points[0], points[points.len() - 1]);
                 if from.1 || !to.1 || junction.arms > 2 {
                     self.edge("boundary", points.clone());
@@ -134,7 +134,7 @@ impl Builder<'_> {
 
 #[derive(Clone, Copy)]
 enum LeftSide {
-    /// The border at this index touches.
+    /// The left border at this index is the same line.
     Oncoming(usize),
     Median,
     Open,
@@ -150,7 +150,7 @@ impl LeftSide {
     }
 }
 
-/// Corners of the upright boxes about left borders, grown by what counts as a median.
+/// Corners of the bounding boxes of left borders, enlarged by the greatest width of a median.
 fn extents(all: &[Borders]) -> Vec<(Vec2, Vec2)> {
     let margin = Vec2::repeat(MEDIAN_M);
     let fold = |b: &Borders, pick: fn(f64, f64) -> f64| {

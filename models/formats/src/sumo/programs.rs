@@ -1,5 +1,5 @@
-//! Signal programs of a network (`tlLogic`): what each link shows at a time when nothing but the clock
-//! decides.
+//! Signal programs of a network (`tlLogic`): the state of each link at a time, if it depends only on the
+//! clock.
 
 use super::signals::state_of;
 use scene::SignalState;
@@ -9,18 +9,18 @@ use scene::SignalState;
 pub struct SignalProgram {
     /// SUMO's id of the signal.
     pub id: String,
-    /// `static`, `actuated`, ...: only a static program depends on nothing but the time.
+    /// `static`, `actuated` and others: only a static program depends on the time alone.
     pub kind: String,
-    /// When the first phase begins, seconds.
+    /// Start of the first phase, seconds.
     pub offset_s: f64,
-    /// Duration in seconds, one letter a link, in order.
+    /// Phases in order: duration in seconds, and one letter per link.
     pub phases: Vec<(f64, Vec<u8>)>,
-    /// A phase names the one that follows it (`next`), so the order is not theirs.
+    /// Whether a phase names its successor (`next`), so that the phases do not follow in order.
     pub jumps: bool,
 }
 
 impl SignalProgram {
-    /// Whether the state depends only on the time, one phase after the other.
+    /// Whether the state depends only on the time, with phases in order.
     pub fn is_simple(&self) -> bool {
         self.kind == "static" && !self.jumps
     }
@@ -28,7 +28,7 @@ impl SignalProgram {
     /// State of a link at a time in seconds; `None` for a link or a program without phases.
     pub fn at(&self, link: usize, time_s: f64) -> Option<SignalState> {
         let cycle_s: f64 = self.phases.iter().map(|(duration_s, _)| duration_s).sum();
-        // A small step forward, so that a change at exactly this time has happened.
+        // Slightly later, so that a change at exactly this time is included.
         let mut left_s =
             if cycle_s > 0.0 { (time_s + 1e-6 - self.offset_s).rem_euclid(cycle_s) } else { 0.0 };
         let last = self.phases.last()?;
@@ -43,8 +43,8 @@ impl SignalProgram {
         phase.1.get(link).map(|letter| state_of(*letter))
     }
 
-    /// Run-length states of a link over `steps` steps of `step_s` from `start_s`, as a scene keeps them.
-    /// A program that is not simple stays as it is at `start_s`.
+    /// Run-length encoded states of a link over `steps` steps of `step_s` from `start_s`, in the form of a
+    /// scene. A program that is not simple keeps its state at `start_s`.
     pub fn runs(&self, link: usize, start_s: f64, step_s: f64, steps: usize) -> Vec<(usize, SignalState)> {
         let mut runs: Vec<(usize, SignalState)> = Vec::new();
         for step in 0..if self.is_simple() { steps } else { 1 } {

@@ -23,28 +23,28 @@ const MAX_TIME_S: f64 = 1e9;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FcdRow {
     pub id: String,
-    /// Listed as a person; CSV lists persons among the vehicles.
+    /// Whether it is listed as a person; CSV lists persons among the vehicles.
     pub person: bool,
     /// Name of the vehicle type, cut at the `@` of a distribution.
     pub type_name: String,
     /// Middle of the front bumper of a vehicle, centre of a person; metres, network frame.
     pub point: Vec2,
-    /// Radians counter-clockwise from +x.
+    /// Heading, radians counter-clockwise from +x.
     pub heading_rad: f64,
     pub speed_mps: f64,
-    /// Length and width, metres, where they are given.
+    /// Length and width, metres, if given.
     pub size_m: (Option<f64>, Option<f64>),
 }
 
 /// One item of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FcdItem {
-    /// A time step begins, seconds. Times rise.
+    /// A time step begins, at this time in seconds. Times ascend.
     Step(f64),
     Row(FcdRow),
-    /// Something without a place in a scene, such as a container, or a person inside a vehicle.
+    /// An item that a scene does not hold, such as a container, or a person inside a vehicle.
     LeftOut,
-    /// A height is given.
+    /// A row has a height.
     Height,
 }
 
@@ -58,7 +58,7 @@ impl<'a> FcdRows<'a> {
     /// Opens a file, plain or gzip, of at most `most` decoded bytes.
     ///
     /// # Errors
-    /// `cannot-represent` for a file that is no FCD; the faults of its first bytes.
+    /// `cannot-represent` for a file that is not FCD; the faults of its first bytes.
     pub fn open(file: &'a dyn Source, most: u64) -> Result<Self, ReadError> {
         let open = || file.open().map_err(|error| unpack::fault(&error, 0));
         let head = unpack::head(open()?);
@@ -66,10 +66,10 @@ impl<'a> FcdRows<'a> {
         Self::of(&head, Box::new(input))
     }
 
-    /// Reads what is unpacked already and begins so.
+    /// Reads unpacked content that begins with `head`.
     ///
     /// # Errors
-    /// `cannot-represent` for what is no FCD.
+    /// `cannot-represent` for content that is not FCD.
     pub fn of(head: &[u8], input: Box<dyn BufRead + 'a>) -> Result<Self, ReadError> {
         let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
         if matches!(first, None | Some(b'<')) || xml::root_of(head).is_some() {
@@ -82,8 +82,8 @@ impl<'a> FcdRows<'a> {
     /// The next item; `None` at the end.
     ///
     /// # Errors
-    /// `malformed-file` for broken XML or gzip, `invalid-field` with the line for a value that cannot be
-    /// read, the bounds of a file. Nothing can be read after a fault.
+    /// `malformed-file` for broken XML or gzip, `invalid-field` with the line for an unreadable value, the
+    /// limits of a file. Nothing can be read after a fault.
     pub fn next(&mut self) -> Result<Option<FcdItem>, ReadError> {
         match self {
             Self::Xml(rows) => rows.next(),
@@ -127,7 +127,7 @@ fn type_name(text: &str) -> String {
     text.split('@').next().unwrap_or_default().chars().take(MAX_ID).collect()
 }
 
-/// A time that must lie after the one before.
+/// A time, which must be after the previous one.
 fn time(text: &str, before_s: Option<f64>, line: u32) -> Result<f64, SumoError> {
     let time_s = number(text, (-MAX_TIME_S, MAX_TIME_S), wanted::TIME, line)?;
     if before_s.is_some_and(|before_s| time_s <= before_s) {
@@ -275,7 +275,7 @@ impl<'a> FcdCsvRows<'a> {
                 Some((person, columns)) => Some(FcdItem::Row(csv_row(*person, columns, &field, line)?)),
                 None => None,
             };
-            // Rows of one step repeat its time letter by letter.
+            // Rows of one step repeat its time as the same text.
             let now = field(self.time);
             if self.time_s.is_none() || now != self.time_text {
                 let time_s = time(now, self.time_s, line)?;
@@ -295,7 +295,7 @@ fn csv_row<'t>(
 ) -> Result<FcdRow, SumoError> {
     let optional = |column: Option<usize>| column.map(field);
     let type_name = type_name(optional(columns.kind).unwrap_or_default());
-    // SUMO 1.28 puts persons in the vehicles' columns; they have an edge in place of a lane.
+    // SUMO 1.28 writes persons in the vehicles' columns, with an edge instead of a lane.
     let walks = optional(columns.lane) == Some("") && optional(columns.edge).is_some_and(|e| !e.is_empty());
     Ok(FcdRow {
         id: id(field(columns.id), line)?,

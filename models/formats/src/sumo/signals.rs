@@ -46,7 +46,8 @@ impl SignalLog {
         rows[row].1.get(link).map(|c| state_of(*c))
     }
 
-    /// Run-length states of a link over `steps` steps of `step_s` from `start_s`, in the form of a scene.
+    /// Run-length encoded states of a link over `steps` steps of `step_s` from `start_s`, in the form of a
+    /// scene.
     pub fn runs(
         &self,
         program: &str,

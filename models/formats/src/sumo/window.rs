@@ -44,13 +44,13 @@ pub(super) fn between(a: &FcdState, b: &FcdState) -> Between {
     if b.step != a.step + 1 || time_s > MAX_FILLED_S + SAME_S {
         return Between::Gap;
     }
-    // A lane change is a jump of one lane width; a larger displacement is no driving.
+    // A lane change may be a jump of one lane width; a larger displacement is not driving.
     let farthest_m = 1.5 * a.speed_mps.max(b.speed_mps) * time_s + 5.0;
     if (b.centre - a.centre).norm() > farthest_m { Between::Jump } else { Between::Motion }
 }
 
-/// The state at a time within two samples: a cubic with the recorded directions and speeds, bounded so that
-/// the motion never runs backwards (Fritsch and Carlson 1980, the square of side 3).
+/// The state at a time between two samples: a cubic with the recorded directions and speeds, limited so that
+/// the motion is never backwards (Fritsch and Carlson 1980, the square of side 3).
 fn filled(a: &FcdState, b: &FcdState, time_s: f64, origin: Vec2) -> State {
     let whole_s = b.time_s - a.time_s;
     let u = ((time_s - a.time_s) / whole_s).clamp(0.0, 1.0);
@@ -65,8 +65,8 @@ fn filled(a: &FcdState, b: &FcdState, time_s: f64, origin: Vec2) -> State {
     FcdState { step: a.step, time_s, centre, heading_rad, speed_mps }.state(origin)
 }
 
-/// States at `steps` steps from `start_s`; none while the road user was not seen. Steps at the source's times
-/// keep the source's values.
+/// States at `steps` steps from `start_s`; `None` while the road user was not seen. Steps at times of the
+/// source keep its values.
 pub(super) fn track(samples: &[FcdState], start_s: f64, steps: usize, origin: Vec2) -> Track {
     let at = |step: usize| {
         let time_s = start_s + step as f64 * STEP_S;

@@ -34,7 +34,7 @@ pub(super) struct ColumnSource {
     pub file: TableKind,
     /// Name of the column; nothing if every row has the same value.
     pub column: Option<String>,
-    /// ... namely this one; together with a column, the default for files without the column.
+    /// The value of every row; together with a column, the default for files without the column.
     pub value: Option<String>,
     /// Numbers are `factor * number + offset`.
     pub factor: f64,

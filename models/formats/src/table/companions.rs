@@ -104,7 +104,7 @@ impl AgentsTable {
 /// Facts about the recording as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RecordingFacts {
-    /// Frames a second.
+    /// Frames per second.
     pub rate_hz: Option<f64>,
     /// Origin of the recording in its zone, metres.
     pub shift: Option<Vec2>,

@@ -25,7 +25,8 @@ const MOST_TOLD: usize = 8;
 /// The tables and maps that come with a file, each with its name.
 struct FileSet<'a> {
     files: Vec<NamedTable<'a>>,
-    /// All are in one zip; else the first one is the file itself, and the others lie in its folder.
+    /// Whether all are in one zip; otherwise the first one is the file itself, and the others are in its
+    /// folder.
     in_zip: bool,
 }
 
@@ -35,7 +36,7 @@ impl<'a> FileSet<'a> {
         let files: Vec<NamedTable<'a>> = if in_zip {
             let wanted = |name: &str| is_table(name) || is_map(name);
             let entries = unpack::entries(file, MAX_DECODED_BYTES, wanted)?;
-            // Copies of a file that a program of Apple puts beside it begin so.
+            // macOS adds metadata copies of files to a zip under this prefix.
             let files: BTreeMap<_, _> =
                 entries.into_iter().filter(|(name, _)| !name.starts_with("__MACOSX")).collect();
             files.into_iter().map(|(name, entry)| (name, TableFile::Packed(entry))).collect()
@@ -56,11 +57,11 @@ impl<'a> FileSet<'a> {
         Ok(Self { files, in_zip })
     }
 
-    /// The recordings: of a zip all that are in it, else the one whose tracks the file has.
+    /// The recordings: all of a zip, otherwise the one whose tracks the file contains.
     fn recordings(&self, columns: Option<&dyn Source>) -> Vec<TableGroup> {
         let is_one = |name: &str| !self.in_zip || is_table(name);
         let tables = self.files.iter().map(|(name, _)| name.as_str());
-        // A map has no place among the tables, but the numbers count it.
+        // A map is not a table, but indices count all files, so it keeps an empty name.
         let names: Vec<&str> = tables.map(|name| if is_one(name) { name } else { "" }).collect();
         let mut found = groups::groups(&names, columns);
         if !self.in_zip {
@@ -70,7 +71,7 @@ impl<'a> FileSet<'a> {
         if found.is_empty() { groups::each_alone(&names) } else { found }
     }
 
-    /// What is said of the files that lie beside the table of a recording and are read with it.
+    /// The message about files in the folder that are read with the table of a recording.
     fn told(&self, group: &TableGroup, options: &ImportOptions) -> Option<ImportWarning> {
         if self.in_zip {
             return None;
@@ -86,15 +87,15 @@ impl<'a> FileSet<'a> {
     }
 }
 
-/// Maps that come with a table: those of its zip or folder. Those beyond the bounds are left out, and the first of
-/// them is said.
+/// Maps that come with a table: those of its zip or folder. Those beyond the limits are left out, and a warning
+/// names the first of them.
 ///
 /// # Errors
 /// A broken zip.
 pub(super) fn maps<'a>(file: &'a dyn Source, options: &'a ImportOptions) -> Result<MapFiles<'a>, ReadError> {
     let mut maps = MapFiles::default();
     let all = FileSet::of(file, options)?.files;
-    // All are held until the last scene is read.
+    // All maps stay in memory until the last scene is read.
     let most = memory_for(file.encoded_len()) / MAP_MEMORY;
     let mut size = 0u64;
     for (name, map) in all.into_iter().filter(|(name, _)| is_map(name)) {
@@ -114,7 +115,7 @@ pub(super) fn maps<'a>(file: &'a dyn Source, options: &'a ImportOptions) -> Resu
     Ok(maps)
 }
 
-/// The recordings of a file, each with what is said of its files.
+/// The recordings of a file, each with the message about its files.
 fn recordings<'a>(
     file: &'a dyn Source,
     options: &'a ImportOptions,
@@ -136,8 +137,8 @@ fn recordings<'a>(
     Ok(found)
 }
 
-/// Scenes of a file, each with the best of the maps of the options under it. A recording that cannot be read does not
-/// end the others.
+/// Scenes of a file, each with the best matching map of the options. An unreadable recording does not stop the
+/// others.
 pub(super) fn scenes<'a>(file: &'a dyn Source, options: &'a ImportOptions, parquet: bool) -> Scenes<'a> {
     let recordings = match recordings(file, options) {
         Ok(recordings) => recordings,

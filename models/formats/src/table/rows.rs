@@ -1,4 +1,4 @@
-//! Rows of a table, whatever file they are in.
+//! Rows of a table in any file format.
 
 use super::columns::Wide;
 use crate::columnar::{self, ColumnValue, is_parquet};
@@ -12,7 +12,7 @@ use std::io::{self, BufRead, Read};
 
 /// Most bytes of a row of CSV.
 const MAX_ROW: u64 = 64 << 10;
-/// ... and of a table with a row for each road user: an hour at 25 Hz.
+/// Most bytes of a row of a table with a row per road user: an hour at 25 Hz.
 const MAX_WIDE_ROW: u64 = 8 << 20;
 /// Most columns of CSV.
 const MAX_COLUMNS: usize = 1_024;
@@ -25,7 +25,7 @@ pub(super) enum TableFile<'a> {
 }
 
 impl<'a> TableFile<'a> {
-    /// Its bytes from the first one on.
+    /// Its bytes from the beginning.
     ///
     /// # Errors
     /// When they cannot be read.
@@ -44,7 +44,7 @@ impl<'a> TableFile<'a> {
         }
     }
 
-    /// Size in bytes once it is out of its zip.
+    /// Size in bytes after unpacking from its zip.
     pub fn unpacked_len(&self) -> u64 {
         match self {
             Self::Given(file) => file.encoded_len(),
@@ -70,7 +70,7 @@ pub(super) enum Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Opens a file of CSV.
+    /// Opens a CSV file.
     ///
     /// # Errors
     /// Those of the file.
@@ -78,7 +78,7 @@ impl<'a> Rows<'a> {
         CsvRows::open(file, wide).map(Self::Csv)
     }
 
-    /// Opens a file of Parquet.
+    /// Opens a Parquet file.
     ///
     /// # Errors
     /// Those of the file.
@@ -102,7 +102,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Says which columns are read, by position.
+    /// Selects the columns to read, by position.
     ///
     /// # Errors
     /// Those of the file.
@@ -118,7 +118,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Goes to the next row; false at the end.
+    /// Advances to the next row; false at the end.
     ///
     /// # Errors
     /// Those of the file.
@@ -129,7 +129,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The value of a column that was chosen, by position in the file.
+    /// The value of a selected column, by position in the file.
     pub fn value(&self, column: usize) -> ColumnValue<'_> {
         match self {
             Self::Csv(rows) => rows.value(column),
@@ -148,7 +148,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// A reader that gives so many bytes and then fails.
+/// A reader that returns a limited number of bytes and then fails.
 pub(super) struct BoundedReader<R> {
     inner: R,
     left: u64,
@@ -169,13 +169,13 @@ impl<R: Read> Read for BoundedReader<R> {
     }
 }
 
-/// Rows of CSV, separated by comma, semicolon or tabulator, with the columns' names in the first line.
+/// Rows of CSV, separated by commas, semicolons or tabs, with column names in the first line.
 pub(super) struct CsvRows<'a> {
     reader: csv::Reader<BoundedReader<Box<dyn BufRead + 'a>>>,
     names: Vec<String>,
     record: csv::StringRecord,
     wide: Option<Wide>,
-    /// Which of the repeated parts of a wide row is read; none before the first row.
+    /// Index of the repeated part of a wide row that is read; `None` before the first row.
     part: Option<usize>,
 }
 
@@ -193,7 +193,7 @@ impl<'a> CsvRows<'a> {
             input.read_exact(&mut [0; 3]).map_err(fault)?;
         }
         let input: Box<dyn BufRead + 'a> = Box::new(input);
-        // A row may begin at the end of what was read for the one before it.
+        // A row may begin at the end of the bytes that were read for the previous one.
         let most = if wide.is_some() { MAX_WIDE_ROW } else { MAX_ROW };
         let input = BoundedReader { inner: input, left: 2 * most, most };
         let reader = csv::ReaderBuilder::new()
@@ -217,7 +217,7 @@ impl<'a> CsvRows<'a> {
             let part = self.part.map_or(0, |part| part + 1);
             let from = fixed + part * repeated;
             let mut cells = (from..from + repeated).map(|at| self.record.get(at));
-            // Rows end with a separator: a part of empty cells is none.
+            // Rows may end with a separator: a part with an empty cell is not a part.
             if self.has_row() && cells.all(|cell| cell.is_some_and(|text| !text.trim().is_empty())) {
                 self.part = Some(part);
                 return Ok(true);
@@ -262,6 +262,6 @@ impl<'a> CsvRows<'a> {
 pub(super) fn delimiter(head: &[u8]) -> u8 {
     let line = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
     let count = |delimiter: &u8| line.iter().filter(|byte| *byte == delimiter).count();
-    // The last of equals: commas where there is nothing.
+    // `max_by_key` returns the last of equal candidates: a comma if there are no separators.
     [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
 }

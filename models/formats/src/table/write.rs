@@ -18,14 +18,14 @@ pub(super) struct TableRow<'a> {
     /// Sample, mode and probability of a future.
     pub future: Option<(usize, usize, f64)>,
     pub step: usize,
-    /// In the frame of the source.
+    /// State in the frame of the source.
     pub state: Option<State>,
     pub z_m: Option<f64>,
     pub size: Size,
     pub chosen: bool,
 }
 
-/// Scenes with what they are called, each name once.
+/// Scenes with unique names.
 pub(super) fn named<'a>(scenes: &[&'a Scene], options: &ExportOptions) -> Vec<(&'a Scene, String)> {
     let mut taken = std::collections::BTreeSet::new();
     let name = |scene: &&'a Scene| {
@@ -39,7 +39,8 @@ pub(super) fn named<'a>(scenes: &[&'a Scene], options: &ExportOptions) -> Vec<(&
     scenes.iter().map(name).collect()
 }
 
-/// Calls `take` for each row of a scene: what was recorded, then futures, by sample, road user, mode and step.
+/// Calls `take` for each row of a scene: first recorded states, then futures, in the order of sample, road
+/// user, mode and step.
 pub(super) fn each(
     (scene, name): &(&Scene, String),
     options: &ExportOptions,
@@ -75,8 +76,8 @@ pub(super) fn each(
     Ok(())
 }
 
-/// States less apart than this are one, metres and m/s: of a road user that was put somewhere the one is the other,
-/// rounded.
+/// States that differ by less than this are the same, metres and m/s: for a placed road user, one state is the
+/// other one, rounded.
 const SAME: f64 = 5e-3;
 
 fn is_same(a: Option<&State>, b: Option<&State>) -> bool {
@@ -170,7 +171,7 @@ pub(super) fn csv(scenes: &[(&Scene, String)], options: &ExportOptions, out: imp
     csv.flush()
 }
 
-/// A text that no spreadsheet runs as a formula: one that begins like one gets a quote before it.
+/// A text that no spreadsheet runs as a formula: one that begins like a formula gets a quote as prefix.
 pub fn cell(text: &str) -> Cow<'_, str> {
     if is_formula(text) { Cow::Owned(format!("{QUOTE}{text}")) } else { Cow::Borrowed(text) }
 }
@@ -180,7 +181,7 @@ pub(super) fn plain(cell: &str) -> &str {
     cell.strip_prefix(QUOTE).filter(|text| is_formula(text)).unwrap_or(cell)
 }
 
-/// Begins texts that spreadsheets would run, and texts that begin with it themselves.
+/// Prefix of texts that spreadsheets would run, and of texts that begin with this character.
 const QUOTE: char = '\'';
 
 /// Spreadsheets of East Asian languages take the wide forms of the signs too, and some skip blanks before a sign.
@@ -189,7 +190,7 @@ fn is_formula(text: &str) -> bool {
     text.starts_with(QUOTE) || text.trim_start_matches([' ', '\u{a0}', '\u{feff}']).starts_with(SIGNS)
 }
 
-/// To a millionth, without zeros at the end.
+/// Formats a number with six decimals, without trailing zeros.
 fn decimal(value: f64) -> String {
     let text = format!("{:.6}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -218,7 +219,7 @@ fn values(scene: &(&Scene, String), options: &ExportOptions, column: usize) -> C
         5 => whole(scene, options, |row| row.future.map(|(_, mode, _)| mode)),
         6 => numbers(scene, options, |row| row.future.map(|(.., probability)| probability)),
         7 => whole(scene, options, |row| Some(row.step)),
-        // The number that a tenth is written as, so that 0.3 is 0.3.
+        // The quotient is the number that prints as a multiple of 0.1, such as 0.3.
         8 => numbers(scene, options, |row| Some(row.step as f64 / 10.0)),
         9 => numbers(scene, options, |row| row.state.map(|s| s.x_m)),
         10 => numbers(scene, options, |row| row.state.map(|s| s.y_m)),
@@ -239,7 +240,7 @@ type Named<'a> = (&'a Scene, String);
 
 fn all<T>(scene: &Named<'_>, options: &ExportOptions, of: impl Fn(&TableRow<'_>) -> T) -> Vec<T> {
     let mut list = Vec::new();
-    // Nothing that is called here fails.
+    // The closure never fails, so neither does the call.
     let _ = each(scene, options, &mut |row| {
         list.push(of(row));
         Ok(())

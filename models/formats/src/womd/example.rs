@@ -17,16 +17,17 @@ use scene::{STEP_S, Scene, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// Most road users, lights and road points of a record.
+/// Most road users, signals and road points of a record.
 const ROOM: (usize, usize, usize) = (128, 16, 30_000);
-/// Steps before and after the present one.
+/// Number of steps before and after the present one.
 const PAST: usize = NOW_STEP;
 const FUTURE: usize = 80;
-/// Least distance of road points, metres; doubled until they fit.
+/// Least spacing of road points, metres; doubled until they fit.
 const SPACING_M: f64 = 0.5;
 /// Value of an empty slot.
 const NOTHING: f32 = -1.0;
-/// Numbers of kinds of points: the first numbers of painted lines and of edges, and those of signs and areas.
+/// Type numbers of road points: the first numbers of painted lines and of edges, and those of signs and
+/// areas.
 const FIRST_LINE: i64 = 5;
 const FIRST_EDGE: i64 = 14;
 const STOP_SIGN: i64 = 17;
@@ -171,7 +172,7 @@ fn kept(scenario: &Scenario, now: usize, losses: &mut BTreeSet<Loss>) -> Vec<usi
     order
 }
 
-/// When a step is, microseconds.
+/// Time of a step, microseconds.
 fn time(scenario: &Scenario, step: usize) -> i64 {
     let seconds = scenario.timestamps_seconds.get(step).copied().unwrap_or(step as f64 * STEP_S);
     (seconds * MICROSECONDS).round() as i64
@@ -179,7 +180,7 @@ fn time(scenario: &Scenario, step: usize) -> i64 {
 
 type Value = fn(&ObjectState) -> f32;
 
-/// Numbers of a state by name.
+/// Values of a state by name.
 const STATE: [(&str, Value); 11] = [
     ("x", |s| s.center_x.unwrap_or_default() as f32),
     ("y", |s| s.center_y.unwrap_or_default() as f32),
@@ -353,7 +354,7 @@ fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>
                 left_out += 1;
                 continue;
             }
-            // To the next point; at the end as before.
+            // The direction to the next point; at the end, that from the previous point.
             let step = |a: &(Vec2, f64), b: &(Vec2, f64)| [b.0.x - a.0.x, b.0.y - a.0.y, b.1 - a.1];
             let way = match (points.get(i + 1), i.checked_sub(1).and_then(|i| points.get(i))) {
                 (Some(next), _) => step(&(*p, *z), next),

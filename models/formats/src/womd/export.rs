@@ -1,4 +1,4 @@
-//! From a scene to a Scenario message and its file.
+//! Converts a scene to a Scenario message, and writes its file.
 
 use super::export_map::{MapIds, features, map_point};
 use super::import::SIGNAL_STATES;
@@ -17,7 +17,7 @@ use scene::{Agent, AgentType, STEP_S, Scene, Shown, Signal, Size, State, Subtype
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::io::{self, Write};
 
-/// Writes one record a scene.
+/// Writes one record per scene.
 ///
 /// # Errors
 /// Those of the writer. Losses are not errors: each kind is listed once.
@@ -32,7 +32,7 @@ pub fn write(
     Ok(losses.into_iter().collect())
 }
 
-/// Writes into a file, or into gzip that goes there.
+/// Writes to a file, compressed with gzip or not.
 pub(super) fn packed(
     out: impl Write,
     gzip: bool,
@@ -63,7 +63,7 @@ fn write_records(
     Ok(())
 }
 
-/// The message of a scene, and what it leaves out.
+/// The message of a scene, and its losses.
 pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) {
     let frame = Frame::of(&scene.meta.origin);
     let mut losses = Vec::new();
@@ -120,7 +120,7 @@ fn type_number(agent_type: AgentType) -> i32 {
     }
 }
 
-/// Track ids: the road user's own where it is a number, else the next free ones.
+/// Track ids: the id of the road user if it is a number, else the next free number.
 pub(super) fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
     let own = |agent: &Agent| agent.id.parse::<i32>().ok().filter(|n| n.to_string() == agent.id);
     let taken: HashSet<i32> = agents.iter().filter_map(own).collect();
@@ -132,7 +132,7 @@ pub(super) fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
     ids
 }
 
-/// Its state at each step; heights are the log's, the last known one where it has none.
+/// Its state at each step. Heights are those of the log; a missing one is the last known height.
 fn states(log: &scene::Track, shown: &Shown<'_>, steps: usize, frame: Frame) -> Vec<ObjectState> {
     let mut height = None;
     (0..steps)
@@ -147,7 +147,7 @@ fn states(log: &scene::Track, shown: &Shown<'_>, steps: usize, frame: Frame) -> 
         .collect()
 }
 
-/// A step at which the road user was not seen: zeros that mean nothing, as in Waymo's own files.
+/// A step at which the road user was not seen: meaningless zeros, as in Waymo's files.
 fn absent() -> ObjectState {
     ObjectState {
         center_x: Some(0.0),
@@ -180,7 +180,7 @@ fn present(size: &Size, state: &State, z_m: Option<f64>, frame: Frame) -> Object
     }
 }
 
-/// The source's own times, continued in 0.1 s steps where a future is longer.
+/// The times of the source, continued in steps of 0.1 s if a future is longer.
 fn timestamps(times: Option<&[f64]>, steps: usize) -> Vec<f64> {
     let own = times.unwrap_or_default();
     let last = own.last().copied();

@@ -1,4 +1,4 @@
-//! A lane map as map features.
+//! Converts a lane map to map features.
 
 use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// First number for features with non-numeric ids.
 const FIRST_FREE: i64 = 1_000_000_000;
 
-/// Kinds that have their own ids in a scene; in a Scenario message all share one row of numbers.
+/// Kinds of features. Ids are unique per kind in a scene, but over all kinds in a Scenario message.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum IdSpace {
     Lane,

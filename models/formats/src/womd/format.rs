@@ -1,4 +1,4 @@
-//! Scenario records as a format among others.
+//! Scenario records as an import and export format.
 
 use super::MAX_RECORD_BYTES;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
@@ -50,7 +50,7 @@ impl Format for Womd {
         if super::looks_like(head) {
             return 2;
         }
-        // Other tools name what they made of records after them.
+        // Other tools name files that they derive from records after them.
         let json = matches!(head.iter().find(|byte| !byte.is_ascii_whitespace()), Some(b'{' | b'['));
         u8::from(!json && name.to_ascii_lowercase().contains("tfrecord"))
     }

@@ -1,11 +1,11 @@
-//! Ids of records as ids of scenes.
+//! Converts ids of records to ids of scenes.
 
 use crate::problem::ImportWarning;
 use crate::sentences;
 use scene::message::Word;
 use std::collections::BTreeMap;
 
-/// Ids as strings. A number that comes again gets the first free suffix: `12`, `12.2`, `12.3`.
+/// Ids as strings. A repeated number gets the first free suffix: `12`, `12.2`, `12.3`.
 #[derive(Default)]
 pub(super) struct UniqueIds {
     /// Number of uses of each number.

@@ -1,4 +1,4 @@
-//! From a Scenario message to a scene.
+//! Converts a Scenario message to a scene.
 
 use super::ids::UniqueIds;
 use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track};
@@ -114,8 +114,8 @@ fn nearest(track: &Track, step: usize) -> Option<&ObjectState> {
     known.min_by_key(|(i, _)| i.abs_diff(step)).map(|(_, s)| s)
 }
 
-/// The ego's position at the current step; without an ego the middle of everything, in whole metres
-/// so that it is found again after a round trip.
+/// The ego's position at the current step; without an ego, the middle of the content in whole metres, so that
+/// a round trip gives the same origin.
 fn origin(scenario: &Scenario, ego: Option<usize>, now_step: usize) -> Vec2 {
     let ego = ego.and_then(|i| scenario.tracks.get(i)).and_then(|track| nearest(track, now_step));
     if let Some(state) = ego {
@@ -131,7 +131,7 @@ fn finite_or_zero(p: Vec2) -> Vec2 {
     if p.x.is_finite() && p.y.is_finite() { p } else { Vec2::zeros() }
 }
 
-/// Indices of the tracks that a scene has room for: the ego and those nearest to it.
+/// Indices of the tracks that fit a scene: the ego and the tracks nearest to it.
 fn kept_tracks(
     tracks: &[Track],
     ego: Option<usize>,
@@ -224,8 +224,8 @@ fn predictions(list: &[RequiredPrediction], ids: &[String], kept: &BTreeSet<usiz
     list.iter().filter_map(find).collect()
 }
 
-/// Run-length signals, in order of their first appearance. A lane that shows twice in one step has
-/// two signals.
+/// Run-length encoded signals, in order of first appearance. A lane with two states in one step has two
+/// signals.
 fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<ImportWarning>) -> Vec<Signal> {
     let mut signals: Vec<Signal> = Vec::new();
     let mut places: BTreeMap<(i64, usize), usize> = BTreeMap::new();

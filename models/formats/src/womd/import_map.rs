@@ -1,4 +1,4 @@
-//! The map features of a Scenario message as a lane map.
+//! Converts the map features of a Scenario message to a lane map.
 
 use super::ids::UniqueIds;
 use super::proto::{
@@ -12,7 +12,7 @@ use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign as S
 use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::{LaneMap, Vec2};
 
-/// Some point of a feature: its first.
+/// The first point of a feature.
 pub(super) fn any_point(feature: &MapFeature) -> Option<MapPoint> {
     match feature.feature_data.as_ref()? {
         FeatureData::Lane(lane) => lane.polyline.first().copied(),
@@ -36,7 +36,7 @@ struct MapFeatureIds {
     driveways: UniqueIds,
 }
 
-/// Sorts features into a map, in their order. What has too few points to be drawn is dropped.
+/// Sorts features into a map, in their order. Features with too few points to be drawn are dropped.
 pub(super) fn lane_map(
     features: Vec<MapFeature>,
     origin: Vec2,

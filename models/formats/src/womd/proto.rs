@@ -1,7 +1,7 @@
 //! The messages of a Scenario record, with the field numbers that Waymo published.
 //!
-//! Everything is proto2 `optional`, so that what is present (zeros too) is written and what is
-//! absent stays absent. Unknown fields (lidar, camera tokens) are skipped.
+//! All fields are proto2 `optional`: present values (zeros too) are written, and absent ones stay absent.
+//! Unknown fields (lidar, camera tokens) are skipped.
 #![allow(missing_docs, reason = "names and meaning are those of the published messages")]
 
 use prost::Message;

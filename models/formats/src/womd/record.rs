@@ -179,7 +179,7 @@ mod tests {
         let falling: Vec<u8> = (0..32).rev().collect();
         assert_eq!(crc32c::crc32c(&falling), 0x113f_db5c);
         assert_eq!(crc32c::crc32c(b"123456789"), 0xe306_9283);
-        // Masks of 0 and of a value that is easily verified by hand.
+        // Masked CRCs of 0 and of a value that can be verified by hand.
         assert_eq!(masked_crc(b""), 0xa282_ead8);
         assert_eq!(masked_crc(b"123456789"), 0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8));
     }

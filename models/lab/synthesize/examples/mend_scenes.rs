@@ -1,4 +1,4 @@
-//! Mends demo scenes that are there already: `cargo run -p dragtraffic-lab-synthesize --example mend_scenes -- FILE...`.
+//! Corrects existing demo scenes: `cargo run -p dragtraffic-lab-synthesize --example mend_scenes -- FILE...`.
 
 use anyhow::Context as _;
 

@@ -1,4 +1,4 @@
-//! Traffic demand of all types: routes for `sumo`, with reachable goals only.
+//! Traffic demand of all types: routes for `sumo`, only to reachable goals.
 
 use super::fleet::Fleet;
 use super::network::{Network, Rank};
@@ -10,21 +10,21 @@ use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Factors on the drawn amounts of traffic.
+/// Factors and amounts of the traffic of a seed.
 #[derive(Clone, Copy, Debug)]
 pub struct DemandFactors {
-    /// Motor vehicles.
+    /// Factor on the rate of motor vehicles.
     pub traffic: f64,
     /// Cyclists on the road, expected number.
     pub cyclists: f64,
-    /// Groups of people, expected number for 1.5 km of sidewalk.
+    /// Groups of pedestrians, expected number per 1.5 km of sidewalk.
     pub people: f64,
     /// Share of buses among motor vehicles.
     pub buses: f64,
 }
 
 impl DemandFactors {
-    /// Draws one.
+    /// Draws the factors.
     pub fn new(draw: &mut Stream) -> Self {
         Self {
             traffic: draw.between(0.5, 2.0),
@@ -35,7 +35,7 @@ impl DemandFactors {
     }
 }
 
-/// Vehicles an hour and lane that enter on an edge of this type.
+/// Vehicles per hour and lane that enter on an edge of this type.
 fn rate(road_type: &str) -> f64 {
     match road_type {
         "residential" => 45.0,
@@ -51,7 +51,7 @@ fn rate(road_type: &str) -> f64 {
 struct Trips<'a> {
     net: &'a Net,
     fringe: BTreeSet<&'a str>,
-    /// Departure and element.
+    /// Departure time and XML element.
     items: Vec<(f64, String)>,
 }
 
@@ -120,7 +120,7 @@ impl Trips<'_> {
         found
     }
 
-    /// Everything reachable from each edge.
+    /// The edges that can be reached from each edge.
     fn reachable(&self, kinds: &[LaneKind]) -> HashMap<usize, BTreeSet<usize>> {
         let next: HashMap<usize, BTreeSet<usize>> =
             self.normal().map(|e| (e, self.next_edges(e, kinds))).collect();
@@ -158,7 +158,8 @@ impl Trips<'_> {
             if goals.is_empty() {
                 continue;
             }
-            // Recorded windows have more turns than capacity alone yields, so the weights favour turning.
+            // Recorded windows have more turns than weights by capacity alone would give, so the weights
+            // favour turns.
             let weight = |goal: &usize| {
                 let (p, q) = (position(&edge.from), position(&net.edges[*goal].to));
                 let straight = -p.dot(&q) / (p.norm() * q.norm() + 1e-6);
@@ -167,7 +168,7 @@ impl Trips<'_> {
             };
             let weights: Vec<f64> = goals.iter().map(weight).collect();
             let lanes = self.lanes(edge, LaneKind::Vehicle) as f64;
-            // Ramps carry less than a lane of the road they lead to.
+            // A ramp carries less traffic than a lane of its motorway.
             let ramp = if edge.road_type == Rank::Motorway.name() && lanes < 2.0 { 0.5 } else { 1.0 };
             let hourly = ramp * rate(&edge.road_type) * lanes * crowd.traffic * (0.35 * draw.normal()).exp();
             let mean_wait = 3600.0 / hourly.max(1e-3);
@@ -179,7 +180,7 @@ impl Trips<'_> {
                 let group = draw.weighted(groups);
                 let Some(goal) = draw.among(weights.iter().copied()) else { break };
                 let goal = &net.edges[goals[goal]];
-                // Nothing long turns in the aisles of a parking lot.
+                // Long vehicles cannot turn in the aisles of a car park.
                 let narrow = edge.road_type == "lot" || goal.road_type == "lot";
                 let kind = fleet.pick(draw, if narrow { "car" } else { group });
                 let stop = self.stop(if kind.starts_with("bus") { 0.7 } else { 0.025 }, [edge, goal], draw);
@@ -194,7 +195,7 @@ impl Trips<'_> {
         }
     }
 
-    /// With this probability a stop in the rightmost lane: a bus at its stop, or a double-parked vehicle.
+    /// With this probability, a stop in the rightmost lane: a bus at its stop, or a double-parked vehicle.
     fn stop(&self, chance: f64, edges: [&NetEdge; 2], draw: &mut Stream) -> String {
         let edge = edges[draw.below(2)];
         let lane = self.net.lanes_of(edge, LaneKind::Vehicle).next().map(|l| &self.net.lanes[l]);

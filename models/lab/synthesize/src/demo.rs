@@ -1,5 +1,5 @@
-//! Demo scenes of our own making: hand-laid networks, simulated traffic, and the nine seconds of it
-//! that show most. `cargo run -p dragtraffic-lab-synthesize --example demo_scenes -- assets/scenes` writes them.
+//! Demo scenes: manually designed networks with simulated traffic, of which the nine seconds with the best score
+//! are selected. `cargo run -p dragtraffic-lab-synthesize --example demo_scenes -- assets/scenes` writes them.
 
 use super::demand::DemandFactors;
 use super::demo_check;
@@ -14,9 +14,9 @@ use scene::geometry::{cross, direction};
 use scene::{Agent, AgentType, Conditions, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2};
 use std::path::{Path, PathBuf};
 
-/// Half a side of the square that a demo shows, metres.
+/// Half a side of the square in which a demo shows road users, metres.
 const SHOWN_M: f64 = 110.0;
-/// Half a side of the square that the map reaches, metres.
+/// Half a side of the square to which the map is cut, metres.
 const MAP_M: f64 = 125.0;
 
 /// Recipe of a demo scene.
@@ -32,12 +32,11 @@ pub struct Demo {
     seeds: &'static [u64],
     /// Wanted numbers: moving vehicles, parked vehicles, pedestrians, cyclists.
     wanted: [usize; 4],
-    /// At least this many buses.
+    /// Least number of buses.
     buses: usize,
-    /// Signals must change.
+    /// Whether signals must change.
     signals: bool,
-    /// Vehicles that move less than this in the whole time, without a signal as the reason, are stuck,
-    /// metres.
+    /// Vehicles that move less than this in the whole time are stuck, metres.
     least_m: f64,
 }
 
@@ -108,16 +107,16 @@ pub const DEMOS: [Demo; 5] = [
 /// Why a demo was not made.
 #[derive(Debug, thiserror::Error)]
 pub enum DemoError {
-    /// Its traffic.
+    /// The traffic could not be simulated.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// No stretch of the recordings fits.
+    /// No part of the recordings fits.
     #[error("{0}: no nine seconds fit in any of its seeds")]
     NoWindow(&'static str),
-    /// Its file.
+    /// The file could not be written.
     #[error("{path}: {source}")]
     Write {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// Error of the system.
         source: std::io::Error,
@@ -127,7 +126,7 @@ pub enum DemoError {
 /// Makes one demo scene.
 ///
 /// # Errors
-/// When SUMO is missing or fails, or no stretch of traffic passes the checks.
+/// When SUMO is missing or fails, or no part of the traffic passes the checks.
 pub fn scene_of(demo: &Demo, sumo_home: Option<&Path>) -> Result<Scene, DemoError> {
     let sumo = Sumo::find(sumo_home).map_err(RecordError::from)?;
     let mut best: Option<(f64, Scene)> = None;
@@ -138,8 +137,7 @@ pub fn scene_of(demo: &Demo, sumo_home: Option<&Path>) -> Result<Scene, DemoErro
             let Some(scene) = demo.window(&recording, start) else { continue };
             let score = demo.misfit(&scene, &recording, start);
             if best.as_ref().is_none_or(|(least, _)| score < *least) {
-                // A picture shows no events: road users that cause some, and that the demo does not need, are
-                // removed.
+                // A demo has no events: unneeded road users that cause one are removed.
                 let scene = demo_check::without_troublemakers(scene);
                 if demo_check::faults(&scene).is_empty() {
                     best = Some((score, scene));
@@ -169,7 +167,7 @@ pub fn demo(folder: &Path, only: Option<&str>, sumo_home: Option<&Path>) -> Resu
     Ok(written)
 }
 
-/// A demo scene brought to what demos are made to today, and what is still wrong with it.
+/// Corrects an existing demo scene by the current rules, and returns it with its remaining faults.
 pub fn mended(scene: Scene) -> (Scene, Vec<String>) {
     let scene = demo_check::without_troublemakers(demo_mend::mend(scene, MAP_M));
     let faults = demo_check::faults(&scene);
@@ -178,7 +176,7 @@ pub fn mended(scene: Scene) -> (Scene, Vec<String>) {
 
 fn rounded(value: f64, parts: f64) -> f64 {
     let value = (value * parts).round() / parts;
-    // No negative zeros in the files.
+    // Negative zeros do not appear in the files.
     if value == 0.0 { 0.0 } else { value }
 }
 
@@ -217,12 +215,12 @@ impl Demo {
         Some(demo_mend::mend(demo_check::without_overlaps(scene), MAP_M))
     }
 
-    /// Takes out people, cyclists and parked cars beyond the wanted numbers, farthest first.
+    /// Removes pedestrians, cyclists and parked cars beyond the wanted numbers, the farthest first.
     fn thin_out(&self, cast: &mut Vec<(&SimulatedAgent, Vec<Option<State>>)>) {
         let distance = |states: &[Option<State>]| {
             states.iter().flatten().map(|s| s.position().norm()).fold(f64::INFINITY, f64::min)
         };
-        // The nearest moving car comes first: it is the ego.
+        // The nearest moving car is first: it is the ego.
         let rank = |a: &SimulatedAgent| (a.agent_type != AgentType::Vehicle, a.parked);
         cast.sort_by(|a, b| {
             let (p, q) = (distance(&a.1), distance(&b.1));
@@ -277,7 +275,7 @@ impl Demo {
         if self.signals && !changes(15, 60) {
             score += 20.0;
         }
-        // Without a signal as the reason, no vehicle should stand on the road.
+        // No vehicle should stand on the road for the whole time.
         let stuck = |a: &&Agent| {
             let moves = a.agent_type == AgentType::Vehicle && !parked(a);
             moves && a.track.states.iter().all(Option::is_some) && a.track.extent_m() < self.least_m
@@ -313,7 +311,7 @@ fn turns(agent: &Agent) -> bool {
     }
 }
 
-/// Ends well beside its first direction without having turned: a change of lanes, a merge.
+/// Whether the motion ends beside its first direction without a turn, as in a lane change or a merge.
 fn shifts(agent: &Agent) -> bool {
     let mut states = agent.track.states.iter().flatten();
     match (states.next(), states.next_back()) {
@@ -339,7 +337,7 @@ fn shown(actor: &SimulatedAgent, start: usize) -> Vec<Option<State>> {
         .collect()
 }
 
-/// Seen for at least two seconds, without gaps.
+/// Whether the states cover at least two seconds without gaps.
 fn usable(states: &[Option<State>]) -> bool {
     let seen = states.iter().filter(|s| s.is_some()).count();
     let pieces = states.windows(2).filter(|w| w[0].is_none() && w[1].is_some()).count();

@@ -10,13 +10,12 @@ use scene::{Agent, AgentType, STEP_S, Scene, Vec2, wrap_angle};
 /// Largest overhang of a vehicle's corner over the kerb, metres.
 const OVERHANG_M: f64 = 0.35;
 
-/// Slower than this, a vehicle stands in the first frame, m/s.
+/// A vehicle below this speed in the first frame is at rest, m/s.
 const STANDS_MPS: f64 = 1.0;
-/// Vehicles that stand are no farther off their lane's direction than this, radians.
+/// Greatest angle of a vehicle at rest to its lane, radians.
 const ASKEW_RAD: f64 = 0.13;
 
-/// Removes one of each two road users that nearly collide: a pedestrian, a cyclist, or a parked car rather
-/// than a moving one. Moving vehicles stay.
+/// Removes one road user of each near miss: a pedestrian, a cyclist or a parked car. Moving vehicles stay.
 pub fn without_troublemakers(mut scene: Scene) -> Scene {
     let drivable = Drivable::new(&scene.map);
     let found = score(&ScoreInput::of_sample(&scene, None, &drivable)).scene;
@@ -35,7 +34,7 @@ pub fn without_troublemakers(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A corner or the middle of the agent's box is on a crosswalk at a step.
+/// Whether a corner or the centre of a vehicle is on a crosswalk at a step; false for other types.
 pub fn is_on_crosswalk(scene: &Scene, agent: &Agent, step: usize) -> bool {
     let Some(state) = agent.track.at(step).filter(|_| agent.agent_type == AgentType::Vehicle) else {
         return false;
@@ -46,7 +45,7 @@ pub fn is_on_crosswalk(scene: &Scene, agent: &Agent, step: usize) -> bool {
     places.into_iter().any(|p| scene.map.crosswalks.iter().any(|c| contains(&c.polygon.xy, p)))
 }
 
-/// A vehicle that is not parked stands at an angle to every lane near it at a step.
+/// Whether the agent is a vehicle, not parked, at an angle to every lane near it at a step.
 pub fn is_askew(scene: &Scene, agent: &Agent, step: usize) -> bool {
     let Some(state) = agent.track.at(step).filter(|_| agent.agent_type == AgentType::Vehicle) else {
         return false;
@@ -64,11 +63,11 @@ pub fn is_askew(scene: &Scene, agent: &Agent, step: usize) -> bool {
     off.fold(f64::INFINITY, f64::min) > ASKEW_RAD
 }
 
-/// Removes pedestrians and cyclists that touch others, or stand where the picture's checks would fail.
+/// Removes pedestrians and cyclists that overlap others, or whose position would fail the checks.
 pub fn without_overlaps(mut scene: Scene) -> Scene {
     loop {
         let Some((i, j)) = overlapping(&scene) else { return scene };
-        // The one that matters less; of two vehicles, the parked or the later one.
+        // The less important one is removed; of two vehicles, the parked or the later one.
         let weight = |k: usize| match (scene.agents[k].agent_type, scene.agents[k].role.as_deref()) {
             (AgentType::Pedestrian, _) => 0,
             (AgentType::Cyclist, _) => 1,
@@ -102,7 +101,7 @@ fn overlapping(scene: &Scene) -> Option<(usize, usize)> {
     None
 }
 
-/// Everything that is wrong with a scene, in words; empty when it is fit to be shown.
+/// The faults of a scene as text; empty if it can be a demo.
 pub fn faults(scene: &Scene) -> Vec<String> {
     let mut faults = Vec::new();
     if let Err(problems) = scene.clone().checked() {
@@ -153,7 +152,7 @@ fn events(scene: &Scene) -> Vec<String> {
     events
 }
 
-/// Distance of a point from everything paved; zero inside.
+/// Distance of a point from the nearest paved area, metres; zero inside one.
 fn off_pavement(scene: &Scene, p: Vec2) -> f64 {
     let areas = scene.map.drivable.iter().chain(&scene.map.driveways);
     let distance = |ring: &[Vec2]| {
@@ -175,7 +174,7 @@ fn off_road(scene: &Scene, agent: &Agent) -> Option<String> {
         let Some(state) = state else { continue };
         let outline = OrientedBox::of_state(state, &agent.size);
         let out = outline.corners().iter().map(|c| off_pavement(scene, *c)).fold(0.0, f64::max);
-        // Long vehicles swing their corners over the kerb.
+        // The corners of long vehicles swing out over the kerb.
         let allowed = OVERHANG_M + 0.05 * agent.size.length_m;
         if out > allowed {
             return Some(format!("vehicle {} is {out:.1} m off the road at step {step}", agent.id));

@@ -12,7 +12,7 @@ pub fn clip(map: &LaneMap, half: f64) -> LaneMap {
         .iter()
         .filter_map(|lane| {
             let points = tidy(&line(&lane.points.xy, half)?);
-            // Straight stretches need few points; cars are led along the bends.
+            // Straight sections need few points; bends keep more, because cars follow them.
             let points =
                 simplify(&points, 0.02, if lane.lane_type == LaneType::Sidewalk { 40.0 } else { 5.0 });
             Some(Lane { points: points.into(), ..lane.clone() })
@@ -82,7 +82,7 @@ fn tidy(points: &[Vec2]) -> Vec<Vec2> {
     points
 }
 
-/// The longest part of a line inside the square, if there is any worth keeping.
+/// The longest part of a line inside the square; `None` if it is too short.
 fn line(points: &[Vec2], half: f64) -> Option<Vec<Vec2>> {
     let mut parts: Vec<Vec<Vec2>> = vec![Vec::new()];
     for w in points.windows(2) {

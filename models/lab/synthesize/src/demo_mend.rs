@@ -1,5 +1,5 @@
-//! Brings a demo scene to what a planner expects to see, without another simulation: medians end in a nose,
-//! pieces of road that lead nowhere are gone, no vehicle drives over a kerb or steers abruptly.
+//! Corrects a demo scene without another simulation: medians end in a nose, isolated pieces of road are
+//! removed, and no vehicle drives over a kerb or steers abruptly.
 
 use super::filters::{gaussian, gradient, unwrap};
 use formats::sumo::medians;
@@ -9,24 +9,25 @@ use scene::map::{LaneMap, LaneType};
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};
 
-/// Lanes shorter than this that lead nowhere are left-overs of the cut, metres.
+/// Unconnected lanes shorter than this are remains of the cut, metres.
 const FRAGMENT_M: f64 = 30.0;
 /// Corners are moved this far inside the kerb, metres.
 const CLEAR_M: f64 = 0.05;
-/// Vehicles farther over the kerb than this are moved back, metres ...
+/// Vehicles farther over the kerb than this are moved back, metres.
 const OVER_M: f64 = 0.08;
-/// ... until no corner is farther over it than this.
+/// Greatest distance of a corner over the kerb after that, metres.
 const LET_M: f64 = 0.03;
-/// A driver keeps to the corrected line this long before and after, steps, and comes to it as smoothly.
+/// Number of steps for which the correction holds before and after the place.
 const HOLD: usize = 12;
-/// Smoothing of the correction, steps.
+/// Standard deviation of the Gaussian that smooths the correction, steps.
 const SMOOTH: f64 = 7.0;
-/// Smoothing of headings at unrealistically sharp turns, steps, and its maximum.
+/// Smoothing of headings at unrealistically sharp turns: first value, which is also the increment, and
+/// maximum, steps.
 const CALM: (f64, f64) = (2.0, 8.0);
-/// Most rounds of correction.
+/// Most iterations of the correction.
 const ROUNDS: usize = 12;
 
-/// The scene mended. `half` is half a side of the square that its map was cut to, metres.
+/// Corrects the scene. `half` is half a side of the square to which its map was cut, metres.
 pub fn mend(mut scene: Scene, half: f64) -> Scene {
     let mut map = (*scene.map).clone();
     drop_fragments(&mut map, half);
@@ -77,8 +78,8 @@ fn round(map: &mut LaneMap) {
     }
 }
 
-/// Takes away short lanes that no other lane leads to or from and that begin or end inside the map, with
-/// their surface and borders.
+/// Removes short lanes without predecessors and successors that begin or end inside the map, with their
+/// surface and borders.
 fn drop_fragments(map: &mut LaneMap, half: f64) {
     let inside = |p: Option<&Vec2>| p.is_some_and(|p| p.amax() < half - 0.1);
     let is_fragment = |l: &scene::map::Lane| {
@@ -99,15 +100,14 @@ fn drop_fragments(map: &mut LaneMap, half: f64) {
     }
 }
 
-/// Distance of a point from a straight piece.
+/// Distance of a point from a segment, metres.
 fn off(piece: &[Vec2], p: Vec2) -> f64 {
     let along = piece[1] - piece[0];
     let share = ((p - piece[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
     (piece[0] + along * share - p).norm()
 }
 
-/// Shifts the line of a vehicle to the side, as smoothly as a driver would have held it there, until no
-/// corner is over the kerb. Parked vehicles stay.
+/// Shifts the path of a vehicle sideways and smoothly until no corner is over the kerb. Parked vehicles stay.
 fn keep_on_road(agent: &mut Agent, drivable: &Drivable) {
     if agent.role.as_deref() == Some("parked") {
         return;
@@ -161,7 +161,7 @@ fn keep_on_road(agent: &mut Agent, drivable: &Drivable) {
     }
 }
 
-/// The way in which a vehicle has to go to be on the road, metres: across its own.
+/// Displacement that brings a vehicle back on the road, metres, across its heading.
 fn need(state: &State, agent: &Agent, drivable: &Drivable) -> Vec2 {
     let outline = OrientedBox::of_state(state, &agent.size);
     let beyond = outline.corners().into_iter().filter_map(|c| drivable.beyond(c));
@@ -207,7 +207,7 @@ mod tests {
             boxes.filter_map(|b| drivable.box_outside_m(&b)).fold(0.0, f64::max)
         };
         assert!(worst(&agent) < 0.1, "{}", worst(&agent));
-        // Far from there nothing has changed.
+        // Farther away, states are unchanged.
         assert_eq!(agent.track.states[90], Some(state(90)));
     }
 

@@ -1,4 +1,4 @@
-//! Networks of the demo scenes: laid out by hand, so that they show what the editor can do.
+//! Manually designed networks of the demo scenes, which show the features of the editor.
 
 use super::network::{Character, CrossSection, MPH, Network, Rank, hermite};
 use super::random::Purpose;
@@ -77,7 +77,7 @@ fn ray(
     net.road(from, to, vec![start, start + way * reach], section, (turn, false));
 }
 
-/// Signalised crossing of an avenue and a street, with left-turn lanes, bike lanes and parked cars.
+/// Signalised junction of an avenue and a street, with left-turn lanes, cycle lanes and parked cars.
 pub fn crossing() -> Network {
     let mut net = Network::new(character("demo-crossing", 60));
     net.node("c", Vec2::zeros(), "traffic_light", Some(7.0));
@@ -85,7 +85,7 @@ pub fn crossing() -> Network {
     {
         ray(&mut net, "c", id, angle, 230.0, section, true);
     }
-    // A parking lot behind the south-eastern corner.
+    // A car park behind the south-eastern corner.
     let (x, y) = (direction(3.0_f64.to_radians()), direction(93.0_f64.to_radians()));
     let corner = |along: f64, up: f64| x * along + y * up;
     net.paved.push(vec![
@@ -116,7 +116,7 @@ pub fn roundabout() -> Network {
     finished(net)
 }
 
-/// Entry of a motorway, with a frontage street beside it for people and bicycles.
+/// Entry of a motorway, with a parallel street for pedestrians and cyclists.
 pub fn motorway() -> Network {
     let mut net = Network::new(character("demo-motorway", 60));
     let line: Vec<Vec2> = (-160..=160)
@@ -159,7 +159,7 @@ pub fn residential() -> Network {
     finished(net)
 }
 
-/// Arterial of three lanes each way with two signalised crossings.
+/// Arterial with three lanes per direction and two signalised junctions.
 pub fn arterial() -> Network {
     let mut net = Network::new(character("demo-arterial", 55));
     let road = CrossSection { forward: 3, backward: 3, speed: 40.0 * MPH, ..MAIN };

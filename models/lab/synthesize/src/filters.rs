@@ -2,7 +2,7 @@
 
 use scene::random::Stream;
 
-/// Gaussian low-pass; `sigma` in samples. The ends are continued by point reflection, which keeps
+/// Gaussian low-pass filter; `sigma` in samples. The ends are continued by point reflection, which keeps
 /// their slope.
 pub fn gaussian(values: &[f64], sigma: f64) -> Vec<f64> {
     let n = values.len();
@@ -31,8 +31,8 @@ fn kernel(sigma: f64, radius: usize) -> Vec<f64> {
     weights.into_iter().map(|w| w / sum).collect()
 }
 
-/// `n` samples of noise with this deviation, smooth over `correlation` samples. Long correlations are
-/// drawn on a coarser grid and interpolated.
+/// `n` samples of noise with this standard deviation, smooth over `correlation` samples. With a long
+/// correlation, it is drawn on a coarser grid and interpolated.
 pub fn noise(draw: &mut Stream, n: usize, correlation: f64, deviation: f64) -> Vec<f64> {
     let step = (correlation / 6.0).max(1.0);
     let sigma = correlation / step;
@@ -63,7 +63,7 @@ pub fn noise(draw: &mut Stream, n: usize, correlation: f64, deviation: f64) -> V
     (0..n).map(|i| at(i as f64 / step)).collect()
 }
 
-/// Derivative by central differences; `step` is the sample distance.
+/// Derivative by central differences; `step` is the sample spacing.
 pub fn gradient(values: &[f64], step: f64) -> Vec<f64> {
     let n = values.len();
     (0..n)
@@ -74,7 +74,7 @@ pub fn gradient(values: &[f64], step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Piecewise linear function through (`xs` rising, `ys`) at `x`, constant beyond its ends.
+/// Value at `x` of the piecewise linear function through (`xs`, `ys`), constant beyond its ends; `xs` ascend.
 pub fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
     let i = xs.partition_point(|v| *v <= x);
     if i == 0 {
@@ -87,7 +87,7 @@ pub fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
     if span < 1e-12 { ys[i] } else { ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / span }
 }
 
-/// Removes jumps by whole turns from a series of angles.
+/// Removes jumps by full turns from a series of angles.
 pub fn unwrap(angles: &[f64]) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::with_capacity(angles.len());
     for &a in angles {

@@ -14,14 +14,14 @@ pub struct ActorKind {
     pub subtype: Subtype,
     /// Box.
     pub size: Size,
-    /// SUMO moves it as a person (walkers, and cyclists on sidewalks).
+    /// Whether SUMO moves it as a person (pedestrians, and cyclists on sidewalks).
     pub on_foot: bool,
 }
 
 /// All kinds of a seed.
 #[derive(Clone, Debug, Default)]
 pub struct Fleet {
-    /// By SUMO's type id.
+    /// Kinds by SUMO's type id.
     pub kinds: BTreeMap<String, ActorKind>,
     /// Ids by group: `car`, `truck`, `bus`, `moto`, `cycle`, `walker`, `jogger`, `sidewalk_cycle`.
     pub groups: BTreeMap<&'static str, Vec<String>>,
@@ -36,8 +36,9 @@ fn size(length: f64, width: f64, height: f64) -> Size {
 }
 
 impl Fleet {
-    /// Draws the kinds of a seed. Streets are short, and drivers there change lanes less eagerly than by
-    /// default; on a motorway, a vehicle that is late for its exit stops and blocks the road.
+    /// Draws the kinds of a seed. Streets are short, so drivers there change lanes with a smaller lookahead
+    /// than by default. On a motorway, a vehicle that changes lanes too late for its exit stops and blocks
+    /// the road.
     pub fn new(draw: &mut Stream, motorway: bool) -> Self {
         let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.5 }, ..Self::default() };
         for _ in 0..24 {
@@ -49,7 +50,7 @@ impl Fleet {
         fleet
     }
 
-    /// One of a group, drawn evenly. Empty text if the group is.
+    /// An id of a group, drawn uniformly; empty if the group is empty.
     pub fn pick(&self, draw: &mut Stream, group: &str) -> &str {
         let ids = self.groups.get(group).map(Vec::as_slice).unwrap_or_default();
         ids.get(draw.below(ids.len())).map(String::as_str).unwrap_or_default()

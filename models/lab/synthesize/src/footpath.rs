@@ -1,5 +1,5 @@
-//! Keeps pedestrians off the kerb. In the simulation, pedestrians against the flow brush along the road's
-//! edge; real ones keep half a metre away from it.
+//! Keeps pedestrians away from the kerb. In the simulation, pedestrians against the flow walk along the kerb;
+//! real ones keep half a metre away.
 
 use super::DT_S;
 use super::filters::{gaussian, gradient, interpolate};
@@ -8,14 +8,14 @@ use scene::Vec2;
 use scene::geometry::{cross, direction};
 use scene::map::TypedLine;
 
-/// Distance that people keep from the kerb, metres.
+/// Distance that pedestrians keep from the kerb, metres.
 const KEPT_M: f64 = 0.7;
 /// Pedestrians that walk along the road up to this far beside the kerb belong on the sidewalk, metres.
 const ASTRAY_M: f64 = 0.9;
-/// The kerb is looked for at every so many steps.
+/// Steps between two searches for the kerb.
 const EVERY: usize = 4;
 
-/// Right borders of carriageways, for finding the nearest.
+/// Right borders of carriageways, to find the nearest one.
 pub struct Kerbs<'a> {
     lines: Vec<(&'a [Vec2], Vec2, Vec2)>,
 }
@@ -55,7 +55,7 @@ impl<'a> Kerbs<'a> {
         nearest.1
     }
 
-    /// Moves a track away from the kerb, gently.
+    /// Moves a track smoothly away from the kerb.
     pub fn keep_off(&self, track: &mut Cleaned) {
         let n = track.states.len();
         let places: Vec<usize> = (0..n).step_by(EVERY).collect();

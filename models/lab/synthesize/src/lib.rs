@@ -64,19 +64,19 @@ const DT_S: f64 = STEP_S;
 /// Kind of network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Template {
-    /// One crossing with its arms and side streets.
+    /// One junction with its arms and side streets.
     Crossing,
-    /// Grid of homes, or a town's centre.
+    /// Street grid of a residential area or a town centre.
     Grid,
     /// Arterial with signals.
     Arterial,
-    /// Parking lot beside a street.
+    /// Car park beside a street.
     Lot,
     /// Roundabout.
     Roundabout,
     /// Motorway with ramps.
     Motorway,
-    /// Quarter of a town: arterials that cross among streets of homes.
+    /// District of a town: crossing arterials among residential streets.
     Quarter,
 }
 
@@ -107,19 +107,19 @@ impl Template {
     }
 }
 
-/// Share of parking lots without lanes in the map.
+/// Share of car parks without lanes in the map.
 const UNMAPPED_LOTS: f64 = 0.4;
 
 /// Options of a synthesis.
 #[derive(Clone, Debug)]
 pub struct SynthesizeOptions {
-    /// One file is made for each seed.
+    /// Seeds; each gives one file.
     pub seeds: Range<u64>,
-    /// Folder of the files; made if missing.
+    /// Folder of the files; created if missing.
     pub out_dir: PathBuf,
-    /// Seeds worked on at the same time; 0: one for each core.
+    /// Seeds processed in parallel; 0 means one per core.
     pub threads: usize,
-    /// SUMO's folder, with `bin/` in it. Else `SUMO_HOME`, else `PATH`.
+    /// Folder of SUMO, with `bin/` in it. Default: `SUMO_HOME`, else `PATH`.
     pub sumo_home: Option<PathBuf>,
     /// Windows cut from each seed's two minutes.
     pub per_seed: usize,
@@ -195,8 +195,8 @@ fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Res
     Ok(scenes)
 }
 
-/// Makes one file of windows for each seed. A seed with an existing file is skipped, so that an interrupted
-/// run continues where it stopped.
+/// Writes one file of windows per seed. A seed with an existing file is skipped, so that an interrupted run
+/// continues where it stopped.
 ///
 /// # Errors
 /// When SUMO is missing or the folder cannot be created. A seed that fails does not stop the others.
@@ -274,8 +274,8 @@ fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
     std::fs::rename(&partial, path)
 }
 
-/// The scene without the lanes that the format cannot name: they would become untyped lanes, on which readers
-/// allow cars.
+/// The scene without the types of lanes that the format lacks: they would become untyped lanes, on which
+/// readers allow cars.
 fn without_footways(scene: &Scene) -> Scene {
     let mut map = (*scene.map).clone();
     map.lanes.retain(|l| !matches!(l.lane_type, LaneType::Sidewalk | LaneType::Parking));

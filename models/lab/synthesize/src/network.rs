@@ -1,5 +1,5 @@
-//! A road network under construction: a graph of roads with cross-sections becomes directed edges
-//! with explicit lanes, written as the plain XML that `netconvert` reads.
+//! A road network under construction. A graph of roads with cross-sections becomes directed edges with
+//! explicit lanes, written as plain XML for `netconvert`.
 
 use formats::polyline::{arc_lengths, length, offset_right, part, point_at, resample};
 use formats::sumo::kerb::s_curve;
@@ -9,21 +9,21 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Metres a second in one mile an hour.
+/// One mile per hour in m/s.
 pub const MPH: f64 = 0.44704;
 
-/// Rank of a road; decides demand, parking, paint.
+/// Rank of a road; determines demand, parking and paint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rank {
-    /// Homes, slow.
+    /// Residential street with a low speed limit.
     Residential,
-    /// Between the two.
+    /// Street between residential streets and arterials.
     Collector,
-    /// Several lanes, signals.
+    /// Road with several lanes and signals.
     Arterial,
-    /// No crossings.
+    /// Motorway without crossings.
     Motorway,
-    /// Aisle of a parking lot.
+    /// Aisle of a car park.
     Lot,
     /// Ring of a roundabout.
     Roundabout,
@@ -43,22 +43,23 @@ impl Rank {
     }
 }
 
-/// Lanes of a road, both directions alike. Widths in metres, zero: not there.
+/// Lanes of a road; both directions have the same widths. Widths are in metres, and zero if the element is
+/// missing.
 #[derive(Clone, Copy, Debug)]
 pub struct CrossSection {
-    /// Lanes forwards.
+    /// Number of forward lanes.
     pub forward: usize,
-    /// Lanes backwards.
+    /// Number of backward lanes.
     pub backward: usize,
     /// Speed limit, m/s.
     pub speed: f64,
     /// Width of a traffic lane.
     pub lane: f64,
-    /// Right of way grows with it.
+    /// Priority; the greater one has right of way.
     pub priority: i32,
     /// Width of the sidewalk.
     pub sidewalk: f64,
-    /// Width of the bike lane.
+    /// Width of the cycle lane.
     pub bike: f64,
     /// Width of the parking strip.
     pub parking: f64,
@@ -125,20 +126,20 @@ struct EdgeSpec {
     merging: bool,
 }
 
-/// Which way of filling a network was taken, for `netconvert` and for choosing windows.
+/// Properties of a generated network, for `netconvert` and for the choice of windows.
 #[derive(Clone, Debug)]
 pub struct Character {
-    /// Such as `cross4_arterial`.
+    /// Name such as `cross4_arterial`.
     pub name: String,
-    /// Signal programs of fixed length, or by waiting traffic.
+    /// Whether signals are actuated by waiting traffic; otherwise phases have a fixed length.
     pub actuated: bool,
-    /// Opposite arms share a phase, else each arm has its own.
+    /// Whether opposite arms share a phase; otherwise each arm has its own.
     pub opposites: bool,
     /// Signal cycle, seconds.
     pub cycle_s: u32,
     /// Width of crosswalks, metres.
     pub crosswalk: f64,
-    /// Windows are centred on road users up to this far from the origin, metres.
+    /// Greatest distance from the origin of a road user at the centre of a window, metres.
     pub reach: f64,
 }
 
@@ -152,26 +153,26 @@ pub struct Network {
     roundabouts: Vec<(Vec<String>, Vec<String>)>,
     /// Nodes where traffic enters and leaves.
     pub fringe: Vec<String>,
-    /// Rows of stalls: line of their centres and heading of a car parked nose in.
+    /// Rows of bays: line through their centres, and heading of a car that is parked nose in.
     pub stalls: Vec<(Vec<Vec2>, f64)>,
     /// Paved areas beside the roads.
     pub paved: Vec<Vec<Vec2>>,
-    /// See there.
+    /// Properties of the network.
     pub character: Character,
 }
 
-/// Hermite curve with tangents scaled by the distance of its ends.
+/// Hermite curve with tangents of the length of its chord.
 pub fn hermite(p: Vec2, way_p: Vec2, q: Vec2, way_q: Vec2) -> Vec<Vec2> {
     let gap = (q - p).norm();
     s_curve(p, way_p * gap, q, way_q * gap, ((gap / 3.0) as usize).max(2))
 }
 
-/// `v` at length one.
+/// The unit vector of `v`.
 pub fn unit(v: Vec2) -> Vec2 {
     v / v.norm().max(1e-9)
 }
 
-/// `v` turned left by a right angle.
+/// `v` rotated by 90° to the left.
 pub fn left_of(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
@@ -208,7 +209,7 @@ impl Network {
         self.nodes.get(id).map_or_else(Vec2::zeros, |n| n.position)
     }
 
-    /// Adds a road along `middle`, with a left-turn lane at its start or end where the median has room.
+    /// Adds a road along `middle`, with a left-turn lane at its start or end if the median has room.
     pub fn road(
         &mut self,
         from: &str,
@@ -251,7 +252,7 @@ impl Network {
         ));
     }
 
-    /// Joins two lanes of directed edges.
+    /// Connects two lanes of directed edges.
     pub fn connect(&mut self, from: &str, from_lane: usize, to: &str, to_lane: usize) {
         self.connections.push((from.to_owned(), from_lane, to.to_owned(), to_lane));
     }

@@ -1,5 +1,5 @@
-//! Parked cars. They are no part of the simulation: boxes placed along parking strips, in driveways
-//! and in the stalls of parking lots.
+//! Parked cars. They are not simulated: boxes along parking strips, in driveways and in the bays of car
+//! parks.
 
 use super::network::{Network, left_of, unit};
 use formats::polyline::{arc_lengths, length, part, point_at, resample};
@@ -19,7 +19,7 @@ pub struct ParkedCar {
     pub size: Size,
 }
 
-/// Parked cars and the driveways that some of them stand in.
+/// Parked cars, and the driveways for some of them.
 #[derive(Clone, Debug, Default)]
 pub struct ParkedCars {
     /// Cars.
@@ -73,7 +73,7 @@ impl ParkedCars {
         }
     }
 
-    /// A row along a strip, close to the kerb.
+    /// Parks a row of cars along a strip, close to the kerb.
     fn along(&mut self, strip: &[Vec2], width: f64, fill: f64, draw: &mut Stream) {
         let total = length(strip);
         let mut s = draw.between(5.0, 9.0);
@@ -95,7 +95,7 @@ impl ParkedCars {
         }
     }
 
-    /// Driveways beyond a sidewalk, each with up to two cars.
+    /// Adds driveways beyond a sidewalk, each with up to two cars.
     fn driveways(&mut self, sidewalk: &[Vec2], width: f64, strip: f64, draw: &mut Stream) {
         let (total, lengths) = (length(sidewalk), arc_lengths(sidewalk));
         let mut s = draw.between(12.0, 25.0);
@@ -126,7 +126,7 @@ impl ParkedCars {
         }
     }
 
-    /// A row of perpendicular stalls.
+    /// Parks cars in a row of perpendicular bays.
     fn stalls(&mut self, line: &[Vec2], heading: f64, fill: f64, backed: f64, draw: &mut Stream) {
         let (total, lengths) = (length(line), arc_lengths(line));
         let nose = scene::geometry::direction(heading);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Why SUMO did not do its part.
+/// Why a program of SUMO failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ProgramError {
     /// Not installed, or not found.
@@ -19,7 +19,7 @@ pub enum ProgramError {
         /// Name of the program.
         program: &'static str,
     },
-    /// It could not be started or watched.
+    /// It could not be started or monitored.
     #[error("cannot run {program}")]
     Io {
         /// Name of the program.
@@ -27,7 +27,7 @@ pub enum ProgramError {
         /// Error of the system.
         source: std::io::Error,
     },
-    /// It took too long and was ended.
+    /// It exceeded its time limit and was ended.
     #[error("{program} did not finish within {limit_s} s")]
     Timeout {
         /// Name of the program.
@@ -71,7 +71,7 @@ impl Sumo {
         Ok(Self { home, netconvert, sumo })
     }
 
-    /// Turns `n.*.xml` of a folder into `net.xml`.
+    /// Converts `n.*.xml` of a folder to `net.xml`.
     ///
     /// # Errors
     /// When the program fails or takes too long.
@@ -83,14 +83,14 @@ impl Sumo {
             ("-x", "n.con.xml"),
             ("-o", "net.xml"),
             ("--no-turnarounds", "true"),
-            // Smooth connectors; the default of 5 points is about 18 degrees a corner.
+            // Smooth connectors; the default of 5 points gives corners of about 18 degrees.
             ("--junctions.internal-link-detail", "20"),
             ("--junctions.corner-detail", "8"),
             ("--crossings.guess", "true"),
             ("--crossings.guess.speed-threshold", "18"),
             ("--walkingareas", "true"),
             ("--default.crossing-width", &crosswalk),
-            // Bounds the mean lateral acceleration of a connector; drivers' own factors come on top.
+            // Limits the mean lateral acceleration of a connector; factors of the drivers are applied to it.
             ("--junctions.limit-turn-speed", "2.0"),
             ("--tls.default-type", if character.actuated { "actuated" } else { "static" }),
             ("--tls.cycle.time", &cycle),
@@ -170,7 +170,7 @@ impl Sumo {
                 break status;
             }
             if start.elapsed() > limit {
-                // Either may fail only if the child has just ended.
+                // Both calls fail only if the child has just ended.
                 let _ = child.kill();
                 let _ = child.wait();
                 return Err(ProgramError::Timeout { program, limit_s: limit.as_secs() });

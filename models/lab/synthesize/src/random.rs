@@ -12,11 +12,11 @@ pub enum Purpose {
     Demand = 2,
     /// Parked cars.
     Parking = 3,
-    /// Wander and ripple of tracks.
+    /// Lateral deviation and speed ripple of tracks.
     Motion = 4,
     /// Choice of windows.
     Windows = 5,
-    /// Manoeuvres that SUMO does not know.
+    /// Manoeuvres that SUMO lacks.
     Scripted = 6,
     /// Omissions of the map.
     Map = 7,
@@ -25,7 +25,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// The stream of a seed for this.
+    /// The stream of a seed for this purpose.
     pub fn stream(self, seed: u64) -> Stream {
         Key::default().number(seed).number(self as u64).stream()
     }

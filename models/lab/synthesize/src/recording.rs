@@ -22,18 +22,18 @@ use std::collections::HashSet;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-/// Overlap of two boxes that spoils a track, metres.
+/// Overlap of two boxes that makes a track unusable, metres.
 const DEEP_M: f64 = 0.2;
-/// Overlaps are looked for at every so many steps.
+/// Steps between two searches for overlaps.
 pub const CHECK_EVERY: usize = 5;
 
 /// Why a seed gave no recording.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// SUMO's programs.
+    /// A program of SUMO failed.
     #[error(transparent)]
     SignalProgram(#[from] ProgramError),
-    /// Their files.
+    /// A file of SUMO could not be read.
     #[error("cannot read SUMO's {file}")]
     File {
         /// Name of the file.
@@ -55,9 +55,9 @@ pub struct SimulatedAgent {
     pub subtype: Subtype,
     /// Box.
     pub size: Size,
-    /// Stands there all the time.
+    /// Whether it is parked for the whole recording.
     pub parked: bool,
-    /// SUMO moved it as a person.
+    /// Whether SUMO moved it as a person.
     pub on_foot: bool,
     /// States over the recording.
     pub track: Cleaned,
@@ -66,7 +66,7 @@ pub struct SimulatedAgent {
 }
 
 impl SimulatedAgent {
-    /// One of a kind that is not parked.
+    /// A road user of a kind that is not parked.
     pub fn of(kind: &ActorKind, track: Cleaned) -> Self {
         Self {
             agent_type: kind.agent_type,
@@ -91,13 +91,13 @@ pub struct SimulatedRecording {
     pub actors: Vec<SimulatedAgent>,
     /// Signal states.
     pub signals: SignalLog,
-    /// Lanes of the map in parking lots.
+    /// Ids of map lanes in car parks.
     lot_lanes: HashSet<String>,
 }
 
 impl SimulatedRecording {
-    /// Takes the lanes of parking lots off the map: recorded maps seldom have them, and cars drive there
-    /// all the same.
+    /// Removes the lanes of car parks from the map: recorded maps seldom have them, although cars drive
+    /// there.
     pub fn unmap_lots(&mut self) {
         self.map.map.lanes.retain(|lane| !self.lot_lanes.contains(&lane.id));
     }
@@ -120,12 +120,12 @@ impl TempFolder {
 
 impl Drop for TempFolder {
     fn drop(&mut self) {
-        // Nothing depends on it; a leftover is the system's to clear.
+        // A failure is ignored: the system clears its temporary folder.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// Simulates a network and cleans what was recorded.
+/// Simulates a network and cleans the recorded tracks.
 ///
 /// # Errors
 /// When SUMO fails or its files cannot be read.
@@ -206,7 +206,7 @@ fn read_signals(path: &Path) -> Result<SignalLog, RecordError> {
     }
 }
 
-/// Adds standing pedestrians: one for every eight walking ones.
+/// Adds one standing pedestrian per eight walking ones.
 fn standing(net: &Net, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     let sidewalks: Vec<&Vec<Vec2>> =
         net.lanes.iter().filter(|l| l.kind == LaneKind::Sidewalk).map(|l| &l.shape).collect();
@@ -232,8 +232,8 @@ fn standing(net: &Net, actors: &mut Vec<SimulatedAgent>, draw: &mut Stream) {
     }
 }
 
-/// Records overlaps of wheeled road users. A parked car that another touches is removed. If a cyclist is
-/// involved, the cyclist is at fault (on the sidewalk first).
+/// Records overlaps of vehicles and cyclists. A parked car that another touches is removed. If a cyclist is
+/// involved, the overlap counts for the cyclist (first for one on the sidewalk).
 fn find_overlaps(actors: &mut Vec<SimulatedAgent>) {
     let wheeled: Vec<usize> =
         (0..actors.len()).filter(|&i| actors[i].agent_type != AgentType::Pedestrian).collect();

@@ -5,16 +5,16 @@ use scene::{Agent, Size, State, Vec2};
 
 /// Height of the sensor, metres.
 const SENSOR_M: f64 = 2.0;
-/// Height of a road user that brings none, metres.
+/// Height of a road user without a known one, metres.
 const ASSUMED_HEIGHT_M: f64 = 1.6;
-/// A road user is seen by a point at this share of its height.
+/// Share of a road user's height at which a point must be visible.
 const LOOKED_AT: f64 = 0.85;
-/// Sight is worked out at every so many steps.
+/// Steps between two computations of visibility.
 const LOOK_EVERY: usize = 2;
-/// Trackers go on over gaps of up to so many steps.
+/// Longest gap that a tracker bridges, steps.
 const BRIDGED: usize = 6;
 
-/// Takes away the states of road users that the first one, the ego, cannot see over or between the others.
+/// Removes states of road users that are occluded for the first one, the ego.
 pub fn hide_unseen(agents: &mut [Agent], steps: usize) {
     let mut seen = vec![vec![false; steps]; agents.len()];
     for step in (0..steps).step_by(LOOK_EVERY) {
@@ -31,7 +31,7 @@ pub fn hide_unseen(agents: &mut [Agent], steps: usize) {
     }
 }
 
-/// Closes short gaps between what is seen.
+/// Marks steps in short gaps as seen.
 fn bridge(flags: &mut [bool]) {
     let mut last_seen = None;
     for i in 0..flags.len() {
@@ -47,12 +47,12 @@ fn bridge(flags: &mut [bool]) {
     }
 }
 
-/// A road user that may occlude others, as seen from the sensor.
+/// A road user that may occlude others, relative to the sensor.
 struct Standing {
     outline: OrientedBox,
     height_m: f64,
     distance_m: f64,
-    /// Direction from the sensor, and the half angle that the box may cover.
+    /// Direction from the sensor, and half the angle that the box can cover.
     way: Vec2,
     half_angle_rad: f64,
 }
@@ -98,7 +98,8 @@ fn look(agents: &[Agent], step: usize) -> Vec<bool> {
     (0..agents.len()).map(|i| i == 0 || sees(i)).collect()
 }
 
-/// The share of the way from one point to another at which it enters a box; `None` if it does not.
+/// Position, as a share of the segment between two points, at which the segment enters a box; `None` if it
+/// does not.
 fn entry(outline: &OrientedBox, from: Vec2, to: Vec2) -> Option<f64> {
     let (a, b) = (outline.local(from), outline.local(to));
     let half = Vec2::new(outline.half_length_m(), outline.half_width_m());

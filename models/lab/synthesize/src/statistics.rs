@@ -12,15 +12,15 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Half of the box around the origin in which road users are looked at, metres.
+/// Half a side of the square around the origin in which road users are measured, metres.
 const NEAR_M: f64 = 80.0;
-/// Half of the box in which they are counted, metres.
+/// Half a side of the square in which road users are counted, metres.
 const COUNTED_M: f64 = 60.0;
-/// Deviation of the Gaussian before a derivative is taken, steps.
+/// Standard deviation of the Gaussian before differentiation, steps.
 const SMOOTHING: f64 = 2.0;
-/// Above this speed a road user moves, m/s; below it, recorded headings are noise.
+/// Least speed of a moving road user, m/s; below it, recorded headings are noise.
 const MOVING_MPS: f64 = 0.5;
-/// Fewest steps of a stretch that is measured.
+/// Least length of a measured part of a track, steps.
 const SHORTEST: usize = 31;
 
 /// Aggregate of a row.
@@ -29,13 +29,13 @@ const SHORTEST: usize = 31;
 enum Aggregate {
     /// Percentiles 1, 5, 50, 95, 99.
     Spread,
-    /// Share of true ones.
+    /// Share of true values.
     Share,
     /// Mean, with percentiles 5 and 95.
     Mean,
 }
 
-/// Rows in the table's order: key, what it is, form.
+/// Rows in the order of the table: key, description, aggregate.
 const ROWS: [(&str, &str, Aggregate); 45] = [
     ("count_vehicle", "vehicles in 120 m x 120 m", Aggregate::Mean),
     ("count_pedestrian", "pedestrians in 120 m x 120 m", Aggregate::Mean),
@@ -84,19 +84,19 @@ const ROWS: [(&str, &str, Aggregate); 45] = [
     ("cyclist_turns", "cyclists that turn by more than 45 deg", Aggregate::Share),
 ];
 
-/// Values by row key, gathered scene by scene.
+/// Values by row key, collected scene by scene.
 #[derive(Clone, Debug, Default)]
 pub struct Statistics {
     scenes: usize,
     values: BTreeMap<String, Vec<f64>>,
 }
 
-/// One row summed up.
+/// Summary of a row.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Number of values.
     pub count: usize,
-    /// Mean; of yes and no, the share of yes.
+    /// Mean; for booleans, the share of true values.
     pub mean: f64,
     /// Percentiles 1, 5, 50, 95, 99.
     pub percentiles: [f64; 5],
@@ -163,7 +163,7 @@ impl Statistics {
         self.stretch(scene, graph, agent, name, &stretch);
     }
 
-    /// Position 9 s after the first step, near the origin or not.
+    /// Adds the position 9 s after the first step, whether near the origin or not.
     fn whole_window(&mut self, agent: &Agent, name: &str) {
         let (Some(first), Some(last)) = (agent.state_at(0), agent.state_at(scene::HORIZON_STEPS)) else {
             return;
@@ -253,7 +253,7 @@ impl Statistics {
         }
     }
 
-    /// Gap to the vehicle ahead in the same direction, every 1.5 s.
+    /// Adds the gap to the vehicle ahead in the same direction, every 1.5 s.
     fn behind(&mut self, scene: &Scene, agent: &Agent, name: &str) {
         let others =
             || scene.agents.iter().filter(|o| o.agent_type == AgentType::Vehicle && o.id != agent.id);
@@ -283,7 +283,7 @@ impl Statistics {
         }
     }
 
-    /// A row summed up; `None` when nothing was seen.
+    /// Summary of a row; `None` without values.
     pub fn summary(&self, key: &str) -> Option<Summary> {
         let mut values = self.values.get(key)?.clone();
         values.sort_by(f64::total_cmp);
@@ -295,7 +295,7 @@ impl Statistics {
         })
     }
 
-    /// All rows by key.
+    /// Summaries of all rows, by key.
     pub fn summaries(&self) -> BTreeMap<&'static str, Summary> {
         ROWS.iter().filter_map(|(key, _, _)| Some((*key, self.summary(key)?))).collect()
     }
@@ -305,19 +305,19 @@ impl Statistics {
 const TYPES: [(AgentType, &str); 3] =
     [(AgentType::Vehicle, "vehicle"), (AgentType::Pedestrian, "pedestrian"), (AgentType::Cyclist, "cyclist")];
 
-/// Whether a road user is in the counted box now.
+/// Whether a road user is in the counted square at step `now`.
 fn counted(agent: &Agent, now: usize) -> bool {
     agent.state_at(now).is_some_and(|s| s.x_m.abs() < COUNTED_M && s.y_m.abs() < COUNTED_M)
 }
 
-/// The longest run without a gap, when it is long enough.
+/// The longest part without a gap; `None` if it is too short.
 fn longest(seen: &[Option<State>]) -> Option<Vec<State>> {
     let runs = seen.split(Option::is_none);
     let run = runs.max_by_key(|run| run.len()).filter(|run| run.len() >= SHORTEST)?;
     Some(run.iter().flatten().copied().collect())
 }
 
-/// Deviation of samples from the parabola that fits them best.
+/// Deviation of samples from their best-fitting parabola.
 fn off_parabola(values: &[f64]) -> f64 {
     let n = values.len();
     let t = |i: usize| 2.0 * i as f64 / (n - 1) as f64 - 1.0;
@@ -328,7 +328,7 @@ fn off_parabola(values: &[f64]) -> f64 {
     (rest.norm_squared() / n as f64).sqrt()
 }
 
-/// Deviation across the main direction in pieces of 3 s that never stand, cm.
+/// Deviation across the main direction in parts of 3 s without standstill, cm.
 fn weaving(track: &[State], slowest_mps: f64) -> Vec<f64> {
     let pieces = track.windows(30).step_by(15).filter(|p| p.iter().all(|s| s.speed_mps() > slowest_mps));
     pieces
@@ -340,7 +340,7 @@ fn weaving(track: &[State], slowest_mps: f64) -> Vec<f64> {
                 xy += d.x * d.y;
                 yy += d.y * d.y;
             }
-            // The lesser eigenvalue of the scatter.
+            // The smaller eigenvalue of the scatter matrix.
             let least = 0.5 * (xx + yy - ((xx - yy).powi(2) + 4.0 * xy * xy).sqrt());
             100.0 * (least.max(0.0) / piece.len() as f64).sqrt()
         })
@@ -421,7 +421,7 @@ mod tests {
         let acceleration = row("vehicle_acceleration");
         assert!((acceleration.percentiles[3] - 1.0).abs() < 0.02, "{acceleration:?}");
         assert_eq!(row("vehicle_off_lane").mean, 1.0);
-        // The first gap is 20 m from middle to middle, less one length.
+        // The first gap is 20 m between centres, less one length.
         assert!((row("vehicle_gap").percentiles[3] - 21.0).abs() < 6.0);
         let table = markdown(&[("mine".into(), statistics)]);
         assert_eq!(table.lines().count(), 2 + ROWS.len());

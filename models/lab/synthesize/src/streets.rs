@@ -1,4 +1,4 @@
-//! Networks of streets: one crossing with its arms, a grid, an arterial, a parking lot.
+//! Networks of streets: one junction with its arms, a grid, an arterial, a car park.
 
 use super::network::{Character, CrossSection, MPH, Network, Rank, hermite, left_of, unit};
 use formats::polyline::{arc_lengths, length, part, point_at};
@@ -57,7 +57,7 @@ pub fn section(draw: &mut Stream, rank: Rank) -> CrossSection {
     }
 }
 
-/// A street between two points that swings a little.
+/// A slightly curved street between two points.
 fn bent(draw: &mut Stream, p: Vec2, q: Vec2, swing: f64) -> Vec<Vec2> {
     let way = unit(q - p);
     let mut lean = || unit(way + left_of(way) * draw.normal_about(0.0, swing).tan());
@@ -84,7 +84,7 @@ pub fn character(draw: &mut Stream, name: &str, reach: f64) -> Character {
     }
 }
 
-/// One crossing of 3 to 5 arms, skewed and curved, with side streets half-way along the arms.
+/// One junction of 3 to 5 skewed and curved arms, with side streets half-way along the arms.
 pub fn crossing(draw: &mut Stream) -> Network {
     let arms = draw.weighted([(3, 0.22), (4, 0.70), (5, 0.08)]);
     let main_rank =
@@ -158,11 +158,11 @@ fn arm(draw: &mut Stream, net: &mut Network, i: usize, angle: f64, section_: Cro
 /// Land use of a street grid.
 #[derive(Clone, Copy, PartialEq)]
 enum District {
-    /// Homes.
+    /// Residential streets.
     Homes,
-    /// A town's centre with one-way streets.
+    /// A town centre with one-way streets.
     Centre,
-    /// A quarter of a town: arterials that cross among streets of homes.
+    /// A district of a town: crossing arterials among residential streets.
     Quarter,
 }
 
@@ -175,12 +175,12 @@ impl District {
         }
     }
 
-    /// Streets each way, least and how many more there may be.
+    /// Number of streets per direction: the least number, and the number of possible values from it on.
     fn size(self) -> (i32, usize) {
         if self == Self::Quarter { (5, 2) } else { (3, 2) }
     }
 
-    /// Distances of streets, metres.
+    /// Ranges of the spacing of streets, metres.
     fn pitch(self) -> [(f64, f64); 2] {
         if self == Self::Quarter { [(100.0, 150.0); 2] } else { [(75.0, 120.0), (70.0, 120.0)] }
     }
@@ -215,13 +215,13 @@ impl District {
     }
 }
 
-/// A warped grid of homes, or of a town's centre with one-way streets.
+/// A distorted street grid of a residential area, or a grid of a town centre with one-way streets.
 pub fn grid(draw: &mut Stream) -> Network {
     let district = if draw.chance(0.45) { District::Centre } else { District::Homes };
     blocks(draw, district, 150.0)
 }
 
-/// A quarter of a town, 600 to 900 m across: traffic comes from far and has spread out by the time it is seen.
+/// A district of a town, 600 to 900 m wide: traffic enters far away and has spread out in the recorded area.
 pub fn quarter(draw: &mut Stream) -> Network {
     blocks(draw, District::Quarter, 260.0)
 }
@@ -235,7 +235,7 @@ fn blocks(draw: &mut Stream, district: District, reach_m: f64) -> Network {
     let turn = draw.between(0.0, TAU);
     let phase = [draw.between(0.0, TAU), draw.between(0.0, TAU)];
     let warp = if centre { 0.0 } else { draw.between(0.0, 12.0) };
-    // Arterials of a quarter: one each way, off its rim.
+    // Index of the arterial in each direction, away from the edge of the district.
     let mains = size.map(|n| 1 + draw.below(n as usize - 2) as i32);
     let mut streets =
         |axis: usize| (0..size[axis]).map(|i| district.street(draw, axis == 0, i == mains[axis])).collect();
@@ -290,7 +290,7 @@ fn blocks(draw: &mut Stream, district: District, reach_m: f64) -> Network {
     net
 }
 
-/// An arterial with signalised crossings, side streets and sometimes a parking lot.
+/// An arterial with signalised junctions, side streets and sometimes a car park.
 pub fn arterial(draw: &mut Stream) -> Network {
     let mut net = Network::new(character(draw, "arterial", 180.0));
     let mut main = section(draw, Rank::Arterial);
@@ -345,7 +345,7 @@ pub fn arterial(draw: &mut Stream) -> Network {
     net
 }
 
-/// A parking lot behind a junction: an entry, then aisles with perpendicular stalls on both sides.
+/// A car park behind a junction: an entry, then aisles with perpendicular bays on both sides.
 fn lot_branch(draw: &mut Stream, net: &mut Network, at: &str, way: Vec2) {
     let (origin, across) = (net.position(at), left_of(way));
     let aisle = CrossSection {
@@ -386,7 +386,7 @@ fn lot_branch(draw: &mut Stream, net: &mut Network, at: &str, way: Vec2) {
     net.paved.push(vec![corner(near, 1.0), corner(near, -1.0), corner(far, -1.0), corner(far, 1.0)]);
 }
 
-/// A street with the entry of a parking lot.
+/// A street with the entry of a car park.
 pub fn parking_lot(draw: &mut Stream) -> Network {
     let mut net = Network::new(character(draw, "lot", 130.0));
     let main = section(draw, Rank::Collector);

@@ -1,5 +1,5 @@
-//! From what SUMO records to tracks that look driven and walked. Whole recordings are smoothed before
-//! windows are cut, so that windows have no edge effects.
+//! Converts recordings of SUMO to realistic tracks. Whole recordings are smoothed before windows are cut, so
+//! that windows have no edge effects.
 
 use super::filters::{gaussian, gradient, interpolate, noise, unwrap};
 use super::fleet::ActorKind;
@@ -12,7 +12,7 @@ use scene::{AgentType, STANDING_MPS, State, Vec2, wrap_angle};
 
 /// Shortest recording that is used, steps.
 const SHORTEST: usize = 15;
-/// Grid of smoothed paths, metres.
+/// Spacing of the points of smoothed paths, metres.
 const GRID_M: f64 = 0.25;
 
 /// A cleaned track over the recording: `states[k]` is step `first + k`.
@@ -20,9 +20,9 @@ const GRID_M: f64 = 0.25;
 pub struct Cleaned {
     /// Step of the recording of the first state.
     pub first: usize,
-    /// Without gaps.
+    /// States without gaps.
     pub states: Vec<State>,
-    /// Steps at which SUMO moved a vehicle by a jump; windows leave them out.
+    /// Steps at which a vehicle jumps; windows leave these steps out.
     pub jumps: Vec<usize>,
 }
 
@@ -54,7 +54,7 @@ pub fn clean(record: &FcdTrack, kind: &ActorKind, draw: &mut Stream) -> Option<C
         let jumps = jumps.iter().map(|i| steps[*i] as usize).collect();
         return Some(Cleaned { first: steps[from] as usize, states, jumps });
     }
-    // People sometimes jump by a whole crosswalk: the longest piece between such jumps is kept.
+    // Persons sometimes jump by the length of a crosswalk: the longest part between such jumps is kept.
     let mut ends = vec![from];
     ends.extend(jumps.iter().map(|i| i + 1));
     ends.push(to);
@@ -75,7 +75,7 @@ fn blur(points: &[Vec2], sigma: f64) -> Vec<Vec2> {
     gaussian(&x, sigma).into_iter().zip(gaussian(&y, sigma)).map(|(x, y)| Vec2::new(x, y)).collect()
 }
 
-/// A driver's deviation from the lane centre.
+/// Deviation of a driver from the lane centre.
 struct Habit {
     /// Smoothing of the path, metres.
     smoothing: f64,
@@ -105,15 +105,15 @@ impl Habit {
             smoothing: 2.2,
             wander: (38.0, 0.16),
             offset: draw.normal_about(0.0, 0.24),
-            // Ten is what brings lane centres closest to recorded bends. Long vehicles swing out.
+            // A mean of 10 brings lane centres closest to recorded bends. Long vehicles swing out instead.
             cutting: if long { 0.0 } else { draw.clipped(10.0, 5.0, 0.0, 20.0) },
             ripple: 1.0,
         }
     }
 }
 
-/// A vehicle or road cyclist: the recorded front bumper gives a smooth path and progress along it; the
-/// rear axle follows the path.
+/// A vehicle, or a cyclist on the road. The recorded front bumper gives a smooth path and the progress along
+/// it; the rear axle follows the path.
 fn drive(
     record: &FcdTrack,
     range: std::ops::Range<usize>,
@@ -128,7 +128,8 @@ fn drive(
     let (path, grid) = smooth_path(points, &travelled, speeds, headings, body, &habit, draw);
     let along = arc_lengths(&path);
 
-    // Progress: low-passed, rippled in position (a rippled speed would drift by metres), never backwards.
+    // Progress: low-pass filtered, with a ripple in position (a ripple in speed would drift by metres), never
+    // backwards.
     let n = points.len();
     let raw: Vec<f64> = travelled.iter().map(|s| interpolate(&grid, &along, *s)).collect();
     let mut progress = gaussian(&raw, 2.5);
@@ -144,7 +145,8 @@ fn drive(
         progress[i] = furthest;
     }
 
-    // Kinematic bicycle: heading is the path's direction at the rear axle, the centre lies ahead of it.
+    // Kinematic bicycle model: the heading is the direction of the path at the rear axle, and the centre lies
+    // ahead of it.
     let rear_to_centre = 0.28 * body;
     let at = |s: f64| point_at(&path, &along, s);
     let mut heading = Vec::with_capacity(n);
@@ -171,7 +173,7 @@ fn smooth_path(
 ) -> (Vec<Vec2>, Vec<f64>) {
     let last = points.len() - 1;
     let (back, ahead) = (body + 8.0, 6.0);
-    // One point for each grid cell that was reached: standing adds none.
+    // One point per grid cell that was reached: standstill adds none.
     let mut xs = vec![-back];
     let mut ps = vec![points[0] - direction(headings[0]) * back];
     for i in 0..=last {
@@ -189,7 +191,7 @@ fn smooth_path(
     let grid: Vec<f64> = (0..count).map(|i| -back + GRID_M * i as f64).collect();
     let raw: Vec<Vec2> =
         grid.iter().map(|s| Vec2::new(interpolate(&xs, &px, *s), interpolate(&xs, &py, *s))).collect();
-    // Longer smoothing at speed: a lane change then takes seconds, not one snap.
+    // Longer smoothing at speed, so that a lane change takes seconds instead of one step.
     let sigma = habit.smoothing / GRID_M;
     let (near, far) = (blur(&raw, sigma), blur(&raw, 3.2 * sigma));
     let speed: Vec<f64> = grid.iter().map(|s| interpolate(travelled, speeds, *s)).collect();
@@ -203,7 +205,8 @@ fn smooth_path(
     let (x, y) = split(&blended);
     let (dx, dy) = (gradient(&x, GRID_M), gradient(&y, GRID_M));
     let way: Vec<f64> = unwrap(&dx.iter().zip(&dy).map(|(x, y)| y.atan2(*x)).collect::<Vec<_>>());
-    // Drivers start to cut before the bend and go on after it: the pull follows smoothed curvature.
+    // Drivers start to cut a bend before it and continue after it, so the pull follows the smoothed
+    // curvature.
     let pull = gaussian(&gradient(&way, GRID_M), 5.0 / GRID_M);
     let wander = noise(draw, count, habit.wander.0 / GRID_M, habit.wander.1);
     let path = (0..count)
@@ -216,7 +219,7 @@ fn smooth_path(
     (path, grid)
 }
 
-/// A person on foot (or a cyclist among them).
+/// A pedestrian, or a cyclist on the sidewalk.
 fn walk(record: &FcdTrack, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
     let heading_0 = record.headings_rad[range.start];
     let points = blur(&record.positions[range], 5.0);

@@ -1,4 +1,4 @@
-//! Networks built of directed edges: roundabouts and motorways with ramps.
+//! Networks of directed edges: roundabouts, and motorways with ramps.
 
 use super::network::{CrossSection, MPH, Network, Rank, hermite, left_of, unit};
 use super::streets::{character, section};
@@ -8,7 +8,7 @@ use scene::geometry::{direction, rotate};
 use scene::random::Stream;
 use std::f64::consts::TAU;
 
-/// Distance of an arm's entry and exit on the ring, as half of an arc, metres.
+/// Half the arc of the ring between the entry and the exit of an arm, metres.
 const HALF_MOUTH_M: f64 = 7.5;
 
 /// A roundabout of three or four arms, with one or two lanes.
@@ -35,8 +35,8 @@ pub fn roundabout(draw: &mut Stream) -> Network {
     net
 }
 
-/// The ring: counter-clockwise arcs between the mouths of the arms, with a sidewalk of this width
-/// outside (zero: none).
+/// The ring: counter-clockwise arcs between the entries of the arms, with a sidewalk of this width outside
+/// (zero: none).
 pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewalk: f64) {
     let half = HALF_MOUTH_M / radius;
     let mut mouths: Vec<(f64, String)> = Vec::new();
@@ -67,7 +67,7 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewa
         let n = ((span * radius / 1.5) as usize).max(2);
         let arc = (0..=n).map(|i| direction(from + span * i as f64 / n as f64) * radius).collect();
         let edge = format!("ring{k}");
-        // Across the mouth of an arm there is nowhere to walk.
+        // There is no sidewalk across the entry of an arm.
         let walk = if id.starts_with("ri") { sidewalk } else { 0.0 };
         net.edge(&edge, [id, next], arc, lanes, CrossSection { sidewalk: walk, ..s }, false);
         edges.push(edge);
@@ -80,16 +80,16 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewa
 pub struct Arm {
     /// Direction from the middle of the ring, radians.
     pub angle: f64,
-    /// Section of the street.
+    /// Cross-section of the street.
     pub section: CrossSection,
     /// Width of the sidewalk along entry and exit, metres.
     pub sidewalk: f64,
-    /// The street's length, sideways end and bend.
+    /// Length, lateral offset of the end, and bend of the street.
     pub street: [f64; 3],
 }
 
-/// Arm `i` of a ring of that radius and so many lanes: a street up to a splitter node with a crosswalk, then an entry
-/// and an exit of their own.
+/// Arm `i` of a ring with this radius and number of lanes: a street up to a splitter node with a crosswalk, then a
+/// separate entry and exit.
 pub fn approach(net: &mut Network, i: usize, arm: Arm, radius: f64, lanes: usize) {
     let Arm { angle, section: s, sidewalk, street: shape } = arm;
     let (way, across) = (direction(angle), left_of(direction(angle)));
@@ -122,7 +122,7 @@ pub struct MotorwayShape {
     pub speed: f64,
     /// Width between the directions, metres.
     pub median: f64,
-    /// First junction is an entry, the second an exit; else the other way round.
+    /// Whether the first junction is an entry and the second an exit; otherwise the reverse.
     pub entry_first: bool,
 }
 
@@ -153,7 +153,7 @@ pub fn motorway(draw: &mut Stream) -> Network {
     net
 }
 
-/// One direction: through road, and two stretches with a lane more, fed or emptied by a ramp.
+/// One direction: a through road, and two sections with an additional lane for an entry or exit ramp.
 pub fn carriageway(
     net: &mut Network,
     middle: &[Vec2],

@@ -1,4 +1,4 @@
-//! Cuts a recording into windows of 91 steps, each about one road user.
+//! Cuts a recording into windows of 91 steps, each centred on one road user.
 
 use super::recording::{CHECK_EVERY, SimulatedAgent, SimulatedRecording};
 use super::sight;
@@ -13,19 +13,20 @@ use std::collections::{HashMap, HashSet};
 pub const STEPS: usize = 91;
 /// The step that windows are centred on.
 pub const NOW: usize = 10;
-/// Half a side of the square that decides a window's road users, metres.
+/// Half a side of the square in which a road user belongs to a window, metres.
 const CROP_M: f64 = 60.0;
-/// States farther out than this are not seen, metres.
+/// States beyond this distance are not seen, metres.
 const SEEN_M: f64 = 200.0;
 /// Map features with a point within this square are kept, metres.
 const MAP_M: f64 = 210.0;
 /// Most road users of a window.
 const MAX_AGENTS: usize = 256;
-/// Road users with fewer states in a window are left out of it.
+/// Least number of states of a road user in a window.
 const FEWEST_STATES: usize = 5;
-/// A road user that has not moved after this many steps is not starting.
+/// Steps after which a road user that starts must have moved.
 const SOON: usize = 25;
-/// Types of the windows' centres, in turn: pedestrians and cyclists more often than their share.
+/// Types of the road users at the centres of windows, in turn: pedestrians and cyclists more often than their
+/// share.
 const TURNS: [AgentType; 10] = {
     use AgentType::{Cyclist as C, Pedestrian as P, Vehicle as V};
     [V, V, P, V, C, V, P, V, V, C]
@@ -42,7 +43,7 @@ pub struct Drops {
     pub empty: usize,
 }
 
-/// Cuts `count` windows at even distances.
+/// Cuts `count` windows at equal intervals.
 pub fn cut(
     recording: &SimulatedRecording,
     seed: u64,
@@ -75,7 +76,7 @@ fn overlaps_in(actor: &SimulatedAgent, start: usize) -> bool {
     actor.overlaps.iter().any(|s| s + CHECK_EVERY > start && *s < start + STEPS)
 }
 
-/// The road user that a window is about: seen all the time, moving if possible, seldom used before.
+/// The road user at the centre of a window: seen all the time, moving if possible, and seldom used before.
 fn choose(
     recording: &SimulatedRecording,
     start: usize,
@@ -104,8 +105,8 @@ fn choose(
             _ => 0.0,
         };
         let fresh = 0.4_f64.powi(used.get(i).copied().unwrap_or(0));
-        // Recordings are kept for their events, so a road user that waits through most of a window is rarely
-        // its centre.
+        // Recorded windows are selected for their events, so a road user that waits for most of a window is
+        // rarely at its centre.
         let soon = track.at(start + SOON).zip(track.at(start));
         let starts = soon.is_some_and(|(a, b)| (a.position() - b.position()).norm() > 0.5);
         fresh
@@ -161,12 +162,12 @@ fn cast(recording: &SimulatedRecording, start: usize, centre: usize, drops: &mut
     Some(Cast { actors, origin })
 }
 
-/// Steps of a window and states that are near enough to be seen, about the origin.
+/// Steps of a window with the visible states, relative to the origin.
 fn seen(actor: &SimulatedAgent, start: usize, origin: Vec2) -> impl Iterator<Item = (usize, State)> {
     let shifted = move |step: usize| {
         let state = actor.track.at(start + step)?;
         let p = state.position() - origin;
-        // The far decimals cost space in files and mean nothing.
+        // Further decimals take space in files and carry no information.
         let (x_m, y_m) = (snap(p.x, 65536.0), snap(p.y, 65536.0));
         (p.amax() < SEEN_M).then_some((step, State { x_m, y_m, ..*state }))
     };
@@ -240,8 +241,8 @@ pub fn signals(recording: &SimulatedRecording, start: usize, map: &LaneMap, orig
         .collect()
 }
 
-/// The features of a map near a point, about that point. Features are kept whole; links to features
-/// that are left out are dropped.
+/// The features of a map near a point, relative to that point. Features are kept whole; links to omitted
+/// features are removed.
 pub fn crop(map: &LaneMap, origin: Vec2) -> LaneMap {
     let near = |points: &Points| points.xy.iter().any(|p| (p - origin).amax() < MAP_M);
     let moved = |points: &Points| -> Points {

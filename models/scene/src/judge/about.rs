@@ -9,47 +9,47 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {
-    /// Its box meets another's; `extent` is the closing speed, m/s.
+    /// Its box overlaps another's; `extent` is the closing speed, m/s.
     Collision,
     /// A stop line is crossed at red; `extent` is the speed, m/s.
     RedLight,
-    /// Against the direction of every lane there; `extent` is how far, metres.
+    /// Against the direction of every lane there; `extent` is the distance driven, metres.
     WrongWay,
-    /// Over what divides two roads; `extent` is how far past the edge, metres.
+    /// Over the median between two directions; `extent` is the distance past the edge, metres.
     OverMedian,
-    /// Over a kerb or away from the road; `extent` is how far past the edge, metres.
+    /// Over a kerb or off the road; `extent` is the distance past the edge, metres.
     OffRoad,
-    /// Where the roads of the map have ended; `extent` is how far from the lanes, metres.
+    /// Beyond the end of the map's roads; `extent` is the distance from the lanes, metres.
     OffMap,
-    /// On foot along a lane, or across lanes beside a crosswalk; `extent` is how far, metres.
+    /// On foot along a lane, or across lanes beside a crosswalk; `extent` is the distance walked, metres.
     OnCarriageway,
-    /// Above the speed limit; `extent` is by how much, m/s.
+    /// Above the speed limit; `extent` is the excess, m/s.
     Speeding,
-    /// Braking; `extent` in m/s2.
+    /// Hard braking; `extent` is the deceleration, m/s2.
     HarshBraking,
-    /// Turning; `extent` is the acceleration sideways, m/s2.
+    /// Hard steering; `extent` is the sideways acceleration, m/s2.
     HarshSteering,
     /// A pedestrian runs; `extent` is the speed, m/s.
     Running,
-    /// Ends at an angle to its lane; `extent` in radians.
+    /// Ends at an angle to its lane; `extent` is the angle, radians.
     Askew,
     /// A pedestrian waits at a crosswalk that this one drives over; `extent` is the pedestrian's delay, seconds.
     FailsToYield,
-    /// Another has to brake hard; `extent` is that braking, m/s2.
+    /// Another road user has to brake hard; `extent` is its deceleration, m/s2.
     ForcesBraking,
-    /// Another is met all but; `extent` is the gap, metres.
+    /// Near miss with another road user; `extent` is the gap, metres.
     NearMiss,
-    /// A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.
+    /// A via point is passed too far away, or not at its time; `extent` is the least distance to it, metres.
     ViaMissed,
-    /// The goal is not met; `extent` is what is left, metres.
+    /// The goal is not met; `extent` is the remaining distance, metres.
     GoalMissed,
 }
 
-/// One thing that is wrong with a motion.
+/// A fault of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
-    /// What.
+    /// Kind of the fault.
     pub kind: FaultKind,
     /// Scene time at which it begins, seconds.
     pub time_s: f64,
@@ -59,7 +59,7 @@ pub struct Fault {
     pub x_m: f64,
     /// Box centre where it is worst, metres.
     pub y_m: f64,
-    /// How bad, in the unit of its kind.
+    /// Extent, in the unit of its kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extent: Option<f64>,
     /// The other road user.
@@ -70,33 +70,33 @@ pub struct Fault {
     pub edge: Option<String>,
 }
 
-/// Relation of a motion to another's.
+/// Kind of a relation between two motions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RelationKind {
-    /// Their paths cross, and this one is there first.
+    /// Their paths cross, and this one passes first.
     Before,
-    /// Their paths cross, and this one is there second.
+    /// Their paths cross, and this one passes second.
     After,
-    /// Behind the other on the same way.
+    /// Behind the other on the same path.
     Follows,
     /// Slows down or waits where their paths cross, so that the other goes first.
     GivesWayTo,
 }
 
-/// A motion and another's.
+/// Relation of a motion to that of another road user.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Relation {
-    /// Which.
+    /// Kind of the relation.
     pub kind: RelationKind,
     /// The other road user.
     pub with: AgentId,
-    /// Scene time at which this one is there, seconds.
+    /// Scene time at which this one is at the place, seconds.
     pub time_s: f64,
-    /// Where, metres.
+    /// Position at that time, metres.
     pub x_m: f64,
-    /// Where, metres.
+    /// Position at that time, metres.
     pub y_m: f64,
     /// Time between the two at that place, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -132,39 +132,39 @@ pub struct About {
     pub manoeuvre: Option<Manoeuvre>,
 }
 
-/// How a road user reacts to another.
+/// Kind of a reaction to another road user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ReactionKind {
     /// Comes to rest.
     Waits,
-    /// Is slower.
+    /// Slows down.
     Slows,
-    /// Is faster.
+    /// Speeds up.
     SpeedsUp,
-    /// Takes another line.
+    /// Takes another path.
     KeepsClear,
-    /// Comes in later than the others, and does not come in: its place is taken then.
+    /// Was due to enter later, and does not enter because its place is occupied.
     StaysOut,
 }
 
-/// Why a road user gave up the motion that it had.
+/// Why a road user left its previous motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reaction {
     /// Kind of the reaction.
     pub kind: ReactionKind,
-    /// The road user that its own motion would have met.
+    /// The road user with which its previous motion conflicts.
     pub cause: AgentId,
-    /// Delay against its own motion, seconds; negative for earlier.
+    /// Delay relative to its previous motion, seconds; negative is earlier.
     pub delay_s: f64,
     /// Scene time at which it waits or is slowest, seconds.
     pub time_s: f64,
-    /// Where then, metres.
+    /// Position at that time, metres.
     pub x_m: f64,
-    /// Where then, metres.
+    /// Position at that time, metres.
     pub y_m: f64,
-    /// Speed then, m/s.
+    /// Speed at that time, m/s.
     pub speed_mps: f64,
 }
 

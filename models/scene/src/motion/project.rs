@@ -76,23 +76,23 @@ impl TargetError {
     }
 }
 
-/// The limit of motion that binds.
+/// Reason why a goal is unreachable: a motion limit, traffic, or a relation that does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Limiting {
-    /// Speeding up, m/s2.
+    /// Acceleration, m/s2.
     Acceleration,
-    /// Slowing down, m/s2.
+    /// Deceleration, m/s2.
     Braking,
     /// Top speed, m/s.
     Speed,
     /// Sideways acceleration, m/s2.
     Lateral,
-    /// Tightness of a turn, 1/m.
+    /// Curvature, 1/m.
     Curvature,
-    /// Another agent is in the way and stays there.
+    /// Another road user blocks the path permanently.
     Traffic,
-    /// The goal is relative to an agent or a lane that is not there.
+    /// The goal is relative to a road user or a lane that does not exist there.
     Relation,
 }
 

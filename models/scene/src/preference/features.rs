@@ -16,7 +16,7 @@ const PLACE_STEPS: usize = 5;
 /// Seconds between places.
 pub(super) const PLACE_S: f64 = PLACE_STEPS as f64 * STEP_S;
 
-/// Something about a motion that a person can name and wish otherwise.
+/// A property of a motion that a user can name and want changed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "trait", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Trait {
@@ -26,18 +26,18 @@ pub enum Trait {
     Gap,
     /// Hardest braking, accelerating or turning.
     Harshness,
-    /// Time that it stands.
+    /// Time at standstill.
     Standing,
-    /// Distance from what was recorded.
+    /// Distance from the recording.
     FromLog,
-    /// Going before another where their ways cross.
+    /// Going first where their paths cross.
     First {
         /// The one that goes first.
         who: AgentId,
         /// The other.
         with: AgentId,
     },
-    /// What it drives.
+    /// Its manoeuvre.
     Does {
         /// The road user.
         who: AgentId,
@@ -46,30 +46,31 @@ pub enum Trait {
     },
 }
 
-/// A motion of one road user, or of several together, in such terms.
+/// The traits of a motion of one road user, or of several together.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Features {
-    /// Mean speed, m/s; of several their mean.
+    /// Mean speed, m/s; for several road users the mean.
     #[schemars(range(min = 0.0, max = 150.0))]
     pub pace_mps: f64,
-    /// Least time between it and another where their ways cross, at most 5 s; of several the least.
+    /// Least time between it and another where their paths cross, seconds, at most 5; for several road users
+    /// the least.
     #[schemars(range(min = 0.0, max = 5.0))]
     pub gap_s: f64,
-    /// Greatest change of velocity over half a second, m/s2; of several the greatest.
+    /// Greatest change of velocity over half a second, m/s2; for several road users the greatest.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub harshness_mps2: f64,
-    /// Time that it stands, seconds; of several their mean.
+    /// Time at standstill, seconds; for several road users the mean.
     #[schemars(range(min = 0.0, max = 60.0))]
     pub standing_s: f64,
-    /// Mean distance from the recording, metres; of several their mean. Absent where nothing was recorded.
+    /// Mean distance from the recording, metres; for several road users the mean. Absent without a recording.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 100000.0))]
     pub from_log_m: Option<f64>,
-    /// By road user and other: it goes first where their ways cross.
+    /// By road user and other: whether it goes first where their paths cross.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub first: BTreeMap<AgentId, BTreeMap<AgentId, bool>>,
-    /// By road user: what it drives.
+    /// Manoeuvre by road user.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub manoeuvres: BTreeMap<AgentId, Manoeuvre>,
 }

@@ -23,23 +23,23 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A person's verdict on a card.
+/// The user's verdict on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Good.
+    /// The card is kept.
     Keep,
-    /// Not that.
+    /// The card is rejected.
     Reject,
 }
 
-/// Which way of a trait is wished.
+/// Direction of a wish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WishDirection {
-    /// More of it; of an order or a manoeuvre: yes.
+    /// More of it; for an order or a manoeuvre: yes.
     More,
-    /// Less of it; of an order or a manoeuvre: no.
+    /// Less of it; for an order or a manoeuvre: no.
     Less,
 }
 
@@ -52,13 +52,13 @@ impl WishDirection {
     }
 }
 
-/// A plain wish: a trait and which way.
+/// A wish: a trait and a direction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Wish {
     /// What of the motion.
     #[serde(flatten)]
     pub of: Trait,
-    /// Which way.
+    /// Direction of the wish.
     pub wants: WishDirection,
 }
 

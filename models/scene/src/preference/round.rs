@@ -34,12 +34,12 @@ pub struct Candidate {
     broken: bool,
 }
 
-/// A candidate that is shown.
+/// A candidate on a card.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RoundCard {
     /// Features of the card; the client returns them with the verdict.
     pub features: Features,
-    /// The share of the learned wishes that it fulfils; absent while none is known.
+    /// Share of the learned wishes that it fulfils; absent if none is known.
     #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
     pub fulfils: Option<f64>,
     /// Box centres at every half second, by road user; the client returns them with the verdict.

@@ -11,24 +11,24 @@ const LEAST_AGREED: usize = 3;
 /// ...and they are this many times those that contradict it.
 const AGREED_TIMES: usize = 2;
 
-/// A wish with what it rests on.
+/// A learned wish with its evidence.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "LearnedWish")]
 pub struct Learned {
     /// The wish.
     #[serde(flatten)]
     pub wish: Wish,
-    /// How sure it is, 0 to 1.
+    /// Confidence, 0 to 1.
     pub strength: f64,
-    /// It was said outright.
+    /// Whether the user stated it.
     pub said: bool,
-    /// Least and most among the kept ones, in the unit of the trait; none were kept: absent.
+    /// Least and greatest value of the kept cards, in the unit of the trait; absent if none were kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kept: Option<(f64, f64)>,
-    /// Least and most among the rejected ones.
+    /// Least and greatest value of the rejected cards.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rejected: Option<(f64, f64)>,
-    /// Positions of the answers that contradict it.
+    /// Indices of the answers that contradict it.
     pub against: Vec<usize>,
 }
 

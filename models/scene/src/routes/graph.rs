@@ -53,7 +53,7 @@ pub struct GraphLane {
     pub source: LaneSource,
     /// Lane type; sidewalk for crosswalks.
     pub lane_type: LaneType,
-    /// Leads through a junction between two lanes.
+    /// Whether it connects two lanes through a junction.
     pub interpolating: bool,
     /// Centre line; of zero length if the map's lane has none.
     pub path: Polyline,

@@ -7,14 +7,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
-/// Which step counts as the end of a future.
+/// The step that counts as the end of a future.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Endpoint {
     /// The last one.
     #[default]
     Last,
-    /// The one before: the goal position was given, so the last says nothing (the paper's rule).
+    /// The one before: the goal position was given, so the last step carries no information (the paper's
+    /// rule).
     BeforeLast,
 }
 
@@ -33,7 +34,7 @@ pub struct Accuracy {
     pub heading_error_rad: Option<f64>,
     /// Mean absolute speed error of the future that ends closest, m/s.
     pub speed_error_mps: Option<f64>,
-    /// Which step counted as the end.
+    /// Step that counted as the end.
     pub endpoint: Endpoint,
 }
 

@@ -9,52 +9,52 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Numbers that decide what counts. Those absent in a document have their defaults.
+/// Thresholds of events. Ones absent in a document have their defaults.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Thresholds::describe_ranges)]
 pub struct Thresholds {
     /// Boxes collide when their intersection over union is above this (the paper's collision rate: 0.02).
     pub iou: f64,
-    /// ... or when more than this share of the smaller box is covered: a child under a bus has a
-    /// tiny intersection over union. Above 1 turns the rule off (the paper's form).
+    /// Boxes also collide when more than this share of the smaller one is covered: a child under a bus has a
+    /// tiny intersection over union. A value above 1 disables the rule (the paper's form).
     pub covered_share: f64,
-    /// Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
+    /// Near miss: time to collision below this, seconds. The search ends at [`LOOK_AHEAD_S`].
     pub ttc_s: f64,
     /// Near miss: gap below this, metres.
     pub gap_m: f64,
     /// Near miss: only when the gap shrinks faster than this, m/s.
     pub closing_speed_mps: f64,
-    /// Near miss of one that follows another: only when avoiding the collision needs more braking
-    /// than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
+    /// Near miss of a follower: only if it must brake harder than this to avoid the collision, m/s2 (DRAC,
+    /// 3.35 in Archer 2005).
     pub follow_brake_mps2: f64,
     /// Near miss of two that pass each other at more than `pass_mps`: gap below this, metres.
     pub pass_gap_m: f64,
     /// Near miss of two that pass each other: only when their relative speed is above this, m/s.
     pub pass_mps: f64,
-    /// Slower than this counts as standing, m/s.
+    /// Below this speed, a road user stands, m/s.
     pub moving_mps: f64,
     /// Braking above this is harsh, m/s2.
     pub harsh_brake_mps2: f64,
-    /// Braking above this of another that gives way is forced on it, m/s2.
+    /// A road user that gives way is forced to brake if it brakes harder than this, m/s2.
     pub forced_brake_mps2: f64,
     /// Sideways acceleration above this is harsh, m/s2.
     pub harsh_lateral_mps2: f64,
-    /// A corner farther outside than this is off the road, metres.
+    /// A vehicle is off the road if a corner is farther outside than this, metres.
     pub offroad_m: f64,
-    /// Off the map: no lane and no road edge within this, metres.
+    /// Off the map: no lane and no road edge within this distance, metres.
     pub off_map_m: f64,
-    /// Turned by more than this from every lane at its end is askew, radians.
+    /// A vehicle is askew if it ends at more than this angle to every lane, radians.
     pub askew_rad: f64,
     /// Speeding: above the lane's limit by more than this share of it and `speeding_mps` together.
     pub speeding_share: f64,
     /// Speeding: see `speeding_share`, m/s.
     pub speeding_mps: f64,
-    /// A faster pedestrian runs, m/s.
+    /// A pedestrian faster than this runs, m/s.
     pub running_mps: f64,
-    /// Walking along a lane for longer than this is walking on the carriageway, metres.
+    /// Walking farther than this along a lane is walking on the carriageway, metres.
     pub along_lane_m: f64,
-    /// Crossing this near beside a crosswalk is walking on the carriageway, metres.
+    /// Crossing beside a crosswalk, within this distance of it, is walking on the carriageway, metres.
     pub crosswalk_m: f64,
     /// Goal position met within this, metres.
     pub goal_position_m: f64,
@@ -170,7 +170,7 @@ impl Thresholds {
     }
 }
 
-/// Which pairs are scored.
+/// The pairs to score.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]

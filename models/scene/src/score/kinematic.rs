@@ -74,19 +74,19 @@ impl KinematicLimits {
 pub struct Kinematic {
     /// Greatest speed, m/s.
     pub speed_mps: f64,
-    /// Greatest speeding up, m/s2.
+    /// Greatest acceleration, m/s2.
     pub accel_mps2: f64,
     /// Greatest braking, m/s2, positive.
     pub brake_mps2: f64,
     /// Greatest sideways acceleration, m/s2.
     pub lateral_mps2: f64,
-    /// Greatest turning, rad/s; none for walkers.
+    /// Greatest yaw rate, rad/s; none for pedestrians.
     pub yaw_rate_radps: Option<f64>,
-    /// Greatest jerk along the way, m/s3; none for walkers.
+    /// Greatest jerk along the path, m/s3; none for pedestrians.
     pub jerk_mps3: Option<f64>,
-    /// Greatest curvature above 1 m/s, 1/m; none for walkers.
+    /// Greatest curvature above 1 m/s, 1/m; none for pedestrians.
     pub curvature_per_m: Option<f64>,
-    /// Steps with at least one value over its limit ([`KinematicLimits`]).
+    /// Number of steps with at least one value over its limit ([`KinematicLimits`]).
     pub violations: usize,
 }
 

@@ -110,7 +110,7 @@ impl MotionRule {
     }
 }
 
-/// Marks red lights that the road user runs in the log too.
+/// Marks red-light violations that are in the log too.
 pub(super) fn mark_red_lights(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -131,7 +131,7 @@ fn is_same(logged: &RedLight, red: &RedLight) -> bool {
     logged.agent == red.agent && logged.lane == red.lane && (logged.time_s - red.time_s).abs() <= SAME_S
 }
 
-/// Removes red lights that the road user runs in the log too.
+/// Removes red-light violations that are in the log too.
 pub(crate) fn beyond_log(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,

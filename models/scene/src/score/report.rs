@@ -11,22 +11,22 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
-/// Answer to a score request.
+/// Reply to a score request.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "ScoreReply")]
 pub struct Score {
     /// The scene as a whole.
     pub scene: SceneScore,
-    /// Each road user, by id.
+    /// Scores of the road users by id.
     pub agents: BTreeMap<AgentId, AgentScore>,
     /// The thresholds that were used.
     pub thresholds: Thresholds,
 }
 
-/// Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
+/// Two road users collide: their boxes overlap by more than the thresholds. One entry per pair.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Collision {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
@@ -34,51 +34,51 @@ pub struct Collision {
     pub time_s: f64,
     /// Greatest intersection over union of the whole encounter, 0 to 1.
     pub iou: f64,
-    /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
-    /// already overlap).
+    /// Closing speed at the first moment, m/s (relative speed if they already overlap).
     pub closing_speed_mps: f64,
-    /// Both move as recorded. It does not count.
+    /// Both move as recorded; the event does not count.
     pub in_log: bool,
 }
 
-/// The boxes of two road users overlap by less than a collision takes. One entry a pair.
+/// The boxes of two road users overlap by less than the thresholds of a collision. One entry per pair.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "Overlap")]
 pub struct BoxOverlap {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
     /// Scene time of the first step at which they overlap, seconds.
     pub time_s: f64,
-    /// Greatest depth, metres: the least gap of the pair is this below zero.
+    /// Greatest depth, metres: the least gap of the pair, with the opposite sign.
     pub depth_m: f64,
-    /// The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+    /// The event is in the log: both move as recorded, or the recording has an overlap as deep. It does not
     /// count.
     pub in_log: bool,
 }
 
-/// Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
+/// Two moving road users nearly collide, and their boxes never touch. One entry per pair, at its worst
+/// moment.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NearMiss {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
     /// Scene time, seconds.
     pub time_s: f64,
-    /// Gap between the boxes then, metres.
+    /// Gap between the boxes at that time, metres.
     pub distance_m: f64,
-    /// Time to collision at constant velocity then, seconds, if there is one.
+    /// Time to collision at that time, at constant velocity, seconds, if there is one.
     pub ttc_s: Option<f64>,
-    /// Rate at which the gap shrank then, m/s.
+    /// Rate at which the gap shrinks at that time, m/s.
     pub closing_speed_mps: f64,
-    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
-    /// the same time, no less hard. It does not count.
+    /// The event is in the log: both move as recorded, or the recording has the same encounter at about the
+    /// same time, at least as severe. It does not count.
     pub in_log: bool,
 }
 
-/// What a pair comes to.
+/// Kind of an encounter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EncounterKind {
@@ -93,28 +93,28 @@ pub enum EncounterKind {
 /// A pair with a collision, an overlap or a near miss, and its surrogate safety measures.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Encounter {
-    /// The one listed first.
+    /// The road user listed first.
     pub a: AgentId,
     /// The other.
     pub b: AgentId,
-    /// The list that it is in.
+    /// Kind of the event.
     pub kind: EncounterKind,
     /// Scene time of the event, seconds.
     pub time_s: f64,
-    /// Between the two at that time, metres.
+    /// Midpoint between the two at that time, metres.
     pub x_m: f64,
-    /// Between the two at that time, metres.
+    /// Midpoint between the two at that time, metres.
     pub y_m: f64,
     /// The worst values up to the event.
     #[serde(flatten)]
     pub measures: Measures,
     /// The worst values of the recording over the scored time; null without a recording of both.
     pub log: Option<Measures>,
-    /// As in the list.
+    /// As in the list of its kind.
     pub in_log: bool,
 }
 
-/// Something one road user does over a stretch of time.
+/// An event of one road user over a time interval.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
     /// The road user.
@@ -123,9 +123,9 @@ pub struct Stretch {
     pub time_s: f64,
     /// Scene time of the last step, seconds.
     pub until_s: f64,
-    /// The worst of it, in the unit of its list: metres off the road, off the map, driven against the traffic or
-    /// walked on the carriageway; m/s2 of braking or sideways; share of the limit for turns; m/s above the speed limit
-    /// or of running; radians askew.
+    /// Greatest value, in the unit of its list: metres off the road, off the map, driven against the traffic or walked
+    /// on the carriageway; m/s2 of braking or sideways acceleration; share of the limit for turns; m/s above the speed
+    /// limit or of running; radians askew.
     pub worst: Option<f64>,
     /// Box centre where it is worst, metres.
     pub x_m: f64,
@@ -133,8 +133,8 @@ pub struct Stretch {
     pub y_m: f64,
     /// Off the road and over a median: the road edge that is driven over, by its id in the map.
     pub edge: Option<String>,
-    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
-    /// the same time, no less bad.
+    /// The event is in the log: the motion is the recorded one, or the recording has the same event at about
+    /// the same time, at least as severe.
     pub in_log: bool,
 }
 
@@ -147,25 +147,24 @@ pub struct RedLight {
     pub lane: String,
     /// Scene time at which the front crosses, seconds.
     pub time_s: f64,
-    /// Speed then, m/s.
+    /// Speed at that time, m/s.
     pub speed_mps: f64,
-    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
-    /// the same time, no less bad.
+    /// The event is in the log: the motion is the recorded one, or the recording has the same event at about
+    /// the same time, at least as severe.
     pub in_log: bool,
 }
 
 /// Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
 ///
-/// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
-/// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
-/// motion, the recorded too.
+/// Lists include events of the log, marked `in_log`. These events do not count in `collision_rate` and in the
+/// counts of road users. Distances, times and the other shares cover all motion, including recorded motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
-    /// Share of road users in any collision that the log does not show.
+    /// Share of road users in any collision that is not in the log.
     pub collision_rate: f64,
-    /// Share of road users in any collision, those of the log counted (the paper's scenario collision
+    /// Share of road users in any collision, including those in the log (the paper's scenario collision
     /// rate).
     pub collision_rate_with_log: f64,
     /// Share of road users with any overlap of boxes, however small.
@@ -181,13 +180,13 @@ pub struct SceneScore {
     /// The pair with `min_ttc_s`.
     pub min_ttc_pair: Option<[AgentId; 2]>,
     /// Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
-    /// overlap. People in company are left out where they touch.
+    /// overlap. Contact between pedestrians who walk together does not count.
     pub min_distance_m: Option<f64>,
     /// Least post-encroachment time of crossing paths, seconds.
     pub pet_s: Option<f64>,
     /// Share of vehicle steps with a corner off the road.
     pub offroad_share: Option<f64>,
-    /// Farthest a vehicle's corner goes off the road, metres.
+    /// Greatest distance of a vehicle's corner from the road, metres.
     pub offroad_max_m: Option<f64>,
     /// The map has no drivable areas, and some lane widths were assumed by type.
     pub assumed_width: bool,
@@ -203,21 +202,21 @@ pub struct SceneScore {
     #[serde(flatten, serialize_with = "nullable")]
     #[schemars(with = "Accuracy")]
     pub accuracy: Option<Accuracy>,
-    /// Vehicles off the road, but for those over a median.
+    /// Vehicles off the road, except those over a median.
     pub off_road: Vec<Stretch>,
-    /// Vehicles over what divides two roads.
+    /// Vehicles over the median between two directions.
     pub over_median: Vec<Stretch>,
     /// Vehicles against the traffic.
     pub wrong_way: Vec<Stretch>,
     /// Braking harder than the threshold; `worst` in m/s2.
     pub harsh_braking: Vec<Stretch>,
-    /// Turning harder than the threshold; `worst` in m/s2 sideways.
+    /// Steering harder than the threshold; `worst` is the sideways acceleration, m/s2.
     pub harsh_steering: Vec<Stretch>,
-    /// Wheels where the roads of the map have ended; `worst` in metres from the lanes.
+    /// Vehicles beyond the end of the map's roads; `worst` in metres from the lanes.
     pub off_map: Vec<Stretch>,
     /// Pedestrians along a lane, or across lanes beside a crosswalk; `worst` in metres walked.
     pub on_carriageway: Vec<Stretch>,
-    /// Vehicles above the speed limit; `worst` in m/s above it.
+    /// Vehicles above the speed limit; `worst` is the excess, m/s.
     pub speeding: Vec<Stretch>,
     /// Pedestrians that run; `worst` in m/s.
     pub running: Vec<Stretch>,
@@ -240,11 +239,11 @@ pub struct SceneScore {
 /// Score of one road user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
-    /// Collisions it is part of and the log does not show.
+    /// Its collisions that are not in the log.
     pub collisions: usize,
-    /// Overlaps below the threshold of a collision that it is part of and the log does not show.
+    /// Its overlaps below the threshold of a collision that are not in the log.
     pub overlaps: usize,
-    /// Near misses it is part of and the log does not show.
+    /// Its near misses that are not in the log.
     pub near_misses: usize,
     /// As in [`SceneScore`].
     pub min_ttc_s: Option<f64>,

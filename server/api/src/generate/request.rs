@@ -24,16 +24,16 @@ pub const MOST_ANGLE_RAD: f64 = std::f64::consts::TAU;
 pub enum AgentChoice {
     /// `"all"`.
     All(AllWord),
-    /// These.
+    /// The road users with these ids.
     Ids(Vec<String>),
 }
 
-/// The word `all`.
+/// The value `all`.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "All")]
 pub enum AllWord {
-    /// Everyone.
+    /// All road users.
     All,
 }
 
@@ -44,11 +44,11 @@ pub enum AllWord {
 pub enum ReactChoice {
     /// All, or none.
     Whether(bool),
-    /// These.
+    /// The road users with these ids.
     Ids(Vec<String>),
 }
 
-/// What drafts carry.
+/// Futures in drafts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StreamModes {
@@ -59,16 +59,17 @@ pub enum StreamModes {
     All,
 }
 
-/// What becomes of the futures of earlier calls, of road users that are not generated in this one.
+/// Use of the futures of earlier calls, for road users that are not generated in this one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum KeptFutures {
-    /// They are planned around and answered beside the new ones: the samples are the whole scene's.
+    /// The plans take them into account, and the answer contains them beside the new ones: its samples are of
+    /// the whole scene.
     #[default]
     Answered,
-    /// They are planned around and not answered, for a client that has them itself.
+    /// The plans take them into account, and the answer leaves them out, for a client that has them.
     Omitted,
-    /// They are dropped before planning: their road users follow the recording again.
+    /// They are removed before planning: their road users follow the recording again.
     Forgotten,
 }
 
@@ -81,24 +82,24 @@ pub struct GenerateRequest {
     pub scene: Option<SceneDoc>,
     /// A scene of this server.
     pub scene_id: Option<String>,
-    /// With `scene_id`: refuse when the scene has changed.
+    /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
     /// With `scene`: the server holds it in memory. Later calls use the name in the reply's header `Dragtraffic-Scene`
     /// as their `scene_id`. The server drops scenes that were not used for a long time (`not-found`).
     pub hold: bool,
-    /// Replace the scene's own conditions of these road users, whole. Type and size always count. A start, goal or via
-    /// point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the scene
-    /// keeps no future of it, and its own conditions are others.
+    /// Conditions that replace all those of the scene for these road users. Type and size always apply. A start, goal
+    /// or via point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the
+    /// scene keeps no future of it, and its own conditions are others.
     pub conditions: Members<ConditionsDoc>,
     /// Road users added for this call.
     pub add_agents: Vec<AgentDoc>,
     /// Road users removed for this call.
     pub remove_agents: Vec<String>,
-    /// The client's id of the job, to cancel it by.
+    /// The client's id of the job, which can cancel it.
     pub job: Option<String>,
     /// With `revision`: a newer revision of this client replaces the running one.
     pub client: Option<String>,
-    /// Rises with each request of `client`.
+    /// Increases with each request of `client`.
     #[schemars(range(max = 9007199254740991u64))]
     pub revision: Option<u64>,
     /// A background call: calls without this flag go first, in the queue and on the cores.
@@ -117,7 +118,7 @@ pub struct GenerateRequest {
     /// Scene time of the start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
     pub start_s: f64,
-    /// Time to generate, seconds. Beyond 9 s it is planned window after window.
+    /// Time to generate, seconds. Beyond 9 s it is planned window by window.
     #[schemars(range(min = 0.5, max = 20.0))]
     pub horizon_s: f64,
     /// Replan interval, seconds: 3, 6 or 9; null is 9. Each plan starts from the states reached.
@@ -144,25 +145,25 @@ pub struct GenerateRequest {
     /// user without reactions each future is a card, else each sample. `modes` is the number of cards; `samples` has
     /// no effect.
     pub feedback: Option<FeedbackDoc>,
-    /// What drafts carry.
+    /// Futures in drafts.
     pub stream_modes: StreamModes,
-    /// Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
-    /// leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
-    /// `accepted`, which waits for it so long.
+    /// Time from the start of the work before which drafts are left out, `initial` included, milliseconds; 0
+    /// leaves out none. `accepted` waits as long for the first draft or the answer: an early answer comes together
+    /// with it.
     #[schemars(range(max = 1000))]
     pub draft_delay_ms: u64,
-    /// `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
-    /// all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+    /// Minimum time between two drafts, milliseconds: an earlier `step` event is left out; 0 sends all. A page at
+    /// 60 frames per second shows at most one draft in 16 ms.
     #[schemars(range(max = 1000))]
     pub draft_interval_ms: u64,
-    /// How futures are written, in drafts and in `final`.
+    /// Form of the futures, in drafts and in `final`.
     pub futures: FuturesForm,
-    /// What becomes of the futures of earlier calls, of road users that are not generated in this one.
+    /// Use of the futures of earlier calls, for road users that are not generated in this one.
     pub kept_futures: KeptFutures,
-    /// Put scores into `final`.
+    /// Whether `final` has scores.
     pub score: bool,
-    /// Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
-    /// absent have their defaults. They change no motion.
+    /// Thresholds of near misses, harsh braking and the like, in `faults` and `scores`; absent ones have their
+    /// defaults. They change no motion.
     pub thresholds: Thresholds,
 }
 
@@ -219,9 +220,9 @@ pub struct ShownDoc {
     /// Its `anchor`.
     #[serde(default)]
     pub anchor: Option<u32>,
-    /// Box centres at every half second after the start, metres; at most 18 count.
+    /// Box centres at every half second after the start, metres; at most 18 are used.
     pub x_m: Vec<f64>,
-    /// As many as `x_m`.
+    /// Box centres, metres; as many as `x_m`.
     pub y_m: Vec<f64>,
 }
 

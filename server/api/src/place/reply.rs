@@ -6,7 +6,7 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What was placed.
+/// Result of a placement.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlaceReply {
     /// New road users: one state at `start_s`, the same as a fixed start, goals free. One that enters by an arm
@@ -14,45 +14,46 @@ pub struct PlaceReply {
     pub agents: Vec<AgentDoc>,
     /// Number of requested road users without a place.
     pub unplaced: usize,
-    /// Why, in one sentence; null when all were placed.
+    /// Reason for `unplaced`, in one sentence; null if all were placed.
     pub reason: Option<String>,
-    /// `model`, or `lane-sampler` where the weights folder has no placement weights.
+    /// `model`, or `lane-sampler` if the weights folder has no placement weights.
     pub method: PlacementMethod,
     /// Arms: where roads enter the map or the region, with the traffic placed on each.
     pub arms: Vec<ArmDoc>,
-    /// Places at kerbs and in lots; null without `parked`.
+    /// Parking places at kerbs and in car parks; null without `parked`.
     pub parking_places: Option<usize>,
 }
 
-/// A lane by which an arm leads in.
+/// A lane by which an arm enters the map or the region.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ArmLaneDoc {
     /// Id of the lane.
     pub lane: String,
-    /// Arc length at which it comes in, metres.
+    /// Arc length of the entry, metres.
     pub s_m: f64,
 }
 
-/// Where a road comes in.
+/// An arm: a road that enters the map or the region.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ArmDoc {
-    /// The compass point that it comes from, with a number where several do: `north-east`, `west-2`.
+    /// Compass direction that it comes from, with a number if several arms share it: `north-east`, `west-2`.
     pub id: String,
-    /// Middle of its lanes there, metres.
+    /// Middle of its lanes at the entry, metres.
     pub x_m: f64,
-    /// The same, metres.
+    /// Middle of its lanes at the entry, metres.
     pub y_m: f64,
-    /// Direction in which it leads, radians.
+    /// Driving direction at the entry, radians.
     pub heading_rad: f64,
-    /// From right to left.
+    /// Its lanes, from right to left.
     pub lanes: Vec<ArmLaneDoc>,
-    /// To its line, metres: the first junction, or where the road ends or joins another.
+    /// Length from the entry to the end line, metres: the first junction, or where the road ends or joins
+    /// another.
     pub length_m: f64,
-    /// Most vehicles an hour that its lanes take.
+    /// Capacity of its lanes, vehicles per hour.
     pub most_per_hour: f64,
-    /// Vehicles of its traffic that are there at the start.
+    /// Vehicles of its traffic that are present at the start.
     pub placed: usize,
-    /// Those that come in later.
+    /// Vehicles that enter later.
     pub later: usize,
 }
 

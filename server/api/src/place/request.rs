@@ -19,7 +19,7 @@ pub struct CircleDoc {
     pub radius_m: f64,
 }
 
-/// Where centres may lie: exactly one of the two.
+/// Region for box centres: exactly one of `circle` and `polygon_m`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionDoc {
@@ -31,21 +31,21 @@ pub struct RegionDoc {
     pub circle: Option<CircleDoc>,
 }
 
-/// How many: exactly one of the two.
+/// Density: exactly one of `count` and `per_lane_km`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensityDoc {
-    /// Road users for each kilometre of lane for motor vehicles in the region, junctions left out.
+    /// Road users per kilometre of lane for motor vehicles in the region, without junctions.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 200.0))]
     pub per_lane_km: Option<f64>,
-    /// Road users in all.
+    /// Total number of road users.
     #[serde(default)]
     #[schemars(range(min = 1, max = 256))]
     pub count: Option<u64>,
 }
 
-/// Between which speeds motor vehicles start that move.
+/// Range of start speeds of moving motor vehicles.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedsDoc {
@@ -57,26 +57,26 @@ pub struct SpeedsDoc {
     pub max_mps: f64,
 }
 
-/// Traffic that comes in by an arm.
+/// Traffic that enters by an arm.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArrivalsDoc {
     /// Id of one of the reply's `arms`.
     pub arm: String,
-    /// Motor vehicles an hour, all lanes together.
+    /// Motor vehicles per hour, all lanes together.
     #[schemars(range(min = 0.0, max = 20000.0))]
     pub per_hour: f64,
 }
 
-/// Cars parked along kerbs and in lots: exactly one of the two.
+/// Cars parked at kerbs and in car parks: exactly one of `per_100m` and `share`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParkedDoc {
-    /// Share of the places that are taken.
+    /// Share of the parking places that are occupied.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
-    /// Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+    /// Cars per 100 m of kerb with room; the same share of the bays in car parks is occupied.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 20.0))]
     pub per_100m: Option<f64>,
@@ -91,29 +91,31 @@ pub struct PlaceBody {
     pub scene: Option<SceneDoc>,
     /// A scene of this server.
     pub scene_id: Option<String>,
-    /// With `scene_id`: refuse when the scene has changed.
+    /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
-    /// Where; null is the whole map. It may reach 50 m beyond the map's box.
+    /// Region; null is the whole map. It may reach 50 m beyond the map's box.
     pub region: Option<RegionDoc>,
-    /// Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`.
+    /// Density. Absent or null: 12 per kilometre, or 0 with `arrivals` or `parked`.
     pub density: Option<DensityDoc>,
-    /// Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
+    /// Shares of `vehicle`, `pedestrian` and `cyclist`, which sum to 1.
     #[schemars(with = "Option<BTreeMap<String, f64>>")]
     pub types: Option<Members<f64>>,
-    /// Road users of the scene that stay; null keeps all. The others are taken to be gone.
+    /// Road users of the scene to keep; null keeps all. The others count as removed.
     pub keep: Option<Vec<String>>,
     /// Scene time at which they start, seconds.
     #[schemars(range(min = 0.0, max = 59.9))]
     pub start_s: f64,
-    /// The same seed gives the same answer.
+    /// Seed of the random draws; equal seeds give equal answers.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: u64,
     /// Minimum gap along the lane between moving vehicles, metres. All other gaps are at least 0.1 m.
     #[schemars(range(min = 0.0, max = 50.0))]
     pub min_gap_m: f64,
-    /// Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest.
+    /// Speeds of moving motor vehicles; null draws the speeds typical of each road. Vehicles at rest, as in a
+    /// queue, stay at rest.
     pub speeds: Option<SpeedsDoc>,
-    /// Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here.
+    /// Traffic by arm, until the end of the scene. It is the only source of vehicles on the lanes of these
+    /// arms.
     #[schemars(length(max = 256))]
     pub arrivals: Vec<ArrivalsDoc>,
     /// Parked cars, in addition to `density`.

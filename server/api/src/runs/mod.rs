@@ -61,7 +61,7 @@ impl StepBody {
 }
 
 impl PeekBody {
-    /// Predicts what the others would do.
+    /// Predicts the motion of the others.
     ///
     /// # Errors
     /// Every fault of the plans; a cancelled call.

@@ -42,7 +42,7 @@ impl MotionDoc {
 pub struct ChangeDoc {
     /// The road user.
     pub agent: String,
-    /// What it does, and because of whom.
+    /// What it does, and its cause.
     pub reaction: Reaction,
 }
 
@@ -53,12 +53,12 @@ impl ChangeDoc {
     }
 }
 
-/// A fault and the road user whose it is.
+/// A fault and its road user.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RunFaultDoc {
-    /// Of a collision the one that drove into the other.
+    /// The road user with the fault; in a collision, the one that drove into the other.
     pub agent: String,
-    /// What, when and where.
+    /// The fault, with its time and position.
     pub fault: Fault,
 }
 
@@ -72,9 +72,9 @@ impl RunFaultDoc {
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DepartureWord {
-    /// The roads of the map end there.
+    /// It left the map.
     LeftTheMap,
-    /// It is where its goal is.
+    /// It reached its goal.
     Arrived,
 }
 
@@ -87,22 +87,22 @@ pub struct DepartureDoc {
     pub reason: DepartureWord,
 }
 
-/// What a step came to.
+/// Result of a step.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StepReply {
     /// Number of the step; 0 for the start.
     pub number: u64,
     /// Scene time at its end, seconds.
     pub time_s: f64,
-    /// Everybody who is there, egos too, by id.
+    /// States of all present road users by id, egos included.
     pub states: BTreeMap<String, StateDoc>,
-    /// Who changed its plan because of whom.
+    /// Changes of plan with their causes.
     pub changes: Vec<ChangeDoc>,
     /// Collisions and vehicles off the road that began in this step.
     pub faults: Vec<RunFaultDoc>,
-    /// Ids of those who came in.
+    /// Ids of the road users that entered.
     pub entered: Vec<String>,
-    /// Those who left.
+    /// Road users that left.
     pub left: Vec<DepartureDoc>,
 }
 
@@ -132,19 +132,19 @@ pub struct RunReply {
     pub run: String,
     /// Road users that the caller drives.
     pub egos: Vec<String>,
-    /// Repeats the run.
+    /// Seed, which repeats the run.
     pub seed: u64,
     /// Length of a step, seconds.
     pub step_s: f64,
-    /// Each of the others plans anew after so many seconds.
+    /// Replan interval of the other road users, seconds.
     pub plan_interval_s: f64,
-    /// Seconds without a request after which the server forgets the run.
+    /// Time without a request after which the server deletes the run, seconds.
     pub idle_s: u64,
-    /// Seconds since the last request that used the run; looking at it is no use.
+    /// Time since the last request that used the run, seconds. Reading its state does not count.
     pub unused_s: u64,
-    /// Steps that may still be made.
+    /// Number of remaining steps.
     pub steps_left: u64,
-    /// The present.
+    /// Current states, in the form of a step.
     pub present: StepReply,
 }
 
@@ -167,35 +167,35 @@ impl RunReply {
     }
 }
 
-/// What a follower of a run is told: the run first, then each step as it is made, the end when the run is forgotten.
+/// An event of a followed run: first the run, then each step, last `end` when the server deletes the run.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(tag = "event", rename_all = "snake_case")]
 #[schemars(rename = "RunEvent")]
 pub enum RunEvent<S = StepReply> {
-    /// The run as it is when following begins.
+    /// State of the run when following begins.
     Run {
         /// The run.
         run: Box<RunReply>,
     },
-    /// A step was made. Of steps that follow each other faster than they are read, the last one is told.
+    /// A step was made. If steps come faster than they are read, only the last one is sent.
     Step {
         /// The reply to the step.
         step: S,
     },
-    /// Nothing was told for a while.
+    /// Keep-alive after a while without events.
     Heartbeat,
-    /// The run is forgotten.
+    /// The server has deleted the run.
     End,
 }
 
-/// What the others would do.
+/// Predicted motion of the other road users.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PeekReply {
     /// Scene time of the present, seconds.
     pub time_s: f64,
     /// Motion of the others over nine seconds by id, the first state 0.1 s after the present.
     pub futures: BTreeMap<String, MotionDoc>,
-    /// Who would change its plan because of whom.
+    /// Changes of plan with their causes.
     pub changes: Vec<ChangeDoc>,
     /// The first collision of each ego with each other road user.
     pub faults: Vec<RunFaultDoc>,
@@ -213,14 +213,14 @@ impl PeekReply {
     }
 }
 
-/// A run as a text. Without its scene.
+/// A run as text, without its scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SnapshotReply {
-    /// Steps that it has made.
+    /// Number of steps that the run has made.
     pub number: u64,
     /// Bytes of the snapshot.
     pub bytes: usize,
-    /// Base64, for `snapshot` of a run that is begun.
+    /// The snapshot, base64, for `snapshot` of a new run.
     pub snapshot: String,
 }
 

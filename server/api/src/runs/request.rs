@@ -25,17 +25,17 @@ pub struct RunBody {
     pub scene: Option<SceneDoc>,
     /// A scene of this server.
     pub scene_id: Option<String>,
-    /// With `scene_id`: refuse when the scene has changed.
+    /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
     /// Road users that the caller drives, by id; none by default.
     pub egos: Option<Vec<String>>,
-    /// Repeats the run; 0 by default.
+    /// Seed, which repeats the run; 0 by default.
     #[schemars(range(max = 9007199254740991u64))]
     pub seed: Option<u64>,
     /// Length of a step, seconds, in whole milliseconds; 0.1 by default.
     #[schemars(range(min = 0.05, max = 0.5))]
     pub step_s: Option<f64>,
-    /// Each of the others plans anew after so many seconds; 1 by default.
+    /// Replan interval of the other road users, seconds; 1 by default.
     #[schemars(range(min = 0.2, max = 5.0))]
     pub plan_interval_s: Option<f64>,
     /// Scene time at which the run begins, seconds; 0 by default.
@@ -44,7 +44,7 @@ pub struct RunBody {
     /// Refinement steps of each plan; 1 by default.
     #[schemars(range(max = 100))]
     pub steps: Option<u64>,
-    /// A snapshot of a run in this scene, base64: the run goes on from there.
+    /// A snapshot of a run in this scene, base64, from which the run continues.
     pub snapshot: Option<String>,
 }
 
@@ -106,7 +106,7 @@ impl RunBody {
     }
 }
 
-/// Place, heading and velocity of a road user at one moment, scene frame.
+/// Position, heading and velocity of a road user at one moment, scene frame.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "the names say it")]
@@ -149,7 +149,7 @@ impl MotionDoc {
     }
 }
 
-/// An ego at the end of a step.
+/// State and plan of an ego at the end of a step.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EgoDoc {
@@ -161,12 +161,12 @@ pub struct EgoDoc {
     pub y_m: f64,
     /// Radians.
     pub heading_rad: f64,
-    /// Of the box centre, m/s.
+    /// Velocity of the box centre, m/s.
     pub vx_mps: f64,
-    /// Of the box centre, m/s.
+    /// Velocity of the box centre, m/s.
     pub vy_mps: f64,
-    /// Where it says that it goes: at most 90 states, the first 0.1 s after the step's end. Without a plan the others
-    /// expect it to go on along its lane.
+    /// Announced motion: at most 90 states, the first 0.1 s after the step's end. Without a plan, the others expect
+    /// it to continue along its lane.
     #[serde(default)]
     pub plan: MotionDoc,
 }
@@ -175,10 +175,10 @@ pub struct EgoDoc {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StepBody {
-    /// Number of the step: one more than the last. The last one again gives the same reply again.
+    /// Number of the step: one more than the last. Repeating the last number returns the same reply.
     #[schemars(range(max = 9007199254740991u64))]
     pub number: u64,
-    /// Every ego at the end of the step.
+    /// States of all egos at the end of the step.
     #[serde(default)]
     pub egos: Vec<EgoDoc>,
 }
@@ -201,12 +201,12 @@ impl StepBody {
     }
 }
 
-/// Body of a peek.
+/// Body of a peek into the future of a run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PeekBody {
-    /// Motion by ego, the first state 0.1 s after the present; at most 90 states. An ego that is left out does what it
-    /// has announced.
+    /// Motion by ego, the first state 0.1 s after the present; at most 90 states. An ego that is left out follows its
+    /// announced plan.
     pub plans: Members<MotionDoc>,
 }
 

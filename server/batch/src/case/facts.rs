@@ -1,4 +1,4 @@
-//! The facts of a result: who meets whom, where, in what order, how close and how fast.
+//! The facts of a result: the two road users, the place, their order, distance and speeds.
 
 use super::layout::road_layout;
 use formats::columnar::{Column, ColumnValue, ColumnValues};
@@ -36,7 +36,7 @@ pub fn columns() -> &'static [(String, &'static str)] {
     COLUMNS.get_or_init(|| WORDS.iter().chain(&NUMBERS).map(column).collect())
 }
 
-/// The facts of one result, about one road user and the one it comes nearest to.
+/// The facts of one result: one road user and its hardest pair.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseFacts {
     /// Textual facts by the names of [`WORDS`].
@@ -154,7 +154,7 @@ pub fn recorded(scene: &scene::Scene, drivable: &scene::score::Drivable) -> Vec<
     all.filter_map(named).collect()
 }
 
-/// A recorded road user that travels less than this stays, metres.
+/// A recorded road user that travels less than this does not move, metres.
 const MOVES_M: f64 = 1.0;
 
 /// Seconds during which a road user is present, and metres that it drives.

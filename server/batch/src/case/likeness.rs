@@ -1,7 +1,7 @@
-//! Which cases are near copies of each other, and which cases of a bucket are worth keeping.
+//! Finds near copies among cases, and selects the cases of a bucket that are worth keeping.
 //!
-//! The distance compares what happens: the textual facts of two cases, their measures and speeds, and the
-//! relative motion of the two road users. Absolute places and ids do not count.
+//! The distance compares the textual facts of two cases, their measures and speeds, and the relative motion
+//! of the two road users. Absolute positions and ids have no effect.
 
 use super::facts::CaseFacts;
 use std::collections::{BTreeMap, BTreeSet};

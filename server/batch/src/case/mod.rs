@@ -1,4 +1,4 @@
-//! What happens in a result: the facts that coverage counts, and its motion for a picture.
+//! Facts of a result for coverage, and its motion for a picture.
 
 pub mod facts;
 pub mod layout;

@@ -15,7 +15,7 @@ pub enum BucketState {
     LeftOut,
     /// No result fell into it.
     NeverTried,
-    /// It holds the cases without the fact, so it need not be filled.
+    /// It contains the cases without the fact, so it need not be filled.
     Nothing,
 }
 

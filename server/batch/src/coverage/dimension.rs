@@ -95,7 +95,7 @@ impl CoverageDimension {
         }
     }
 
-    /// Whether the bucket holds the cases without the fact, so that an empty one is no hole.
+    /// Whether the bucket contains the cases without the fact; if it is empty, it is not a hole.
     pub fn is_nothing(&self, bucket: usize) -> bool {
         self.source != BucketSource::Situation && bucket + 1 == self.buckets.len()
     }

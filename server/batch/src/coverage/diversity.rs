@@ -1,4 +1,4 @@
-//! How much of the space of possible cases is reached: two numbers, for recordings and for results.
+//! Coverage of the space of possible cases: two numbers, for recordings and for results.
 
 use super::dimension::CoverageDimension;
 use crate::case::facts::CaseFacts;

@@ -79,7 +79,7 @@ struct CellBody {
 pub struct DiversityBody {
     /// Dimensions that span the space.
     dimensions: Vec<&'static str>,
-    /// The scenes as recorded.
+    /// Numbers of the recorded scenes.
     recorded: Diversity,
     /// The kept results.
     kept: Diversity,

@@ -1,16 +1,16 @@
 //! Conditions on scores, such as `min_ttc_s < 1.5 && collisions == 0`: comparisons of figures with numbers or with
 //! each other, joined by `&&`, `||`, `!` and parentheses.
 //!
-//! A comparison with a figure that a scene does not have (no approaching pair, no goal) is false.
+//! A comparison with a missing figure (no approaching pair, no goal) is false.
 
 use super::tokens::{Operand, Order, Placed, Token, Wrong, tokens};
 
-/// Longest text.
+/// Greatest length of a condition, bytes.
 const MOST_BYTES: usize = 4_096;
 /// Deepest nesting of parentheses and `!`.
 const MOST_DEEP: usize = 64;
 
-/// A condition that was read.
+/// A parsed condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression(Node);
 
@@ -43,14 +43,14 @@ impl Expression {
         }
     }
 
-    /// Whether it holds for the figures that `value` gives.
+    /// Whether it holds for the figures that `value` returns.
     pub fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
         self.0.holds(value)
     }
 
-    /// How far it is from holding for the figures that `value` gives: 0 where it holds, else the sum over the
-    /// comparisons that are joined by `&&`, and the least over those joined by `||`. A comparison counts at most 1:
-    /// half of it where it is missed by as much as its number, or by 1 where that is 0.
+    /// Distance from holding for the figures that `value` returns; 0 if it holds. `&&` adds the distances of its
+    /// comparisons, and `||` takes the least one. A comparison counts at most 1, and 0.5 if it is missed by as
+    /// much as its number, or by 1 if the number is 0.
     pub fn miss(&self, value: &dyn Fn(&str) -> Option<f64>) -> f64 {
         self.0.miss(true, value)
     }
@@ -78,7 +78,7 @@ impl Node {
 }
 
 impl Node {
-    /// How far it is from being `wanted`.
+    /// Distance from being `wanted`.
     fn miss(&self, wanted: bool, value: &dyn Fn(&str) -> Option<f64>) -> f64 {
         match self {
             Self::Not(a) => a.miss(!wanted, value),
@@ -92,7 +92,7 @@ impl Node {
                 (Some(x), Some(y)) if !(wanted && *order == Order::Unequal) => {
                     let scale = [a, b].into_iter().find_map(Operand::number).unwrap_or(0.0).abs();
                     let off = (x - y).abs() / if scale == 0.0 { 1.0 } else { scale };
-                    // Two that are equal miss < by nothing, and yet it does not hold.
+                    // Equal values miss `<` by zero, but the comparison does not hold.
                     (off / (off + 1.0)).max(f64::MIN_POSITIVE)
                 }
                 _ => 1.0,
@@ -120,7 +120,7 @@ impl Operand {
 struct Parser<'a> {
     tokens: &'a [Placed],
     at: usize,
-    /// Column behind the text.
+    /// Column after the end of the text.
     end: usize,
     known: &'a dyn Fn(&str) -> Result<(), String>,
 }

@@ -7,9 +7,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::Value;
 use std::sync::OnceLock;
 
-/// Deepest figure inside a figure.
+/// Greatest nesting of figures.
 const DEEPEST: usize = 3;
-/// Whether the other one of a pair has the place first.
+/// Whether the other road user of a pair passes the place first.
 pub(super) const OTHER_FIRST: &str = "other_first";
 
 /// All names, those of the scene first.
@@ -73,7 +73,7 @@ fn collect(root: &Value, schema: &Value, prefix: &str, deep: usize, names: &mut 
     }
 }
 
-/// A schema behind a reference, or behind "this or null".
+/// The schema to which a reference, or a "this or null", leads.
 fn meant<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
     let choice = schema["anyOf"].as_array().and_then(|all| all.iter().find(|one| one["type"] != "null"));
     let schema = choice.unwrap_or(schema);

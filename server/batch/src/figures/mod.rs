@@ -1,5 +1,5 @@
-//! The figures of a score by name, for conditions and tables: the numbers of the scene's score and how many entries
-//! its lists have, under `actor.` those of the requested road user, and under `pair.` those of this one with another.
+//! The figures of a score by name, for conditions and tables: numbers of the scene's score and counts of its lists,
+//! under `actor.` those of the requested road user, and under `pair.` those of its pair with another one.
 
 mod expression;
 mod known;
@@ -16,14 +16,14 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What the actor's figures begin with.
+/// Prefix of the actor's figures.
 const ACTOR: &str = "actor.";
-/// What the figures of a pair begin with.
+/// Prefix of the figures of a pair.
 const PAIR: &str = "pair.";
-/// The figure that no score has.
+/// The figure that is not in the score.
 const ROAD_USERS: &str = "road_users";
 
-/// A condition on a score, as text and as what it means.
+/// A condition on a score, as text and parsed.
 #[derive(Clone, Debug)]
 pub struct FigureFilter {
     text: String,
@@ -31,22 +31,22 @@ pub struct FigureFilter {
 }
 
 impl FigureFilter {
-    /// Reads one.
+    /// Parses a condition.
     ///
     /// # Errors
-    /// What is wrong and at which column; for an unknown name, the names there are.
+    /// The fault with its column; for an unknown name, a list of all names.
     pub fn parse(text: &str) -> Result<Self, String> {
         let known = |name: &str| if names().iter().any(|n| n == name) { Ok(()) } else { Err(unknown(name)) };
         let expression = Expression::parse(text, &known).map_err(|wrong| wrong.to_string())?;
         Ok(Self { text: text.to_owned(), expression: Arc::new(expression) })
     }
 
-    /// As it was given.
+    /// Its text as given.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The conditions that it joins by `&&`, in their order; itself where it is joined by `||`.
+    /// The conditions that it joins by `&&`, in order; the whole condition if its outermost operator is `||`.
     pub fn parts(&self) -> Vec<Self> {
         let (mut depth, mut from, mut cuts) = (0usize, 0, Vec::new());
         let bytes = self.text.as_bytes();
@@ -68,12 +68,12 @@ impl FigureFilter {
         cuts.into_iter().map(part).collect::<Option<_>>().unwrap_or_else(|| vec![self.clone()])
     }
 
-    /// Whether a score has what it asks.
+    /// Whether a score satisfies it.
     pub fn holds(&self, figures: &Figures) -> bool {
         self.expression.holds(&|name| figures.get(name))
     }
 
-    /// How far a score is from it, 0 where it holds.
+    /// Distance of a score from it; 0 if it holds.
     pub fn miss(&self, figures: &Figures) -> f64 {
         self.expression.miss(&|name| figures.get(name))
     }
@@ -91,7 +91,7 @@ fn unknown(name: &str) -> String {
 pub struct Figures(BTreeMap<String, f64>);
 
 impl Figures {
-    /// Of a score, of one road user in it, and of how this one meets another.
+    /// The figures of a score, of one road user in it, and of its pair with another one.
     pub fn new(score: &Score, actor: Option<&str>, pair: Option<&MeetingPair>) -> Self {
         let mut all = BTreeMap::from([(ROAD_USERS.to_owned(), score.agents.len() as f64)]);
         let mut add = |prefix: &str, value: serde_json::Result<Value>| {
@@ -117,24 +117,24 @@ impl Figures {
         Self(all)
     }
 
-    /// Of a score and the motions that it scores. The figures of a pair are those of the actor with `other`; without
-    /// `other`, those of its hardest pair.
+    /// The figures of a score and of the scored motions. The figures of a pair are those of the actor with `other`;
+    /// without `other`, those of its hardest pair.
     pub fn of(score: &Score, input: &ScoreInput<'_>, actor: Option<&str>, other: Option<&str>) -> Self {
         let pair = actor.and_then(|id| MeetingSearch::new(input).of(id, other));
         Self::new(score, actor, pair.as_ref())
     }
 
-    /// Of a table's row.
+    /// The figures of a row of a table.
     pub fn of_row(figures: BTreeMap<String, f64>) -> Self {
         Self(figures)
     }
 
-    /// All of them, by name.
+    /// All figures by name.
     pub fn all(&self) -> &BTreeMap<String, f64> {
         &self.0
     }
 
-    /// One of them; `None` where the scene does not have it.
+    /// A figure; `None` if the scene lacks it.
     pub fn get(&self, name: &str) -> Option<f64> {
         self.0.get(name).copied()
     }
@@ -144,7 +144,7 @@ fn flatten(prefix: &str, value: &Value, out: &mut BTreeMap<String, f64>) {
     for (name, value) in value.as_object().into_iter().flatten() {
         let name = format!("{prefix}{name}");
         match value {
-            // What the log shows too is listed and not counted.
+            // Events that are in the log too are listed, but not counted.
             Value::Array(list) => {
                 let own = list.iter().filter(|entry| entry["in_log"] != true).count();
                 out.insert(name, own as f64);
@@ -157,7 +157,7 @@ fn flatten(prefix: &str, value: &Value, out: &mut BTreeMap<String, f64>) {
     }
 }
 
-/// The road user that a scene's futures were requested for, if it is a single one.
+/// The road user for which the futures of a scene were requested, if it is a single one.
 pub fn actor_of(scene: &Scene) -> Option<&str> {
     match scene.generated.as_ref()?.request["agents"].as_array()?.as_slice() {
         [Value::String(only)] => Some(only),

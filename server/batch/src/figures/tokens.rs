@@ -1,17 +1,17 @@
-//! The pieces of a condition: names, numbers, comparisons, joints.
+//! Tokens of a condition: names, numbers, comparisons, operators.
 
 use std::fmt;
 
-/// What is compared.
+/// An operand of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Operand {
-    /// Itself.
+    /// A number.
     Number(f64),
-    /// By name.
+    /// A figure by name.
     Figure(String),
 }
 
-/// How two are compared.
+/// A comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names say it")]
 pub enum Order {
@@ -23,12 +23,12 @@ pub enum Order {
     Unequal,
 }
 
-/// What is wrong, and where.
+/// A fault and its column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
-    /// From 1, in characters.
+    /// Column from 1, in characters.
     pub column: usize,
-    /// What was expected and what was found.
+    /// Expected and found text.
     pub what: String,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Display for Wrong {
     }
 }
 
-/// A piece of a condition.
+/// A token of a condition.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the names say it")]
 pub enum Token {
@@ -51,20 +51,20 @@ pub enum Token {
     Operand(Operand),
 }
 
-/// A piece and where it stands.
+/// A token with its column.
 pub struct Placed {
-    /// What.
+    /// The token.
     pub token: Token,
-    /// As it stands there.
+    /// Its text.
     pub text: String,
-    /// From 1, in characters.
+    /// Column from 1, in characters.
     pub column: usize,
 }
 
-/// All of a text.
+/// All tokens of a text.
 ///
 /// # Errors
-/// What has no meaning, with its column.
+/// The first unknown token, with its column.
 pub fn tokens(text: &str) -> Result<Vec<Placed>, Wrong> {
     let chars: Vec<char> = text.chars().collect();
     let (mut tokens, mut at) = (Vec::new(), 0);
@@ -80,7 +80,7 @@ pub fn tokens(text: &str) -> Result<Vec<Placed>, Wrong> {
     Ok(tokens)
 }
 
-/// The first token of what is left, and its length in characters.
+/// The first token of the rest, and its length in characters.
 fn token(rest: &[char]) -> Result<(Token, usize), String> {
     let two: String = rest.iter().take(2).collect();
     let long = match two.as_str() {

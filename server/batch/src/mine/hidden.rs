@@ -18,8 +18,8 @@ const DRIVER: f64 = 0.15;
 /// Lowest speed of the vehicle, m/s.
 const DRIVES_MPS: f64 = 2.0;
 
-/// How long another road user hides a crossing pedestrian from the vehicle, in the seconds before the two are
-/// nearest.
+/// Time for which another road user hides a crossing pedestrian from the vehicle, before the two are nearest,
+/// seconds.
 pub(super) fn hidden_s(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -43,7 +43,7 @@ pub(super) fn hidden_s(
     Some(steps as f64 * STEP_S).filter(|hidden_s| *hidden_s >= LEAST_S - 1e-6)
 }
 
-/// Whether a vehicle stands in the line of sight.
+/// Whether a vehicle is in the line of sight.
 fn hides(by: &Actor<'_>, step: usize, pair: [&Actor<'_>; 2], eye: Vec2, seen: &State) -> bool {
     by.agent_type == AgentType::Vehicle
         && pair.iter().all(|of| of.id != by.id)

@@ -1,5 +1,5 @@
 //! Events in recorded scenes, as tags with time, place, road users and a figure. Collisions, near misses,
-//! braking, red lights and similar events come from the score; the others are defined here.
+//! braking, red-light violations and similar events come from the score; the others are defined here.
 
 mod hidden;
 mod lanes;
@@ -25,7 +25,7 @@ const WRONG_WAY_M: f64 = 4.0;
 /// Tags of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MinedTag {
-    /// Two boxes overlap, as the score counts it.
+    /// Two boxes overlap, by the rules of the score.
     Collision,
     /// A near miss of the score that braking could still avoid.
     NearMiss,
@@ -35,7 +35,7 @@ pub enum MinedTag {
     CutIn,
     /// A vehicle changes lanes.
     LaneChange,
-    /// A vehicle or cyclist turns round.
+    /// A vehicle or cyclist makes a U-turn.
     UTurn,
     /// A pedestrian crosses a vehicle's path from behind another vehicle.
     HiddenWalker,
@@ -45,13 +45,13 @@ pub enum MinedTag {
     HardSteering,
     /// A stop line is crossed at red.
     RedLight,
-    /// Driving against the traffic, as the score counts it.
+    /// Driving against the traffic, by the rules of the score.
     WrongWay,
-    /// A pedestrian on the carriageway, as the score counts it.
+    /// A pedestrian on the carriageway, by the rules of the score.
     OnCarriageway,
     /// A pedestrian runs.
     Running,
-    /// A vehicle is too fast, as the score counts it.
+    /// A vehicle is too fast, by the rules of the score.
     Speeding,
 }
 

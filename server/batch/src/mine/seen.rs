@@ -19,7 +19,7 @@ const LOSES_MPS: f64 = 2.0;
 const CLOSES_MPS: f64 = 1.0;
 /// Shortest distance of a runner in a second, metres.
 const RUNS_M: f64 = 2.0;
-/// Recorded lights lag: whole queues set off this long before their light turns green, seconds.
+/// Delay of recorded signals, seconds: whole queues set off this long before their signal turns green.
 const LIGHT_LAGS_S: f64 = 5.0;
 /// Stretches of one road user with a shorter pause are one event, seconds.
 const SAME_EVENT_S: f64 = 2.0;
@@ -61,7 +61,7 @@ pub(super) fn runs(actor: &Actor<'_>, stretch: &Stretch) -> bool {
     })
 }
 
-/// Whether the recorded light does not turn green soon after.
+/// Whether the recorded signal does not turn green soon after.
 pub(super) fn stays_red(input: &ScoreInput<'_>, red: &RedLight) -> bool {
     let first = step(red.time_s);
     let last = (first + step(LIGHT_LAGS_S)).min(input.steps.end);

@@ -16,7 +16,7 @@ pub const MOST_WAY_M: f64 = 400.0;
 /// Longest id of a road user, in characters.
 const MOST_ID: usize = 30;
 
-/// A situation on any map: what the road must have, and who drives or walks there.
+/// A situation on any map: requirements on the road, and the road users there.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "DragTraffic pattern")]
@@ -25,7 +25,7 @@ pub struct RoadPattern {
     pub name: String,
     /// One sentence.
     pub title: String,
-    /// Where the parameters are from.
+    /// Source of the parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
     /// The road.
@@ -45,16 +45,16 @@ pub struct PatternParameter {
     pub value: f64,
     /// Least and greatest value.
     pub range: (f64, f64),
-    /// What it is.
+    /// Description.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
-/// What the road must have.
+/// Requirements on the road.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoadNeeds {
-    /// What is there.
+    /// Feature at the place.
     pub feature: RoadFeature,
     /// Way of the subject before the place, metres. Most: 400.
     #[serde(default)]
@@ -64,10 +64,11 @@ pub struct RoadNeeds {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 400.0))]
     pub after_m: f64,
-    /// How the way of the subject turns: from 25 m before the place to 5 m after it, on a lane over all of the way.
+    /// Turn of the subject's way: from 25 m before the place to 5 m after it; for the feature `lane` over the
+    /// whole way.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<RoadTurn>,
-    /// From where the other way comes, as the subject sees it.
+    /// Direction from which the other way comes, as seen by the subject.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<OtherSide>,
     /// A lane beside the place.
@@ -84,13 +85,13 @@ pub struct RoadNeeds {
     pub limit_kmh: Option<(f64, f64)>,
 }
 
-/// What is at the place.
+/// Feature at the place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoadFeature {
     /// A lane for motor vehicles outside of junctions.
     Lane,
-    /// A crosswalk over the way of the subject.
+    /// A crosswalk across the way of the subject.
     Crosswalk,
     /// The way of the subject crosses another lane for motor vehicles.
     Crossing,
@@ -100,7 +101,7 @@ pub enum RoadFeature {
     RoundaboutEntry,
 }
 
-/// How a way turns.
+/// Turn of a way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RoadTurn {
@@ -112,7 +113,7 @@ pub enum RoadTurn {
     Right,
 }
 
-/// Where another way comes from.
+/// Direction from which another way comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OtherSide {
@@ -136,14 +137,14 @@ pub enum LaneSide {
     Oncoming,
 }
 
-/// A way of the place, along which road users are put. All ways have the place at 0 m.
+/// A way at the place, along which road users are placed. All ways have the place at 0 m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PatternWay {
-    /// That of the subject.
+    /// The way of the subject.
     #[default]
     Own,
-    /// That of the subject, in the opposite direction.
+    /// The way of the subject, in the opposite direction.
     Against,
     /// The lane that is crossed or joined.
     Other,
@@ -153,9 +154,9 @@ pub enum PatternWay {
     Right,
     /// The lane in the opposite direction.
     Oncoming,
-    /// Across the own way, from the left: along the crosswalk where one is there.
+    /// Across the way of the subject, from the left; along the crosswalk if there is one.
     FromLeft,
-    /// Across the own way, from the right: along the crosswalk where one is there.
+    /// Across the way of the subject, from the right; along the crosswalk if there is one.
     FromRight,
 }
 
@@ -178,16 +179,16 @@ pub struct PatternUser {
     /// Width of its box, metres. Default: that of the type.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_m: Option<PatternNumber>,
-    /// The way that it starts on.
+    /// The way on which it starts.
     #[serde(default)]
     pub way: PatternWay,
     /// Start along the way, metres from the place; negative is before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_m: Option<PatternNumber>,
-    /// Start along the way in seconds from the place at the own speed; negative is before it.
+    /// Start along the way, seconds from the place at its speed; negative is before it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_s: Option<PatternNumber>,
-    /// Start ahead of an earlier road user of the list: its id, with `gap_m`.
+    /// Id of an earlier road user of the list ahead of which this one starts, with `gap_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_of: Option<String>,
     /// Gap along the way between the two boxes, metres, with `ahead_of`.
@@ -202,12 +203,13 @@ pub struct PatternUser {
     /// Exact goal. Default: free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<PatternGoal>,
-    /// Places of the own way that it passes, metres from the place, at any time; 4 at most.
+    /// Via points on its way, metres from the place, at any time; at most 4.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub via_m: Vec<PatternNumber>,
 }
 
-/// The goal of a road user. Its place follows from `at_m`, from `relation`, or from the mean of both speeds over the time.
+/// The goal of a road user. Its position follows from `at_m`, from `relation`, or from the mean of both
+/// speeds over the time.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PatternGoal {
@@ -217,7 +219,7 @@ pub struct PatternGoal {
     /// Seconds after the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<PatternNumber>,
-    /// In place of a time: constant braking from the speed of the start to that of the goal, m/s2.
+    /// Constant braking from the speed of the start to that of the goal, in place of a time, m/s2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub braking_mps2: Option<PatternNumber>,
     /// Metres along the way from the place.
@@ -229,7 +231,7 @@ pub struct PatternGoal {
     /// Speed, km/h. Default: that of the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_kmh: Option<PatternNumber>,
-    /// Place relative to another road user as it moves in the result.
+    /// Position relative to another road user and its motion in the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<PatternRelation>,
 }
@@ -240,16 +242,16 @@ pub struct PatternGoal {
 pub struct PatternRelation {
     /// Its id.
     pub to: String,
-    /// Gap from the front of the other one to the own rear, metres.
+    /// Gap from the front of the other one to the rear of this road user, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<PatternNumber>,
-    /// Gap from the own front to the rear of the other one, metres.
+    /// Gap from the front of this road user to the rear of the other one, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_m: Option<PatternNumber>,
     /// The same gap in seconds at the speed of the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_s: Option<PatternNumber>,
-    /// Lanes to the left of the other one's; negative is to the right.
+    /// Number of lanes to the left of the other one's lane; negative is to the right.
     #[serde(default)]
     pub lanes_left: i32,
 }

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(untagged, expecting = "a number or the name of a parameter is expected")]
 pub enum PatternNumber {
-    /// This one.
+    /// The number itself.
     Value(f64),
-    /// That of a parameter; a minus before the name turns its sign.
+    /// The value of a parameter; a minus before the name changes its sign.
     Parameter(String),
 }
 

@@ -24,7 +24,7 @@ const SIZE_M: [(f64, f64); 2] = [(0.2, 25.0), (0.2, 4.0)];
 /// A place.
 #[derive(Clone, Debug)]
 pub struct PatternPlace {
-    /// Id made of the lane, the arc length, and the lane that it crosses or joins.
+    /// Id from the lane, the arc length, and the lane that it crosses or joins.
     pub id: String,
     /// Lane of the subject.
     pub lane: String,

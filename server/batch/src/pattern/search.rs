@@ -180,7 +180,7 @@ impl<'a> PatternSearch<'a> {
         Some(place)
     }
 
-    /// The first path through a place of a lane that has what the pattern needs.
+    /// The first path through a place of a lane that satisfies the pattern.
     fn own_way(&self, lane: usize, s_m: f64) -> Option<LaneWay> {
         let lanes = self.graph.lanes();
         let along = |before: Option<usize>| self.checked(LaneWay::along(self.graph, lane, s_m, before));
@@ -191,7 +191,7 @@ impl<'a> PatternSearch<'a> {
         along(None).or_else(|| others().find_map(|before| along(Some(before))))
     }
 
-    /// The path, if it has what the pattern needs.
+    /// The path, if it satisfies the pattern.
     fn checked(&self, way: LaneWay) -> Option<LaneWay> {
         let needs = self.needs();
         let (before_m, after_m) = way.room_m();

@@ -23,19 +23,19 @@ pub struct SearchBody {
     pub scene: Option<SceneDoc>,
     /// A scene of this server.
     pub scene_id: Option<String>,
-    /// With `scene_id`: refuse when the scene has changed.
+    /// With `scene_id`: the call is refused if the scene has changed.
     pub etag: Option<String>,
-    /// What is varied: a template with ranges of its figures, or conditions with ranges. A condition for several road
-    /// users is searched for each of them.
+    /// The varied situation: a template with ranges of its figures, or conditions with ranges. A condition for
+    /// several road users is searched for each of them.
     pub situation: BatchSituation,
     /// Condition on the figures of the score, such as `actor.min_ttc_s < 1.5 && collisions == 0`.
     #[serde(rename = "where")]
     #[schemars(required)]
     pub condition: String,
-    /// Tries for each road user and each seed. All of them together are at most 1000.
+    /// Number of tries per road user and seed; at most 1000 in total.
     #[schemars(range(min = 1, max = 1000))]
     pub tries: u64,
-    /// Ends the search when so many tries satisfy the condition. Default: all tries are made.
+    /// Number of tries that satisfy the condition at which the search ends. Default: all tries are made.
     #[schemars(range(min = 1, max = 1000))]
     pub found: Option<u64>,
     /// How the numbers of the next tries are chosen.
@@ -47,7 +47,7 @@ pub struct SearchBody {
     pub seeds: BatchSeeds,
     /// Options of every generation.
     pub generate: BatchOptions,
-    /// The client's id of the job, to cancel it by.
+    /// The client's id of the job, which can cancel it.
     pub job: Option<String>,
 }
 
@@ -85,28 +85,28 @@ impl AboutScene for SearchBody {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct SearchTry {
-    /// Rises by one a try, from 0.
+    /// Number of the try, from 0.
     pub number: u64,
-    /// How it ended.
+    /// Its outcome.
     pub outcome: UnitOutcome,
     /// Drawn numbers by path, such as `goal.speed_mps`.
     pub drawn: BTreeMap<String, f64>,
-    /// How far it is from the condition, 0 where it holds; absent without a result.
+    /// Distance from the condition, 0 if it holds; absent without a result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub miss: Option<f64>,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub code: Option<String>,
     /// Whether the goal of the actor is met: met, missed, none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal: Option<String>,
-    /// What the actor of a template does, in one sentence.
+    /// Behaviour of the actor of a template, in one sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub what: Option<String>,
     /// The road user that the situation affects.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other: Option<String>,
-    /// Code of the problem for which there is no result.
+    /// Code of the problem, if there is no result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub problem: Option<String>,
     /// Figures of the score by name.
@@ -116,7 +116,7 @@ pub struct SearchTry {
     pub request: Option<TryRequest>,
 }
 
-/// A generation that gives the result of a try again.
+/// A generation that reproduces the result of a try.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct TryRequest {
@@ -163,10 +163,10 @@ impl SearchTry {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SearchEnd {
-    /// As many tries satisfy the condition as were wanted.
+    /// The requested number of tries satisfies the condition.
     Found,
     /// All tries are made.
     Tries,
-    /// The time of a call is over; the tries so far are there.
+    /// The time limit of a call is reached; the reply has the tries so far.
     Time,
 }

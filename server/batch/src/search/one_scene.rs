@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Tries between two checks of what was found, for methods that do not learn.
+/// Tries between two checks of the results, for methods that do not adapt.
 const CHUNK: u64 = 20;
 
 /// A checked search.

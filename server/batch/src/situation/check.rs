@@ -177,7 +177,7 @@ impl BatchSituation {
     }
 }
 
-/// What is said about a name that is none of the known ones.
+/// The message about an unknown name.
 fn unknown(name: &str, known: &[&str]) -> String {
     format!("\"{name}\" is unknown{}; there are {}", hint(name, known.iter().copied()), known.join(", "))
 }

@@ -1,4 +1,4 @@
-//! A situation as plans and searches write it, and what it asks of a road user.
+//! A situation of a plan or a search, and its conditions on road users.
 
 use super::ranges::{GoalRanges, GoalRelationRanges, OtherKinds, StartRanges, is_default};
 use crate::distribution::Distribution;
@@ -30,15 +30,15 @@ pub struct BatchSituation {
     #[schemars(schema_with = "templates")]
     pub template: Option<String>,
     /// Pattern of the road that the maps of the scenes are searched for: a name of `dragtraffic match --list`, a file, or
-    /// the pattern itself. Its road users are put at each place where it fits; those of the scene are left out.
+    /// the pattern itself. Its road users are placed where it fits, and those of the scene are removed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<PatternChoice>,
-    /// Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
-    /// have their standard values.
+    /// By name: figures of the template, of which absent ones are drawn by the seed; or parameters of the pattern, of
+    /// which absent ones have their standard values.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Distribution>,
     /// Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
-    /// Each is generated in units of its own.
+    /// Each is generated in separate units.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub agents: Vec<String>,
     /// Goal.
@@ -53,14 +53,14 @@ pub struct BatchSituation {
     /// Width of the road user, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_m: Option<Distribution>,
-    /// Type that the road user has in place of its own.
+    /// Type of the road user, in place of its own.
     #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
     pub agent_type: Option<AgentType>,
-    /// What the road users beside it are.
+    /// Types and sizes of the other road users.
     #[serde(skip_serializing_if = "is_default")]
     pub others: OtherKinds,
-    /// Id of the road user that the figures under `pair.` are about. Default: the one that a template or a pattern
-    /// affects, else the one with whom it comes nearest to a collision.
+    /// Id of the other road user of the figures under `pair.`. Default: the one that a template or a pattern
+    /// affects, else the one with which a collision comes nearest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub with: Option<String>,
 }
@@ -152,8 +152,8 @@ impl BatchSituation {
         (!is_plain || !agents.is_empty()).then_some(fixed)
     }
 
-    /// The conditions of a road user, `own` with the drawn numbers in place of its own; `None` where its recording lacks
-    /// what they begin at.
+    /// The conditions of a road user: `own` with the drawn numbers in place of its values; `None` if its recording lacks
+    /// the state to which they are relative.
     pub fn applied(
         &self,
         own: ConditionsDoc,

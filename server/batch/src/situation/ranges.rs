@@ -1,4 +1,4 @@
-//! Ranges of what a situation varies: goal, start, and the road users beside.
+//! Ranges of the varied numbers of a situation: goal, start, and the other road users.
 
 use crate::distribution::Distribution;
 use crate::recorded::{MOST_SHIFT_S, MOST_TIMES};
@@ -8,14 +8,14 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-/// Kind and size of the road users that are there beside the one with the conditions.
+/// Type and size of the road users other than the one with the conditions.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OtherKinds {
-    /// Who: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
+    /// Road users: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub agents: Vec<String>,
-    /// Type in place of their own.
+    /// Type, in place of their own.
     #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
     pub agent_type: Option<AgentType>,
     /// Length of each, metres.
@@ -26,12 +26,12 @@ pub struct OtherKinds {
     pub width_m: Option<Distribution>,
 }
 
-/// Fields of a goal; those absent are free.
+/// Fields of a goal; absent ones are free.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalRanges {
-    /// The goal is where the recording has the road user at `time_s`, with its heading and speed there; `ahead_m`,
-    /// `left_m` and `turn_rad` are from there, in place of the start. Default: false.
+    /// The goal is the recorded state of the road user at `time_s`; `ahead_m`, `left_m` and `turn_rad` are
+    /// relative to it instead of the start. Default: false.
     #[serde(skip_serializing_if = "is_default")]
     pub recorded: bool,
     /// Box centre in the frame of the scene, metres; with `y_m`.
@@ -64,7 +64,7 @@ pub struct GoalRanges {
     /// With `recorded`: seconds after the recorded time; negative is earlier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub later_s: Option<Distribution>,
-    /// What the goal is relative to.
+    /// Road user that the goal is relative to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relation: Option<GoalRelationRanges>,
 }
@@ -75,27 +75,28 @@ pub struct GoalRanges {
 pub struct GoalRelationRanges {
     /// Id of the other road user.
     pub to: String,
-    /// Gap from the front of the other one to the own rear, metres.
+    /// Gap from the front of the other one to the rear of this road user, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ahead_m: Option<Distribution>,
-    /// Gap from the own front to the rear of the other one, metres.
+    /// Gap from the front of this road user to the rear of the other one, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_m: Option<Distribution>,
     /// The same gap in seconds at the speed of the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub behind_s: Option<Distribution>,
-    /// The goal's own place is reached so many seconds after the other one was nearest to it.
+    /// Seconds from the moment when the other one is nearest to the goal's position until the goal is
+    /// reached.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_s: Option<Distribution>,
-    /// How much slower than the other one, m/s; negative is faster.
+    /// Speed difference to the other one, m/s: positive is slower, negative is faster.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slower_mps: Option<Distribution>,
-    /// Lanes to the left of the other one's, in whole numbers; negative is to the right.
+    /// Number of lanes to the left of the other one's lane, a whole number; negative is to the right.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lanes_left: Option<Distribution>,
 }
 
-/// Fields of a start; those absent are the scene's: of the conditions there, else of the recording.
+/// Fields of a start; absent ones are those of the scene: from its conditions, else from the recording.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartRanges {
@@ -114,7 +115,7 @@ pub struct StartRanges {
     /// Metres to the left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_m: Option<Distribution>,
-    /// Radians from the heading there.
+    /// Radians from the heading of that start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn_rad: Option<Distribution>,
     /// Metres per second.

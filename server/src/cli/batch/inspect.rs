@@ -34,7 +34,7 @@ pub struct VerifyArgs {
     /// Folder of the results, or its URL in an object store.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Number of units to make again.
+    /// Number of units to regenerate.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(1, 1_000_000))]
     units: u64,
     /// Seed of the choice of units.

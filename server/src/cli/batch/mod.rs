@@ -59,7 +59,7 @@ enum BatchCommand {
     /// Count the units that are done, by outcome.
     #[command(after_help = examples!("dragtraffic batch status out/", "dragtraffic batch status out/ --json"))]
     Status(inspect::StatusArgs),
-    /// Make some units again and compare them with the results, byte by byte.
+    /// Regenerate some units and compare them with the results, byte by byte.
     #[command(after_help = examples!("dragtraffic batch verify out/", "dragtraffic batch verify out/ --units 200 --seed 7"))]
     Verify(inspect::VerifyArgs),
     /// Write manifest.json, cases.jsonl and cases.parquet from the existing chunks.

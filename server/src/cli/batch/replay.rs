@@ -29,7 +29,7 @@ pub struct ReplayArgs {
     /// Results, each by its code or by its unit: the id, or the first 8 digits or more.
     #[arg(value_name = "UNIT", required_unless_present = "kept")]
     units: Vec<String>,
-    /// Make all kept results again.
+    /// Regenerate all kept results.
     #[arg(long, conflicts_with = "units")]
     kept: bool,
     /// File of the scene, or for several the folder of CODE.json. Default: stdout.

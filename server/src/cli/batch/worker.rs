@@ -44,7 +44,7 @@ pub struct CaseLines {
 pub struct RemadeResult {
     /// The scene with its futures.
     pub scene: Scene,
-    /// Names the result, in six characters.
+    /// Result code, six characters.
     pub code: String,
 }
 

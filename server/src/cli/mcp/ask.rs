@@ -44,7 +44,7 @@ const MOST_TRACED: usize = 4;
 struct SceneCall {
     /// Name of the open scene.
     scene: String,
-    /// Answer with a picture.
+    /// Include a picture in the answer.
     #[serde(default = "yes")]
     picture: bool,
 }

@@ -23,7 +23,7 @@ pub struct Look {
     pub near: Option<(Vec2, f64)>,
     /// Most entries per list.
     pub most: usize,
-    /// Whether it includes lanes, lights and crosswalks.
+    /// Whether it includes lanes, signals and crosswalks.
     pub with_map: bool,
 }
 

@@ -33,7 +33,7 @@ struct Circle {
     radius_m: f64,
 }
 
-/// What is described.
+/// Arguments of `describe_scene`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct DescribeCall {
@@ -42,20 +42,20 @@ struct DescribeCall {
     /// Scene time, seconds.
     #[serde(default)]
     time_s: f64,
-    /// Only what lies in this circle.
+    /// Circle to which the description is limited.
     #[serde(default)]
     near: Option<Circle>,
-    /// Only what lies within 50 m of this road user.
+    /// Limits the description to 50 m around this road user.
     #[serde(default)]
     road_user: Option<String>,
-    /// Lanes, lights and crosswalks too.
+    /// Include lanes, signals and crosswalks.
     #[serde(default = "yes")]
     map: bool,
-    /// Entries of each list.
+    /// Maximum number of entries per list.
     #[serde(default = "forty")]
     #[schemars(range(min = 1, max = 400))]
     most: u16,
-    /// Answer with a picture.
+    /// Include a picture in the answer.
     #[serde(default)]
     picture: bool,
 }
@@ -88,7 +88,7 @@ pub fn describe(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolA
     Ok(ToolAnswer::with_picture(text, &scene, step, call.picture))
 }
 
-/// What is drawn.
+/// Arguments of `picture`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PictureCall {
@@ -97,13 +97,13 @@ struct PictureCall {
     /// Scene time, seconds.
     #[serde(default)]
     time_s: f64,
-    /// Middle of the picture, metres; with `y_m` or not at all.
+    /// Centre of the picture, metres; with `y_m` or not at all.
     #[serde(default)]
     x_m: Option<f64>,
-    /// Middle of the picture, metres; with `x_m` or not at all.
+    /// Centre of the picture, metres; with `x_m` or not at all.
     #[serde(default)]
     y_m: Option<f64>,
-    /// Road user in the middle of the picture.
+    /// Road user at the centre of the picture.
     #[serde(default)]
     road_user: Option<String>,
     /// Side of the square that is shown, metres: 10 to 2000.
@@ -177,7 +177,7 @@ pub fn unknown_road_user(id: &str) -> Problem {
     Problem::of(Code::UnknownAgent, message).at("/road_user")
 }
 
-/// Which motion is written.
+/// Arguments of `export_scene`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ExportCall {
@@ -185,17 +185,17 @@ struct ExportCall {
     scene: String,
     /// Id of the format, such as `dragtraffic`, `openscenario`, `csv` or `html`.
     format: String,
-    /// Number of the joint scene, from 0; the chosen one when left out.
+    /// Number of the joint scene, from 0. Default: the chosen one.
     #[serde(default)]
     sample: Option<usize>,
-    /// `chosen`: chosen futures and the recording of all others; `log`: the recording alone.
+    /// `chosen`: chosen futures, and the recording of all other road users; `log`: only the recording.
     #[serde(default)]
     #[schemars(with = "Option<String>")]
     motion: MotionChoice,
     /// Path of the file in an allowed folder; without one, the answer has the file as text, up to 64 KiB.
     #[serde(default)]
     file: Option<String>,
-    /// Replace a file that exists.
+    /// Replace an existing file.
     #[serde(default)]
     overwrite: bool,
 }

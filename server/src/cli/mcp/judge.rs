@@ -16,13 +16,13 @@ const OF_SCORE: [&str; 2] = ["pairs", "thresholds"];
 /// Entries per list of the score in the answer.
 const MOST_ENTRIES: usize = 12;
 
-/// What a score has beside the request.
+/// Arguments of `score_scene` besides those of the request.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ScoreCall {
     /// Name of the open scene.
     scene: String,
-    /// Id of a road user whose own figures are told too.
+    /// Id of a road user whose figures are added to the answer.
     #[serde(default)]
     road_user: Option<String>,
 }

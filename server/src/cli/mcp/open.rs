@@ -51,7 +51,7 @@ pub fn list(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolAnswe
     Ok(ToolAnswer::words(text))
 }
 
-/// What is opened.
+/// Arguments of `open_scene`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct OpenCall {
@@ -61,16 +61,16 @@ struct OpenCall {
     /// Path of a file in an allowed folder; this or `example`.
     #[serde(default)]
     file: Option<String>,
-    /// Format of the file; found from its content when left out.
+    /// Format of the file. Default: recognised from the content.
     #[serde(default)]
     format: Option<String>,
-    /// Position of the scene in a file of several, from 0.
+    /// Index of the scene in a file of several, from 0.
     #[serde(default)]
     index: u32,
-    /// Name for the open scene; that of the example or file when left out.
+    /// Name for the open scene. Default: that of the example or file.
     #[serde(default)]
     name: Option<String>,
-    /// Answer with a picture.
+    /// Include a picture in the answer.
     #[serde(default = "yes")]
     picture: bool,
 }
@@ -138,11 +138,11 @@ fn opened(tools: &Toolbox, name: &str, notes: &str, picture: bool) -> Result<Too
     Ok(ToolAnswer::with_picture(format!("Open as \"{name}\".{notes}\n{words}"), &scene, step, picture))
 }
 
-/// What `draw_map` has beside the request.
+/// Arguments of `draw_map` besides those of the request.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapCall {
-    /// Answer with a picture.
+    /// Include a picture in the answer.
     #[serde(default = "yes")]
     picture: bool,
 }
@@ -162,7 +162,7 @@ pub fn draw_map(tools: &Toolbox, arguments: Members, _: &Cancel) -> Result<ToolA
     opened(tools, &name, "", call.picture)
 }
 
-/// Which scene is closed.
+/// Arguments of `close_scene`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CloseCall {

@@ -25,7 +25,7 @@ const SHARE_OF_TIME: f64 = 0.8;
 /// Number of results in the answer.
 const MOST_TOLD: usize = 10;
 
-/// What a search has beside the request of each seed.
+/// Arguments of a search besides those of the request for each seed.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SearchCall {
@@ -34,19 +34,19 @@ struct SearchCall {
     /// Condition on the figures of the score, such as `min_ttc_s < 1.5 && collisions == 0`. Figures of the requested
     /// road user begin with `actor.`; score_scene lists the names.
     r#where: String,
-    /// Situation that is cast anew for each seed: `brake`, `cut-in` or `late`. Without one, the request is the same for
-    /// all seeds.
+    /// Test situation that is drawn again for each seed: `brake`, `cut-in` or `late`. Without one, the request is the
+    /// same for all seeds.
     #[serde(default)]
     template: Option<String>,
     /// Seeds to try, from `seed` on.
     #[serde(default = "twenty")]
     #[schemars(range(min = 1, max = 200))]
     seeds: u64,
-    /// Results that hold the condition, after which the search ends.
+    /// Number of results that satisfy the condition after which the search ends.
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 200))]
     found: u64,
-    /// Answer with a picture of the best result.
+    /// Include a picture of the best result in the answer.
     #[serde(default = "yes")]
     picture: bool,
 }

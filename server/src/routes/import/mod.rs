@@ -29,15 +29,15 @@ use work::{JobKind, JobRequest};
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub struct ImportParams {
-    /// A name of the formats table; recognised from the content when absent or `auto`.
+    /// Id of the format; recognised from the content if absent or `auto`.
     format: Option<String>,
     /// Records to take, such as `0..9` (both ends), or one number.
     #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
     index: Option<String>,
-    /// The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
-    /// coordinates of the file (longitude, latitude where it has degrees).
+    /// Part of a map to read: `X,Y,RADIUS` keeps the content within RADIUS metres (10 to 5000) of a position in the
+    /// coordinates of the file (longitude, latitude if it has degrees).
     around: Option<String>,
-    /// Give the scenes back and store nothing.
+    /// Return the scenes and store nothing.
     dry_run: bool,
     /// Name of the file, a label only.
     name: Option<String>,

@@ -11,26 +11,26 @@ use serde::Serialize;
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct ImportedScene {
-    /// Id it was stored under; not in a dry run.
+    /// Id under which it is stored; not in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<String>,
     /// As in the ETag header; not in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) etag: Option<String>,
-    /// For people.
+    /// Display name.
     pub(super) name: String,
     /// Changes and omissions of the reader.
     pub(super) warnings: Vec<formats::ImportWarning>,
     /// Road users by type.
     pub(super) counts: Counts,
-    /// Steps of 0.1 s.
+    /// Number of steps of 0.1 s.
     pub(super) steps: usize,
     /// The scene itself, only in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) scene: Option<SceneDoc>,
 }
 
-/// A record of a file that is no scene.
+/// A record of a file that is not a scene.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct SkippedRecord {
     /// Position in the file, from 0.
@@ -39,45 +39,45 @@ pub struct SkippedRecord {
     pub(super) problem: ProblemDoc,
 }
 
-/// Result of a file.
+/// Result of importing a file.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportReply {
-    /// A name of the formats table.
+    /// Id of the format.
     pub(super) format: &'static str,
     /// Scenes in the order of the file.
     pub(super) scenes: Vec<ImportedScene>,
-    /// Records that are no scenes.
+    /// Records that are not scenes.
     pub(super) skipped: Vec<SkippedRecord>,
 }
 
-/// One of several files: what it gave, or why it gave nothing.
+/// One of several files, with its result or its problem.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(transform = formats::never_null)]
 pub struct ImportedFile {
-    /// Name of the file, as the form gave it.
+    /// Name of the file in the form.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
     #[serde(flatten)]
     pub(super) read: Option<ImportReply>,
-    /// Why nothing of it was taken.
+    /// Problem for which nothing was imported.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) problem: Option<ProblemDoc>,
 }
 
-/// Results of several files.
+/// Results of importing several files.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ImportedFiles {
-    /// In the order of the form.
+    /// Results in the order of the form.
     pub(super) files: Vec<ImportedFile>,
 }
 
-/// Result of a file, or of each of several.
+/// Result of importing a file, or of each of several.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ImportedBody {
-    /// The only file.
+    /// Result of a single file.
     One(ImportReply),
-    /// Files of a form that has several.
+    /// Results of a form with several files.
     Several(ImportedFiles),
 }
 

@@ -20,7 +20,7 @@ use std::sync::Arc;
 #[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DuplicateRequest {
-    /// The original's with "copy" after it when absent.
+    /// Name of the copy. Default: the original's, with "copy" after it.
     name: Option<String>,
 }
 

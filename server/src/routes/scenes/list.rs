@@ -14,10 +14,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub struct ListParams {
-    /// Most scenes of a page, 1 to 200.
+    /// Maximum number of scenes per page, 1 to 200.
     #[param(default = 50, minimum = 1, maximum = 200)]
     limit: usize,
-    /// `next` of the page before.
+    /// `next` of the previous page.
     after: Option<String>,
     /// Text in the name, case ignored.
     q: Option<String>,
@@ -25,7 +25,7 @@ pub struct ListParams {
     tag: Option<String>,
     /// Scene that the listed ones are variants of.
     parent: Option<String>,
-    /// `updated` or `name`, with `-` before it for falling order.
+    /// `updated` or `name`, with `-` before it for descending order.
     #[param(default = "-updated", pattern = "^-?(updated|name)$")]
     sort: String,
 }

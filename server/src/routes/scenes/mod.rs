@@ -13,7 +13,7 @@ use serde::Serialize;
 /// Result of a change.
 #[derive(Debug, Serialize, schemars::JsonSchema)]
 pub struct Saved {
-    /// Of the scene.
+    /// Id of the scene.
     id: String,
     /// As in the ETag header.
     etag: String,

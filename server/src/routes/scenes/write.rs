@@ -43,7 +43,7 @@ refusals!(Unreplaced: CHANGES BODY SCENE STORE WORK,
     responses((status = 200, description = "replaced", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))),
-        (status = 201, description = "made", body = ref("#/components/schemas/Saved"),
+        (status = 201, description = "created", body = ref("#/components/schemas/Saved"),
             headers(("ETag" = String, description = "version of the scene"),
                 ("Location" = String, description = "address of the scene"))), Unreplaced))]
 pub async fn replace(
@@ -95,7 +95,7 @@ pub struct ScenePatch {
     /// New notes; null empties them.
     #[serde(deserialize_with = "present")]
     notes: Option<Option<String>>,
-    /// What others may do with the scene, where scenes have owners; only its owner says so.
+    /// Rights of other users on the scene, where scenes have owners; only its owner sets them.
     shared: Option<SceneShare>,
 }
 

@@ -6,16 +6,16 @@ use rusqlite::Transaction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What others than its owner may do with a scene.
+/// Rights of other users than the owner on a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SceneShare {
-    /// Nothing: it is not found.
+    /// No rights: the scene is not found.
     #[default]
     Nobody,
-    /// See, generate in and copy it.
+    /// Read it, generate in it and copy it.
     Read,
-    /// And change it; only its owner deletes it.
+    /// Also change it; only its owner deletes it.
     Edit,
 }
 

@@ -20,7 +20,7 @@ const LEVEL: i32 = 3;
 pub struct MapRecord {
     /// Content hash.
     pub sha: String,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     pub polylines: usize,
     /// Number of their points.
     pub points: usize,
@@ -35,7 +35,7 @@ pub struct SceneRecord {
     pub name: String,
     /// Tags for searches.
     pub tags: Vec<String>,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
     /// Facts for lists, as JSON.
     pub meta: String,
@@ -96,9 +96,9 @@ struct PackedMap {
 pub struct StoredMap {
     /// Content hash, 64 hex digits.
     pub sha256: String,
-    /// Size of its JSON.
+    /// Size of its JSON, bytes.
     pub bytes: u64,
-    /// Lines and areas.
+    /// Number of its lines and areas.
     pub polylines: u64,
     /// Number of their points.
     pub points: u64,
@@ -113,7 +113,7 @@ pub struct Written {
     pub created: bool,
 }
 
-/// A scene as lists show it.
+/// A scene in a list.
 #[derive(Clone, Debug)]
 pub struct SceneSummary {
     /// Id.
@@ -124,7 +124,7 @@ pub struct SceneSummary {
     pub etag: String,
     /// JSON array.
     pub tags: String,
-    /// Scene it is a variant of.
+    /// Scene of which it is a variant.
     pub parent_id: Option<String>,
     /// Content hash.
     pub map_sha: String,

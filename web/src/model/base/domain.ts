@@ -9,7 +9,7 @@ export interface Typed {
   readonly subtype: string | null;
 }
 
-/** Accelerations of a manner of moving. */
+/** Acceleration limits of a driving style. */
 interface Manner {
   readonly accel_mps2: number;
   readonly brake_mps2: number;

@@ -37,7 +37,7 @@ export interface Feedback {
   readonly answers: readonly CardVerdict[];
   /** Stated explicitly. */
   readonly wishes: readonly Wish[];
-  /** Traits to ignore, whatever the verdicts show. */
+  /** Traits to ignore, whatever the verdicts are. */
   readonly forgotten: readonly Trait[];
   readonly asked: RoundInputs | null;
 }

@@ -52,10 +52,10 @@ pub(super) struct Entity {
 }
 
 impl Entity {
-    /// The road user of a `<Vehicle>`, `<Pedestrian>` or `<MiscObject>`.
+    /// The road user of a `<Vehicle>`, `<Pedestrian>` or `<MiscObject>` element.
     ///
     /// # Errors
-    /// `invalid-field` for what is no number.
+    /// `invalid-field` for a value that is not a number.
     pub fn of(name: &str, node: &XmlNode) -> Result<Option<Self>, ReadError> {
         let category = |attribute_name| attribute(node, attribute_name).to_ascii_lowercase();
         let (agent_type, subtype) = match node.name() {

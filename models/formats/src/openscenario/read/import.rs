@@ -106,7 +106,7 @@ struct OpenScenarioReader<'a> {
     scope: Scope,
     story: Scope,
     places: ScenarioPlaces,
-    /// Controllers of lights, and the place of their list.
+    /// Signal controllers, and the place of their list.
     controllers: LightControllers,
     controllers_at: String,
     entities: Vec<Entity>,
@@ -291,7 +291,7 @@ impl<'a> OpenScenarioReader<'a> {
         };
         let (MapRead { map, origin, warnings, .. }, roads) = read?;
         self.said.map = map;
-        // Default light timings would contradict the motion: those of the scenario apply.
+        // Default signal timings would contradict the motion: those of the scenario apply.
         self.said.warnings.extend(warnings.into_iter().filter(|warning| warning.code != "signals-made"));
         self.frame = Some(Frame::of(&origin));
         self.said.origin = Some(origin);

@@ -1,4 +1,4 @@
-//! Lights of a scenario: controllers whose phases repeat in a cycle.
+//! Traffic signals of a scenario: controllers whose phases repeat in a cycle.
 
 use super::parameters::{attribute, number};
 use super::unread::Unread;
@@ -10,14 +10,14 @@ use crate::tree::XmlNode;
 use scene::{STEP_S, SignalState};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Greatest time over which lights are computed, seconds.
+/// Greatest time over which signals are computed, seconds.
 const LONGEST_S: f64 = 3600.0;
 /// Most references that are followed from one controller.
 const MOST_REFERENCES: usize = 100;
-/// Most changes of all lights.
+/// Most state changes of all signals.
 const MAX_CHANGES: usize = 1_000_000;
 
-/// State of each light in a phase, by the id of the light.
+/// State of each signal in a phase, by the id of the signal.
 #[derive(Debug)]
 struct LightPhase {
     /// End of the phase after the beginning of the cycle, seconds.
@@ -35,7 +35,7 @@ struct LightController {
     phases: Vec<LightPhase>,
 }
 
-/// Controllers of a scenario.
+/// Signal controllers of a scenario.
 #[derive(Debug, Default)]
 pub(super) struct LightControllers {
     list: Vec<LightController>,
@@ -45,7 +45,7 @@ impl LightControllers {
     /// Adds the controllers of `<TrafficSignals>`.
     ///
     /// # Errors
-    /// `invalid-field` for what is no number.
+    /// `invalid-field` for a value that is not a number.
     pub fn read(&mut self, signals: &XmlNode) -> Result<(), ReadError> {
         for node in signals.all("TrafficSignalController") {
             let mut phases = Vec::new();
@@ -73,8 +73,8 @@ impl LightControllers {
         Ok(())
     }
 
-    /// Lights of lanes over a time from zero, seconds, and the number of those beyond the limit of a scene.
-    /// Controllers without a light on the roads are listed at their place.
+    /// Signals of lanes over a time from zero, seconds, and the number of those beyond the limit of a scene.
+    /// Controllers without a signal on the roads are listed by their place.
     pub fn lights(
         &self,
         heads: &[RoadLight],
@@ -95,7 +95,7 @@ impl LightControllers {
                 unread.push(&format!("{place}/TrafficSignalController[{}]", controller.name));
             }
         }
-        // A lane obeys the first light that has a program.
+        // A lane obeys the first signal with a program.
         let mut lanes = HashSet::new();
         let ruled = heads.iter().filter_map(|head| Some((head, *rules.get(head.id.as_str())?)));
         let ruled: Vec<_> = ruled.filter(|(head, _)| lanes.insert(head.lane.as_str())).collect();
@@ -113,7 +113,7 @@ impl LightControllers {
 }
 
 impl LightController {
-    /// Beginning of its cycle, seconds: delays add up along the references, which may form a circle.
+    /// Start of its cycle, seconds: the sum of the delays along the references, which may be cyclic.
     fn begins_s(&self, by_name: &HashMap<&str, &Self>) -> f64 {
         let (mut begins_s, mut at) = (0.0, self);
         for _ in 0..MOST_REFERENCES {
@@ -127,13 +127,13 @@ impl LightController {
         begins_s
     }
 
-    /// Changes of a light's state over a time from zero.
+    /// Changes of a signal's state over a time from zero.
     fn states(&self, id: &str, begins_s: f64, span_s: f64, most: usize) -> Vec<(f64, SignalState)> {
         let cycle_s = self.phases.last().map_or(0.0, |phase| phase.end_s);
         let mut states: Vec<(f64, SignalState)> = Vec::new();
         for step in 0..=(span_s.min(LONGEST_S) / STEP_S) as usize {
             let time_s = step as f64 * STEP_S;
-            // In the middle of a step, so that no rounding of sums decides.
+            // In the middle of a step, so that rounding of sums has no effect.
             let since_s = time_s + 0.5 * STEP_S - begins_s;
             let in_cycle_s = if cycle_s > 0.0 { since_s.rem_euclid(cycle_s) } else { 0.0 };
             let index = self.phases.partition_point(|phase| phase.end_s <= in_cycle_s);
@@ -147,14 +147,14 @@ impl LightController {
     }
 }
 
-/// A state as the words of lamps from top to bottom, such as `off;off;on`, or as one word.
+/// A state from the words of its lamps from top to bottom, such as `off;off;on`, or from one word.
 fn state_of(words: &str) -> Option<SignalState> {
     let words = words.trim().to_ascii_lowercase();
     let lamps: Vec<&str> = words.split(';').map(str::trim).collect();
     let is = |lamp: usize, word: &str| lamps.get(lamp).is_some_and(|lamp| lamp.starts_with(word));
     let lit = |lamp: usize| is(lamp, "on") || is(lamp, "blink") || is(lamp, "flash");
     if lamps.len() > 1 {
-        // A light with two lamps has no amber.
+        // A signal with two lamps has no amber.
         let green = lamps.len().min(3) - 1;
         let amber = |lit: bool| lit && green > 1;
         return Some(match () {

@@ -37,19 +37,19 @@ pub(super) enum Move {
     Leaves(f64),
 }
 
-/// When a trigger fires.
+/// Time at which a trigger fires.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum When {
     /// At this time of the simulation, seconds.
     At(f64),
-    /// It depends on the traffic.
+    /// A time that depends on the traffic.
     Unknown,
 }
 
 /// The time of a `<StartTrigger>` or `<StopTrigger>` that depends only on the clock.
 ///
 /// # Errors
-/// `invalid-field` for what is no number.
+/// `invalid-field` for a value that is not a number.
 pub(super) fn when(trigger: &XmlNode) -> Result<When, ReadError> {
     let mut first: Option<f64> = None;
     for group in trigger.all("ConditionGroup") {

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pose {
     pub at: Vec2,
-    /// Unknown if the file has none and nothing implies it.
+    /// Heading, radians; `None` if the file neither states nor implies it.
     pub heading_rad: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ impl ScenarioPlaces {
     /// The pose of a `<Position>`; nothing for one that cannot be resolved.
     ///
     /// # Errors
-    /// `invalid-field` for what is no number.
+    /// `invalid-field` for a value that is not a number.
     pub fn of(&self, position: &XmlNode) -> Result<Option<Pose>, ReadError> {
         let Some(node) = position.children.first() else { return Ok(None) };
         let value = |name| Ok::<f64, ReadError>(number(node, name)?.unwrap_or(0.0));

@@ -46,7 +46,7 @@ struct Connection {
     from: String,
     to: String,
     via: Option<String>,
-    /// Past a stop sign.
+    /// Whether it passes a stop sign.
     stops: bool,
     signal: Option<(String, usize)>,
 }
@@ -371,7 +371,7 @@ fn program(element: &Element) -> Result<SignalProgram, SumoError> {
         id: owned(element, "id")?,
         kind: element.get("type").unwrap_or("static").to_owned(),
         offset_s: match element.get("offset") {
-            // The word means the beginning of the simulation.
+            // `begin` means the start of the simulation.
             None | Some("begin") => 0.0,
             Some(_) => number(element, "offset")?,
         },

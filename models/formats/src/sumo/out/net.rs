@@ -1,4 +1,4 @@
-//! Writes a network for SUMO (`net.xml`): lanes at their positions, with links, rules and lights.
+//! Writes a network for SUMO (`net.xml`): lanes at their positions, with links, right of way and signals.
 
 use super::network::{Edge, ExportedNetwork, Junction, LaneRole, Link, is_motorway};
 use super::yields::{LinkPriority, letters};
@@ -42,7 +42,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     Ok(Exported { bytes, losses })
 }
 
-/// The file, with lights over this many steps; nothing for a map without lanes.
+/// The file, with signals over this many steps; nothing for a map without lanes.
 pub(super) fn document(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
@@ -167,10 +167,10 @@ fn letter(state: SignalState) -> char {
     }
 }
 
-/// Length of the phase in which lights turn green that are never green during the motion, seconds.
+/// Length of an added phase in which those signals are green that are never green during the motion, seconds.
 const MADE_PHASE_S: f64 = 10.0;
 
-/// Lights of a junction that are never green in these steps.
+/// For each signal of a junction, whether it is never green in these steps.
 fn never_green(scene: &Scene, junction: &Junction, steps: usize) -> Vec<bool> {
     let stops = |light: &usize| {
         let signal = &scene.signals[*light];
@@ -198,7 +198,7 @@ fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
         let duration = decimal((end - begin) as f64 * STEP_S);
         out.empty("phase", &[("duration", &duration), ("state", &shown)]);
     }
-    // A vehicle at a light that the record never shows green would wait for ever.
+    // A vehicle at a signal that is never green in the recording would wait forever.
     let never = never_green(scene, junction, steps);
     if never.contains(&true) {
         let shown: String = never.iter().map(|never| if *never { 'g' } else { 'r' }).collect();
@@ -240,7 +240,7 @@ fn write_junction(network: &ExportedNetwork<'_>, junction: &Junction, out: &mut 
     out.close();
 }
 
-/// Joints between the parts of a link, at which SUMO makes traffic wait within a junction.
+/// Internal junctions between the parts of a link, at which SUMO lets traffic wait.
 fn waiting(network: &ExportedNetwork<'_>, link: &Link, out: &mut Markup) {
     for pair in link.via.windows(2) {
         let [(_, before), (lane, id)] = pair else { continue };
@@ -356,13 +356,13 @@ pub(super) fn losses(scene: &Scene, network: &ExportedNetwork<'_>) -> Vec<Loss> 
     losses
 }
 
-/// A way through a junction is a motorway where the lane before it is none, or the other way round.
+/// Whether a path through a junction and the lane before it differ in being a motorway.
 fn is_mixed(map: &LaneMap, link: &Link) -> bool {
     let lane = |lane: usize| map.lanes.get(lane).is_some_and(is_motorway);
     link.via.iter().any(|(way, _)| lane(*way) != lane(link.from))
 }
 
-/// Largest deviation of a line after resampling at the distances in which lanes are read.
+/// Greatest deviation of a line after resampling at the spacings with which lanes are read, metres.
 fn cut_off_m(line: &[Vec2]) -> f64 {
     let again =
         [SPACING_M.0, SPACING_M.1].map(|step_m| resample(line, step_m.max(length(line) / MAX_PIECES)));

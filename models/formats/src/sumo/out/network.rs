@@ -1,4 +1,5 @@
-//! A lane map as SUMO thinks of one: edges of lanes side by side between junctions, and links through these.
+//! A lane map in the structure of SUMO: edges with parallel lanes between junctions, and links through the
+//! junctions.
 
 use super::yields::{LinkPriority, rules};
 use crate::frame::Frame;
@@ -11,11 +12,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Shortest lane that is written, metres.
 const SHORTEST_M: f64 = 0.01;
-/// Lanes of one edge begin and end beside each other, to within this along them, metres.
+/// Greatest offset along the lanes between the ends of lanes of one edge, metres.
 const ALIGNED_M: f64 = 3.0;
-/// Lanes of one edge lie this far apart at most, beyond half their widths, metres.
+/// Greatest difference between the lateral distance of adjacent lanes of one edge and half the sum of their
+/// widths, metres.
 const APART_M: f64 = 1.5;
-/// Most links of a junction that SUMO has rules for.
+/// Most links of a junction for which SUMO has right-of-way rules.
 const MOST_RULED: usize = 256;
 
 /// Role of a lane in the network.
@@ -23,34 +25,34 @@ const MOST_RULED: usize = 256;
 pub(super) enum LaneRole {
     /// A lane of an edge, counted from the right.
     On { edge: usize, index: usize },
-    /// The way of a link through a junction.
+    /// Part of a link through a junction.
     Way,
-    /// It has no length.
+    /// A lane without length, which is not written.
     Lost,
 }
 
-/// Lanes side by side.
+/// Parallel lanes between two junctions.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     pub id: String,
-    /// Positions in the map, from the right.
+    /// Indices of its lanes in the map, from the right.
     pub lanes: Vec<usize>,
     pub from: usize,
     pub to: usize,
 }
 
-/// A way from one lane into another.
+/// A link from one lane to another.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
     pub from: usize,
     pub to: usize,
-    /// The lanes that lead through the junction, one after the other, with the ids of their edges.
+    /// The successive lanes through the junction, with the ids of their edges.
     pub via: Vec<(usize, String)>,
-    /// By how much it turns, radians, to the left above zero.
+    /// Change of direction, radians, positive to the left.
     pub turn_rad: f64,
-    /// Past a stop sign.
+    /// Whether it passes a stop sign.
     pub stops: bool,
-    /// Number of the light among those of its junction.
+    /// Index of its signal in the list of its junction.
     pub light: Option<usize>,
 }
 
@@ -58,37 +60,37 @@ pub(super) struct Link {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Junction {
     pub id: String,
-    /// Lanes that lead here.
+    /// Lanes that end here.
     pub incoming: Vec<usize>,
-    /// In the order of the lanes that lead here.
+    /// Links, in the order of the lanes that end here.
     pub links: Vec<Link>,
-    /// Priorities, one per link; none if the junction has too many links.
+    /// Priorities, one per link; empty if the junction has too many links.
     pub rules: Vec<LinkPriority>,
-    /// Positions of its lights among the scene's.
+    /// Indices of its signals in the scene.
     pub lights: Vec<usize>,
-    /// Corners of the lanes that end and begin here.
+    /// Outline around the corners of the lanes that end and begin here.
     pub outline: Vec<Vec2>,
     pub middle: Vec2,
 }
 
-/// A map as it is written, in the frame of its source.
+/// A map in the form in which it is written, in the frame of its source.
 pub(super) struct ExportedNetwork<'a> {
     pub map: &'a LaneMap,
-    /// Centre lines, one a lane of the map.
+    /// Centre lines, one per lane of the map.
     pub lines: Vec<Vec<Vec2>>,
     pub roles: Vec<LaneRole>,
     pub edges: Vec<Edge>,
     pub junctions: Vec<Junction>,
-    /// Signals that rule nothing that is written.
+    /// Signals that control no written link.
     pub unruled: Vec<usize>,
 }
 
-/// An id as SUMO takes it.
+/// An id in the form that SUMO accepts.
 pub(super) fn plain_id(id: &str) -> String {
     id.chars().map(|c| if c.is_ascii_alphanumeric() || "_.-".contains(c) { c } else { '-' }).collect()
 }
 
-/// Ids as SUMO takes them, each once.
+/// Ids that SUMO accepts, each unique.
 #[derive(Default)]
 pub(super) struct Names(HashSet<String>);
 
@@ -112,7 +114,7 @@ fn heading(line: &[Vec2], last: bool) -> f64 {
     way.y.atan2(way.x)
 }
 
-/// A way from one lane into another, by its lanes.
+/// A path from one lane to another, by its lanes.
 struct Way {
     from: usize,
     to: usize,
@@ -120,14 +122,14 @@ struct Way {
 }
 
 impl Way {
-    /// The lane behind the first one.
+    /// The lane after the first one.
     fn entered(&self) -> usize {
         self.via.first().copied().unwrap_or(self.to)
     }
 }
 
-/// All ways between lanes that are no ways themselves. A lane is one that leads through a junction from one lane to
-/// one other.
+/// All paths through junctions, between lanes that are not part of such a path. A lane is part of one if it leads
+/// through a junction from exactly one lane to exactly one other.
 fn ways(map: &LaneMap, joints: &Joints, lost: impl Fn(usize) -> bool) -> Vec<Way> {
     let single = |i: usize| match (&joints.ins[i][..], &joints.outs[i][..]) {
         ([from], [to]) if map.lanes[i].interpolating && !lost(i) => Some((*from, *to)),
@@ -190,7 +192,7 @@ impl<'a> ExportedNetwork<'a> {
         network
     }
 
-    /// The edge and the number of a lane that belongs to one.
+    /// The edge of a lane, and the lane's index in it; `None` for a lane without an edge.
     pub fn place(&self, lane: usize) -> Option<(&Edge, usize)> {
         match self.roles.get(lane) {
             Some(LaneRole::On { edge, index }) => Some((self.edges.get(*edge)?, *index)),
@@ -198,7 +200,7 @@ impl<'a> ExportedNetwork<'a> {
         }
     }
 
-    /// Ends of lanes become junctions, and what leads from lane to lane links through them.
+    /// Joins ends of lanes to junctions, and turns paths from lane to lane into links through these.
     fn meet(&mut self, ways: Vec<Way>) {
         let mut groups = Groups::of(self.roles.len());
         for pair in self.edges.iter().flat_map(|edge| edge.lanes.windows(2)) {
@@ -245,7 +247,7 @@ impl<'a> ExportedNetwork<'a> {
                     wrap_angle(heading(&self.lines[way.to], false) - heading(&self.lines[way.from], true))
                 };
                 let mut own = by_lane.remove(from).unwrap_or_default();
-                // From the right, as SUMO has them.
+                // From the right, the order of SUMO.
                 own.sort_by(|a, b| turn(a).total_cmp(&turn(b)).then(a.to.cmp(&b.to)).then(a.via.cmp(&b.via)));
                 for way in own {
                     let (turn_rad, number) = (turn(&way), junction.links.len());
@@ -261,11 +263,12 @@ impl<'a> ExportedNetwork<'a> {
         }
     }
 
-    /// Lights rule ways through junctions, and lanes that are entered without one.
+    /// Assigns signals to links: signals control paths through junctions, and lanes that are entered without
+    /// such a path.
     fn lights(&mut self, scene: &Scene, joints: &Joints) {
         let mut ruling: HashMap<usize, usize> = HashMap::new();
         for (i, signal) in scene.signals.iter().enumerate() {
-            // Lights of pavements are those of crosswalks.
+            // Signals of pavements belong to crosswalks, which are not written.
             let driven = |lane: &usize| {
                 let kind = self.map.lanes[*lane].lane_type;
                 kind.carries_vehicles() || kind.carries_cyclists()
@@ -337,7 +340,7 @@ impl<'a> ExportedNetwork<'a> {
     }
 }
 
-/// The smallest ring round points that nowhere turns right (Andrew's chains).
+/// The convex hull of points, counter-clockwise (Andrew's monotone chain).
 fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let chain = |points: &mut dyn Iterator<Item = &Vec2>| {
@@ -358,7 +361,7 @@ fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
     ring
 }
 
-/// Lanes that lie side by side from end to end, each list from the right.
+/// Groups of lanes that are parallel from end to end, each from the right.
 fn abreast(
     map: &LaneMap,
     lines: &[Vec<Vec2>],
@@ -391,7 +394,7 @@ fn abreast(
     }
     let mut taken = vec![false; map.lanes.len()];
     let mut lists = Vec::new();
-    // Rings of lanes that are all left of each other begin anywhere.
+    // A cycle of lanes, each to the left of the previous one, may begin with any of them.
     let first = (0..map.lanes.len()).filter(|i| !is_left.contains(i));
     for start in first.chain(0..map.lanes.len()).filter(|i| stands(*i)) {
         let (mut list, mut next) = (Vec::new(), Some(start));
@@ -411,7 +414,7 @@ pub(super) fn is_motorway(lane: &Lane) -> bool {
     lane.lane_type == LaneType::Freeway
 }
 
-/// Both ends of the second lane lie to the left of those of the first.
+/// Whether both ends of the second lane lie beside those of the first, to the left.
 fn are_beside(lanes: [&Lane; 2], lines: [&[Vec2]; 2]) -> bool {
     let [a, b] = lines;
     let wide_m = (lanes[0].width_or_assumed_m() + lanes[1].width_or_assumed_m()) / 2.0;

@@ -1,4 +1,4 @@
-//! Motion as SUMO records it (`fcd-export`).
+//! Writes motion as a recording of SUMO (`fcd-export`).
 
 use super::network::Names;
 use super::words::{VehicleType, kind};
@@ -13,10 +13,10 @@ use scene::geometry::direction;
 use scene::{Agent, STEP_S, Scene, Shown, State, Vec2};
 use std::io;
 
-/// Speeds this near to a heading lie along it, m/s.
+/// Greatest difference between a velocity along the heading and the speed in that direction, m/s.
 const ALONG_MPS: f64 = 0.01;
 
-/// A road user as it is written, in the frame of the source.
+/// A road user in the form in which it is written, in the frame of the source.
 pub(super) struct ExportedAgent<'a> {
     pub name: String,
     pub agent: &'a Agent,
@@ -36,7 +36,7 @@ impl ExportedAgent<'_> {
     }
 }
 
-/// Road users that are seen at some time.
+/// Road users with a state at some step.
 pub(super) fn road_users<'a>(scene: &'a Scene, options: &ExportOptions) -> Vec<ExportedAgent<'a>> {
     let mut names = Names::default();
     let written = |agent: &'a Agent| {
@@ -48,7 +48,7 @@ pub(super) fn road_users<'a>(scene: &'a Scene, options: &ExportOptions) -> Vec<E
     scene.agents.iter().filter_map(written).collect()
 }
 
-/// Steps of what is written: those of the scene, or more where a future is longer.
+/// Number of written steps: those of the scene, or more if a future is longer.
 pub(super) fn steps(scene: &Scene, written: &[ExportedAgent<'_>]) -> usize {
     let last = written.iter().filter_map(|user| user.shown.track.last_valid_step()).max();
     scene.time.steps.max(last.map_or(0, |last| last + 1))

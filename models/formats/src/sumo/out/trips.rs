@@ -14,9 +14,10 @@ use std::io;
 
 /// Lanes farther from a road user than this are not its own, metres.
 const NEAR_M: f64 = 4.0;
-/// Lanes that lead elsewhere are not its own, radians.
+/// Lanes at a greater angle to its heading are not its own, radians.
 const ALONG_RAD: f64 = 1.0;
-/// Extra distance of a lane adjacent to the previous step's lane, and of any other lane, metres.
+/// Penalty, as a distance, for a lane adjacent to the lane of the previous step, and for any other lane,
+/// metres.
 const CHANGED_M: (f64, f64) = (0.7, 2.0);
 /// Most edges between two edges on which the road user is seen.
 const MOST_BETWEEN: usize = 6;
@@ -27,14 +28,14 @@ const FASTEST_MPS: (f64, f64) = (50.0, 14.0);
 struct Trip<'a> {
     user: &'a ExportedAgent<'a>,
     depart: usize,
-    /// Along the lane to the point that SUMO means, metres.
+    /// Arc length of SUMO's reference point along the lane, metres.
     at_m: f64,
     lane: usize,
     state: State,
     edges: Vec<usize>,
 }
 
-/// Writes the trips; gives how many road users have none.
+/// Writes the trips. Returns the number of road users without one.
 pub(super) fn write(
     scene: &Scene,
     network: &ExportedNetwork<'_>,
@@ -47,7 +48,7 @@ pub(super) fn write(
     let ways = Ways::of(network);
     let mut trips: Vec<Trip<'_>> =
         written.iter().filter_map(|user| trip(network, &graph, &ways, user)).collect();
-    // SUMO reads them by time.
+    // SUMO requires trips in order of departure.
     trips.sort_by_key(|trip| trip.depart);
     let mut out = Markup::new(bounds);
     out.open("routes", &[]);
@@ -108,7 +109,7 @@ fn write_trip(network: &ExportedNetwork<'_>, trip: &Trip<'_>, out: &mut Markup) 
             ("departPos", &at),
             ("departSpeed", &speed),
             ("speedFactor", &factor),
-            // They begin as they are, be it before a red light or near each other.
+            // Vehicles start at their recorded states, even at a red signal or close to each other.
             ("insertionChecks", "none"),
         ],
     );
@@ -116,7 +117,7 @@ fn write_trip(network: &ExportedNetwork<'_>, trip: &Trip<'_>, out: &mut Markup) 
     out.close();
 }
 
-/// The way of a road user; nothing for one that is on no edge.
+/// The trip of a road user; `None` if it is on no edge.
 fn trip<'a>(
     network: &ExportedNetwork<'_>,
     graph: &LaneGraph,
@@ -138,7 +139,7 @@ fn trip<'a>(
         }
         match edges.last() {
             None => edges.push(*edge),
-            // Pedestrians get only their first sidewalk: SUMO chooses the way to the next.
+            // Pedestrians get only their first sidewalk: SUMO chooses the path to the next.
             Some(_) if user.kind.person => break,
             Some(last) => match ways.between(*last, *edge) {
                 Some(more) => edges.extend(more),
@@ -176,7 +177,7 @@ fn lane_of(
     hits.into_iter().filter(|hit| written(hit) && along(hit)).min_by(|a, b| away_m(a).total_cmp(&away_m(b)))
 }
 
-/// Which edges lead into which.
+/// The edges that follow each edge.
 struct Ways(BTreeMap<usize, BTreeSet<usize>>);
 
 impl Ways {
@@ -194,7 +195,7 @@ impl Ways {
         Self(ways)
     }
 
-    /// The edges behind one up to another, the fewest that lead there.
+    /// The shortest sequence of edges, by number, after one edge and up to another.
     fn between(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         let mut came: BTreeMap<usize, usize> = BTreeMap::new();
         let mut open = VecDeque::from([(from, 0)]);

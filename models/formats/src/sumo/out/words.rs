@@ -1,4 +1,4 @@
-//! Types of road users: words that the reader of recordings understands, with their boxes.
+//! Types of road users, with names from which the reader of recordings gets kind and size.
 
 use crate::markup::decimal;
 use crate::sumo::kinds;
@@ -7,11 +7,11 @@ use scene::{AgentType, Size, Subtype};
 /// A type of vehicles or persons.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VehicleType {
-    /// Such as `car_4.5x1.8x1.5m`: length, width and height.
+    /// Id such as `car_4.5x1.8x1.5m`, with length, width and height.
     pub id: String,
     /// SUMO's vehicle class, which decides the lanes it may use.
     pub class: &'static str,
-    /// Listed among persons.
+    /// Whether it is a type of persons.
     pub person: bool,
 }
 

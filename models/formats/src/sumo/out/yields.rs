@@ -5,7 +5,7 @@ use crate::joints::Crossings;
 use scene::Vec2;
 use scene::geometry::cross;
 
-/// Turning by this much more than another gives way to it, radians.
+/// A link that turns by this much more than another gives way to it, radians.
 const TURNS_MORE_RAD: f64 = 0.3;
 
 /// Links that cross a link, and which of them have priority.
@@ -13,7 +13,7 @@ const TURNS_MORE_RAD: f64 = 0.3;
 pub(super) struct LinkPriority {
     /// Links that cross or join it.
     pub foes: Vec<bool>,
-    /// Those of them that go first.
+    /// Those of them with priority over it.
     pub first: Vec<bool>,
 }
 
@@ -23,13 +23,13 @@ impl LinkPriority {
     }
 }
 
-/// Letters as SUMO counts links: the first one stands last.
+/// The flags as digits in the order of SUMO, in which the first link is last.
 pub(super) fn letters(list: &[bool]) -> String {
     list.iter().rev().map(|set| if *set { '1' } else { '0' }).collect()
 }
 
-/// Of two crossing links one has priority: the one without stop sign, with the smaller turn, or from the
-/// right.
+/// Of two crossing links, one has priority: the one without a stop sign, else the one with the smaller turn,
+/// else the one from the right.
 pub(super) fn rules(links: &[Link], lines: &[Vec<Vec2>]) -> Vec<LinkPriority> {
     let none = || vec![false; links.len()];
     let mut rules: Vec<LinkPriority> =
@@ -39,7 +39,7 @@ pub(super) fn rules(links: &[Link], lines: &[Vec<Vec2>]) -> Vec<LinkPriority> {
     };
     let ways: Vec<Vec<Vec2>> = links.iter().map(line).collect();
     let mut crossings = Crossings::of(ways.iter().map(Vec::as_slice));
-    // SUMO looks for foes on the lanes of their ways: either all links have one, or none.
+    // SUMO looks for foes on the internal lanes of links: either all links have such lanes, or none.
     let all = links.iter().all(|link| !link.via.is_empty()) || links.iter().all(|link| link.via.is_empty());
     for (i, a) in links.iter().enumerate() {
         for (j, b) in links.iter().enumerate().skip(i + 1) {

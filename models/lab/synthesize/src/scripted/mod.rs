@@ -1,7 +1,6 @@
-//! Manoeuvres that SUMO's drivers and pedestrians never do: pulling out of parking places and driveways,
-//! parking, turning back in mid-block, and crossing away from crosswalks. Each follows its own path, is
-//! cleaned like the rest, and is kept only if it stays clear of all others, because the simulated ones do not
-//! react to it.
+//! Manoeuvres that SUMO lacks: leaving parking places and driveways, parking, U-turns between junctions, and
+//! crossing away from crosswalks. Each has its own path and is cleaned like other tracks. It is kept only
+//! with enough distance from all others, because simulated road users do not react to it.
 
 mod turning;
 
@@ -20,17 +19,17 @@ use scene::random::Stream;
 use scene::{AgentType, State, Vec2, wrap_angle};
 use std::ops::Range;
 
-/// Share of parked cars that try to leave, and of free places that a car tries to take.
+/// Shares of parked cars that try to leave, and of free places in which a car tries to park.
 const LEAVING: f64 = 0.10;
-/// Expected number of cars that try to turn back.
+/// Expected number of cars that try a U-turn.
 const TURNING_BACK: f64 = 6.0;
-/// Distance that scripted cars keep from all others, metres.
+/// Least distance of scripted cars from all others, metres.
 const CLEAR_M: f64 = 0.8;
 /// The same for crossing pedestrians.
 const WALK_CLEAR_M: f64 = 1.5;
-/// Sharpest bend of a manoeuvre, 1/m.
+/// Greatest curvature of a manoeuvre, 1/m.
 const SHARPEST: f64 = 0.20;
-/// Way along the lanes that is driven before or after a manoeuvre, metres.
+/// Distance along the lanes before or after a manoeuvre, metres.
 const ALONG_M: f64 = 110.0;
 
 /// Adds scripted road users.
@@ -98,7 +97,7 @@ fn free(
             let Some(there) = other.track.at(step) else { return true };
             let apart = (there.position() - state.position()).norm();
             let reach = own_box.radius_m() + 0.5 * other.size.length_m.hypot(other.size.width_m) + clear_m;
-            // Parked neighbours stand closer than moving ones ever come.
+            // Parked neighbours may be closer than moving ones.
             let wanted = if other.parked { 0.1 } else { clear_m };
             apart > reach || signed_gap(&own_box, &OrientedBox::of_state(there, &other.size)) > wanted
         })
@@ -110,12 +109,12 @@ struct Lanes<'a> {
     net: &'a Net,
     /// Points of all carriageways with half of their lane's width.
     road: Vec<(Vec2, f64)>,
-    /// Places on traffic lanes outside junctions, every metre, not near the lanes' ends.
+    /// Positions on traffic lanes outside junctions, 1 m apart, away from the ends of lanes.
     places: Vec<LanePlace>,
     sidewalks: Vec<usize>,
 }
 
-/// A place on a lane.
+/// A position on a lane.
 struct LanePlace {
     lane: usize,
     s_m: f64,
@@ -160,7 +159,7 @@ impl<'a> Lanes<'a> {
 
     /// The traffic lane beside a parked car: its index and the arc length of the foot.
     fn beside(&self, place: Vec2, heading_rad: f64) -> Option<(usize, f64)> {
-        // Only places that roughly face the lane's direction.
+        // Only positions on lanes at less than about 100° to the car.
         let fits = |p: &&LanePlace| {
             (p.position - place).norm() < 11.0 && wrap_angle(p.heading_rad - heading_rad).abs() < 1.75
         };
@@ -169,7 +168,8 @@ impl<'a> Lanes<'a> {
         Some((nearest.lane, nearest.s_m))
     }
 
-    /// The centre line onwards from a lane's arc length, through junctions by the first way on.
+    /// The centre line from an arc length of a lane onwards, continued on randomly chosen lanes through
+    /// junctions.
     fn onwards(&self, lane: usize, from: f64, draw: &mut Stream) -> Vec<Vec2> {
         let shape = &self.net.lanes[lane].shape;
         let mut line = part(shape, from, length(shape));
@@ -195,7 +195,7 @@ impl<'a> Lanes<'a> {
         part(&self.net.lanes[lane].shape, (to - ALONG_M).max(0.0), to)
     }
 
-    /// Out of a parking place or driveway, then along the lanes.
+    /// A car that leaves a parking place or driveway and continues along the lanes.
     fn leaving(&self, car: &SimulatedAgent, draw: &mut Stream) -> Option<FcdTrack> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
@@ -214,14 +214,14 @@ impl<'a> Lanes<'a> {
         let start = draw.between(1.0, RECORDED_S - 25.0);
         let (accel, top) = (draw.clipped(1.3, 0.4, 0.6, 2.4), draw.clipped(9.0, 2.0, 5.0, 13.0));
         let slow = draw.between(2.2, 4.2);
-        // Creeps out, then picks up speed.
+        // It leaves slowly, then accelerates.
         let speeds = progress(&path, |s, v| {
             if s < slow_until { slow.min(v + accel * DT_S) } else { (v + accel * DT_S).min(top) }
         });
         Some(record(&path, state.heading_rad, start, &speeds, 0.0))
     }
 
-    /// Along the lane, then into the parking place; only for places parallel to the road.
+    /// A car that drives along the lane and then parks; only for places parallel to the road.
     fn arriving(&self, car: &SimulatedAgent, draw: &mut Stream) -> Option<FcdTrack> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
@@ -249,7 +249,7 @@ impl<'a> Lanes<'a> {
         entering(&record, start)
     }
 
-    /// A person across the road, away from crosswalks.
+    /// A pedestrian who crosses the road away from crosswalks.
     fn crossing(&self, draw: &mut Stream) -> Option<FcdTrack> {
         if self.sidewalks.is_empty() {
             return None;
@@ -260,7 +260,7 @@ impl<'a> Lanes<'a> {
         let along = draw.between(14.0, total - 14.0);
         let from = point_at(shape, &lengths, along);
         let lane = heading_at(shape, &lengths, along);
-        // A sidewalk lies to the right of its road; people cut across a little.
+        // A sidewalk lies to the right of its road; pedestrians cross at a slight angle.
         let way = direction(lane + std::f64::consts::FRAC_PI_2 + draw.normal_about(0.0, 0.25));
         let on_road = |p: Vec2| self.road.iter().any(|(q, half)| (p - q).norm() < half + 0.9);
         let (mut reach, mut entered) = (0.0, false);
@@ -302,13 +302,13 @@ fn heading_at(line: &[Vec2], lengths: &[f64], s: f64) -> f64 {
     chord.y.atan2(chord.x)
 }
 
-/// A cubic from one pose to another; `None` when it bends too sharply.
+/// A cubic curve from one pose to another; `None` if its curvature is too great.
 fn hermite(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64) -> Option<Vec<Vec2>> {
     let points = cubic(from, from_rad, to, to_rad, (to - from).norm());
     (sharpest(&points) < SHARPEST).then_some(points)
 }
 
-/// A cubic from one pose to another, its tangents `reach` long.
+/// A cubic curve from one pose to another, with tangents of length `reach`.
 fn cubic(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64, reach: f64) -> Vec<Vec2> {
     s_curve(from, direction(from_rad) * reach, to, direction(to_rad) * reach, 40)
 }

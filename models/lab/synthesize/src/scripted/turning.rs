@@ -1,4 +1,4 @@
-//! U-turns in mid-block, which networks without turnarounds do not have.
+//! U-turns between junctions, which networks without turnarounds lack.
 
 use super::{LanePlace, Lanes, cubic, entering, heading_at, length, part, progress, record, sharpest};
 use crate::{DT_S, RECORDED_S};
@@ -9,13 +9,13 @@ use scene::random::Stream;
 use scene::wrap_angle;
 use std::f64::consts::PI;
 
-/// Sharpest bend, 1/m: about a car's turning circle at the front.
+/// Greatest curvature, 1/m: about the turning circle of a car at the front.
 const SHARPEST: f64 = 0.235;
-/// Ways between two opposite lanes over which a car turns in one go, metres.
+/// Range of distances between opposite lanes in which a car can make the turn without reversing, metres.
 const ACROSS_M: [f64; 2] = [8.5, 17.0];
 
 impl Lanes<'_> {
-    /// Along a lane, round into an opposite one, and on.
+    /// A car that drives along a lane, makes a U-turn into an opposite lane, and continues.
     pub(super) fn turning_back(&self, draw: &mut Stream) -> Option<FcdTrack> {
         if self.places.is_empty() {
             return None;
@@ -27,7 +27,7 @@ impl Lanes<'_> {
         let to = self.opposite(from, draw)?;
         let before = self.towards(from.lane, from.s_m);
         let approach = length(&before);
-        // A cubic with handles as long as the width is nearly a semicircle.
+        // With these tangents, the cubic curve is nearly a semicircle.
         let reach = 2.0 * (to.position - from.position).norm();
         let turn = cubic(from.position, from.heading_rad, to.position, to.heading_rad, reach);
         if approach < 20.0 || sharpest(&turn) > SHARPEST {
@@ -55,7 +55,7 @@ impl Lanes<'_> {
         entering(&record, start)
     }
 
-    /// A place to the left on a lane that leads back.
+    /// A position to the left on a lane of the opposite direction.
     fn opposite(&self, from: &LanePlace, draw: &mut Stream) -> Option<&LanePlace> {
         let ahead = direction(from.heading_rad);
         let fits = |p: &&LanePlace| {

@@ -23,7 +23,7 @@ pub struct Measures {
     pub drac_mps2: Option<f64>,
     /// Least gap, metres; below zero the boxes overlap.
     pub gap_m: Option<f64>,
-    /// Least time gap of the one that follows the other: gap over its speed, seconds.
+    /// Least headway of the follower, seconds: gap divided by its speed.
     pub headway_s: Option<f64>,
 }
 

@@ -25,9 +25,9 @@ pub const SUBSTEPS: usize = 4;
 /// Totals over the pairs of one road user.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairTotals {
-    /// Collisions it is part of and the log does not show.
+    /// Its collisions that are not in the log.
     pub collisions: usize,
-    /// Near misses it is part of and the log does not show.
+    /// Its near misses that are not in the log.
     pub near_misses: usize,
     /// Its overlaps below the collision threshold that the log does not contain.
     pub light_overlaps: usize,

@@ -36,7 +36,7 @@ export interface EntryArm {
   /** `North-west 2`, in the language of the page. */
   readonly title: string;
   readonly at: Vec;
-  /** Direction in which it leads, radians. */
+  /** Driving direction at the entry, radians. */
   readonly heading: number;
   /** Capacity of its lanes, vehicles per hour. */
   readonly most: number;
