@@ -191,7 +191,8 @@ fn a_table_has_a_line_for_each_road_user_future_and_step() {
 #[test]
 fn no_cell_of_a_table_is_a_formula_and_names_stay() {
     let csv = registry::by_id("csv").unwrap();
-    for name in ["=HYPERLINK(\"http://x\")", "+1", "-1", "@a", "'=a", "''a", "plain 'a'", " =1", "\u{ff1d}1"] {
+    for name in ["=HYPERLINK(\"http://x\")", "+1", "-1", "@a", "'=a", "''a", "plain 'a'", " =1", "\u{ff1d}1"]
+    {
         let mut scene = formats::native::read(JUNCTION).unwrap();
         scene.name = name.into();
         let bytes = csv.export(&[&scene], &ExportOptions::default()).unwrap().bytes;

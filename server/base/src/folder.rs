@@ -293,8 +293,9 @@ mod tests {
         let made = std::process::Command::new("mkfifo").arg(at("pipe")).status().unwrap();
         assert!(made.success());
         let opened = DataFolder::open(folder.path()).unwrap();
-        let read =
-            |name: &str| opened.read(Path::new(name), u64::MAX).ok().map(|held| String::from_utf8(held.bytes).unwrap());
+        let read = |name: &str| {
+            opened.read(Path::new(name), u64::MAX).ok().map(|held| String::from_utf8(held.bytes).unwrap())
+        };
         assert_eq!(read("inner/a").as_deref(), Some("inside"));
         assert_eq!(read("beneath").as_deref(), Some("inside"));
         for name in ["out", "up", "magic", "pipe", "inner", "none", "../x", "/etc/hostname"] {
@@ -336,6 +337,9 @@ mod tests {
         let tracks = ["0_tracks.csv", "1_tracks.csv"].map(|name| inner.join(name));
         assert_eq!(super::recordings(&inner).unwrap(), tracks);
         assert!(super::beside(&inner.join("none/0_tracks.csv"), None).is_none());
-        assert!(held.folder("x").is_some() && opened.read(Path::new("a.osm"), u64::MAX).unwrap().folder("x").is_none());
+        assert!(
+            held.folder("x").is_some()
+                && opened.read(Path::new("a.osm"), u64::MAX).unwrap().folder("x").is_none()
+        );
     }
 }

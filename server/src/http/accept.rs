@@ -45,7 +45,7 @@ impl ReplyFormat {
     pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
         let Some(accepted) = accepted(headers) else { return Ok(Self::Json) };
         let best = best(&accepted, OFFERED);
-        let form = FORMS.into_iter().zip(OFFERED).find(|(_, offered)| best == Some(*offered));
+        let form = FORMS.into_iter().zip(OFFERED).find(|(_, offered)| best.as_ref() == Some(*offered));
         form.map(|(form, _)| form).ok_or_else(|| {
             let known = FORMS.map(Self::media_type).join(", ");
             Problem::new(Code::NotAcceptable, format!("Replies come as {known}."))

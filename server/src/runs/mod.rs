@@ -85,7 +85,8 @@ impl RunStore {
     /// `too-many-runs`.
     pub fn add(&self, id: &str, run: Run, party: Party) -> Result<(), Problem> {
         let scene = run.scene();
-        let bytes = weight::of_scene(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
+        let bytes =
+            weight::of_scene(scene) + run.bytes().max(STATES * size_of::<State>() * scene.agents.len());
         let mut entries = self.lock();
         self.drop_idle(&mut entries);
         let room = self.room_for(&entries, party, bytes)?;

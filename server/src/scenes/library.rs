@@ -220,8 +220,12 @@ impl Library {
         let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
         // Companion tables are read together with the tracks.
         let followers = table::followers(&names, None);
-        let files: BTreeSet<PathBuf> =
-            files.iter().enumerate().filter(|(at, _)| !followers.contains(at)).map(|(_, p)| p.clone()).collect();
+        let files: BTreeSet<PathBuf> = files
+            .iter()
+            .enumerate()
+            .filter(|(at, _)| !followers.contains(at))
+            .map(|(_, p)| p.clone())
+            .collect();
         seen.retain(|path, _| {
             let is_there = files.contains(path);
             if !is_there {

@@ -68,7 +68,8 @@ pub fn map_json(map: &LaneMap) -> Result<Vec<u8>, Problem> {
 /// Number of lines (with areas) and points of a map.
 pub fn size(map: &LaneMap) -> (usize, usize) {
     let lines = map.road_lines.iter().chain(&map.road_edges).map(|l| l.points.xy.len());
-    let area = |area: &Area| area.polygon.xy.len() + area.holes.iter().map(|hole| hole.xy.len()).sum::<usize>();
+    let area =
+        |area: &Area| area.polygon.xy.len() + area.holes.iter().map(|hole| hole.xy.len()).sum::<usize>();
     let areas = map.areas().map(area);
     let counts = map.lanes.iter().map(|l| l.points.xy.len()).chain(lines).chain(areas);
     counts.fold((0, 0), |(lines, points), n| (lines + 1, points + n))

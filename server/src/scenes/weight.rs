@@ -35,7 +35,9 @@ pub fn of_value(given: &Value) -> usize {
             Value::Null | Value::Bool(_) | Value::Number(_) => 0,
             Value::String(letters) => text(letters),
             Value::Array(items) => TEXT + items.iter().map(of_value).sum::<usize>(),
-            Value::Object(members) => members.iter().map(|(key, own)| ENTRY + text(key) + of_value(own)).sum(),
+            Value::Object(members) => {
+                members.iter().map(|(key, own)| ENTRY + text(key) + of_value(own)).sum()
+            }
         }
 }
 
@@ -95,7 +97,11 @@ pub fn of_scene(scene: &Scene) -> usize {
         + texts(&meta.objects_of_interest)
         + meta.tracks_to_predict.iter().map(|(id, _)| text(id)).sum::<usize>()
         + texts([&scene.name, &meta.notes, &meta.source])
-        + texts([&scene.id, &meta.source_id, &meta.licence, &meta.parent_id, &meta.created_with].into_iter().flatten())
+        + texts(
+            [&scene.id, &meta.source_id, &meta.licence, &meta.parent_id, &meta.created_with]
+                .into_iter()
+                .flatten(),
+        )
         + texts(&meta.origin.crs)
         + meta.timestamps_s.as_deref().map_or(0, plain);
     let extra: usize = scene.extra.iter().map(|(key, own)| ENTRY + text(key) + of_value(own)).sum();
@@ -133,7 +139,7 @@ mod tests {
             |scene| scene.meta.created_with = Some("x".repeat(8_000)),
             |scene| {
                 let sample = scene::Sample { score: json!(vec!["letters"; 1_000]), ..Default::default() };
-                scene.generated = Some(scene::Generated { samples: vec![sample], ..Default::default() });
+                scene.generated = Some(Generated { samples: vec![sample], ..Default::default() });
             },
             |scene| drop(scene.extra.insert("x_a".into(), json!(vec!["letters"; 1_000]))),
             |scene| scene.meta.notes = "x".repeat(8_000),

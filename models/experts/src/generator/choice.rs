@@ -76,13 +76,43 @@ pub(super) struct Choice<'a> {
     pub(super) agents: Vec<Vec<JointOption>>,
     pub(super) fixed: &'a [FixedMotion<'a>],
     pub(super) tuning: &'a ChoiceTuning,
+    /// What encounters of the options cost, as far as it is known.
+    prices: Prices,
 }
 
-impl Choice<'_> {
+impl<'a> Choice<'a> {
+    /// A choice among these options.
+    pub(super) fn new(
+        agents: Vec<Vec<JointOption>>,
+        fixed: &'a [FixedMotion<'a>],
+        tuning: &'a ChoiceTuning,
+    ) -> Self {
+        let prices = Prices::of(agents.len());
+        Self { agents, fixed, tuning, prices }
+    }
+
+    /// Replaces the options of a road user. What is known of them stays if others were only added.
+    pub(super) fn set_options(&mut self, i: usize, options: Vec<JointOption>) {
+        let known = &self.agents[i];
+        let same =
+            known.iter().zip(&options).all(|(a, b)| Arc::ptr_eq(&a.sweep, &b.sweep) && a.kept == b.kept);
+        if !same || known.len() > options.len() {
+            self.prices.forget(i);
+        }
+        self.agents[i] = options;
+    }
+
     /// Index of the chosen option of each road user. The lower index wins ties.
-    pub(super) fn solve(&self) -> Vec<usize> {
-        let own = self.own_costs();
-        let mut pairs = Pairs::new(&self.agents, self.tuning);
+    pub(super) fn solve(&mut self) -> Vec<usize> {
+        let mut prices = std::mem::take(&mut self.prices);
+        let chosen = self.solved(&mut prices);
+        self.prices = prices;
+        chosen
+    }
+
+    fn solved(&self, prices: &mut Prices) -> Vec<usize> {
+        let own = self.own_costs(prices);
+        let mut pairs = Pairs { agents: &self.agents, tuning: self.tuning, known: &mut prices.pairs };
         let mut chosen: Vec<usize> = own.iter().map(|costs| least(costs.iter().copied())).collect();
         let near = self.near();
         for _ in 0..MOST_SWEEPS {
@@ -169,12 +199,16 @@ impl Choice<'_> {
     }
 
     /// Cost of each option by itself and against the fixed motions.
-    fn own_costs(&self) -> Vec<Vec<f64>> {
+    fn own_costs(&self, prices: &mut Prices) -> Vec<Vec<f64>> {
         let against = |option: &JointOption| -> f64 {
             let fixed = self.fixed.iter().filter(|f| !option.kept && !f.is_kept_out_by(&option.sweep));
             fixed.map(|f| price(option.boxes(), f.boxes(), self.tuning)).sum()
         };
-        self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
+        let each = self.agents.iter().zip(&mut prices.fixed).map(|(options, known)| {
+            known.extend(options[known.len()..].iter().map(against));
+            options.iter().zip(&*known).map(|(option, against)| option.cost + against).collect()
+        });
+        each.collect()
     }
 
     /// For each road user, the others whose options can come near one of its options.
@@ -203,28 +237,68 @@ impl Choice<'_> {
     }
 }
 
-/// Costs of pairs of options; each is computed once.
+/// What is known of the costs of encounters, each of which is computed once.
+#[derive(Default)]
+struct Prices {
+    /// For each road user the cost of its first options against the fixed motions.
+    fixed: Vec<Vec<f64>>,
+    /// For two road users, at `lower * count + higher`: what is known of their options.
+    pairs: Vec<PairPrices>,
+}
+
+impl Prices {
+    /// Nothing, for a number of road users.
+    fn of(count: usize) -> Self {
+        Self { fixed: vec![Vec::new(); count], pairs: vec![PairPrices::default(); count * count] }
+    }
+
+    /// Forgets what concerns a road user.
+    fn forget(&mut self, i: usize) {
+        let count = self.fixed.len();
+        self.fixed[i].clear();
+        for j in 0..count {
+            self.pairs[i.min(j) * count + i.max(j)] = PairPrices::default();
+        }
+    }
+}
+
+/// Costs of the options of two road users: a row for each of the first. NaN where two have not been compared.
+#[derive(Clone, Default)]
+struct PairPrices {
+    columns: usize,
+    costs: Vec<f64>,
+}
+
+impl PairPrices {
+    /// The cost of two options of this many.
+    fn cost(&mut self, (rows, columns): (usize, usize), a: usize, b: usize) -> &mut f64 {
+        if self.columns < columns {
+            let mut costs = Vec::with_capacity(rows * columns);
+            for row in self.costs.chunks(self.columns.max(1)) {
+                costs.extend_from_slice(row);
+                costs.resize(costs.len() + columns - row.len(), f64::NAN);
+            }
+            (self.columns, self.costs) = (columns, costs);
+        }
+        if self.costs.len() < rows * self.columns {
+            self.costs.resize(rows * self.columns, f64::NAN);
+        }
+        &mut self.costs[a * self.columns + b]
+    }
+}
+
+/// Costs of pairs of options.
 struct Pairs<'a> {
     agents: &'a [Vec<JointOption>],
     tuning: &'a ChoiceTuning,
-    /// For two road users, the lower index first: one cost per pair of options. Empty until the two are
-    /// compared; NaN until the two options are.
-    known: Vec<Vec<f64>>,
+    known: &'a mut [PairPrices],
 }
 
-impl<'a> Pairs<'a> {
-    fn new(agents: &'a [Vec<JointOption>], tuning: &'a ChoiceTuning) -> Self {
-        Self { agents, tuning, known: vec![Vec::new(); agents.len() * agents.len()] }
-    }
-
+impl Pairs<'_> {
     fn cost(&mut self, i: usize, a: usize, j: usize, b: usize) -> f64 {
         let (i, a, j, b) = if i < j { (i, a, j, b) } else { (j, b, i, a) };
         let (first, second) = (&self.agents[i], &self.agents[j]);
-        let known = &mut self.known[i * self.agents.len() + j];
-        if known.is_empty() {
-            known.resize(first.len() * second.len(), f64::NAN);
-        }
-        let cost = &mut known[a * second.len() + b];
+        let cost = self.known[i * self.agents.len() + j].cost((first.len(), second.len()), a, b);
         if cost.is_nan() {
             let (one, other) = (&first[a], &second[b]);
             let kept = one.kept && other.kept;
@@ -272,11 +346,8 @@ mod tests {
     #[test]
     fn the_cheaper_way_out_is_taken() {
         // Both start with the same motion; the second may also change lane.
-        let choice = Choice {
-            tuning: &SHIPPED.choice,
-            agents: vec![vec![ride(0.0, 8.0, 1.0)], vec![ride(0.5, 8.0, 1.0), ride(4.0, 8.0, 2.0)]],
-            fixed: &[],
-        };
+        let agents = vec![vec![ride(0.0, 8.0, 1.0)], vec![ride(0.5, 8.0, 1.0), ride(4.0, 8.0, 2.0)]];
+        let mut choice = Choice::new(agents, &[], &SHIPPED.choice);
         assert_eq!(choice.solve(), vec![0, 1]);
         assert_eq!(choice.in_conflict(&[0, 1]), vec![false, false]);
         assert_eq!(choice.in_conflict(&[0, 0]), vec![true, true]);
@@ -288,22 +359,17 @@ mod tests {
         // of conflict.
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
         let kept = ride(8.3, 8.0, 0.0);
-        let choice = Choice {
-            agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)],
-            fixed: &[FixedMotion { sweep: &kept.sweep, comes_in: None }],
-            tuning: &SHIPPED.choice,
-        };
+        let fixed = [FixedMotion { sweep: &kept.sweep, comes_in: None }];
+        let mut choice = Choice::new(vec![swap(0.0, 8.0), swap(0.0, 4.0)], &fixed, &SHIPPED.choice);
         assert_eq!(choice.solve(), vec![0, 1]);
     }
 
     #[test]
     fn fixed_motions_are_avoided() {
         let kept = ride(0.0, 8.0, 0.0);
-        let choice = Choice {
-            tuning: &SHIPPED.choice,
-            agents: vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]],
-            fixed: &[FixedMotion { sweep: &kept.sweep, comes_in: None }],
-        };
+        let fixed = [FixedMotion { sweep: &kept.sweep, comes_in: None }];
+        let agents = vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]];
+        let mut choice = Choice::new(agents, &fixed, &SHIPPED.choice);
         assert_eq!(choice.solve(), vec![1]);
     }
 
@@ -313,10 +379,34 @@ mod tests {
         let of = |comes_in: Option<(usize, usize)>| {
             let fixed = [FixedMotion { sweep: &late.sweep, comes_in }];
             let agents = vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]];
-            let choice = Choice { tuning: &SHIPPED.choice, agents, fixed: &fixed };
+            let mut choice = Choice::new(agents, &fixed, &SHIPPED.choice);
             (choice.solve(), choice.in_conflict(&[0]))
         };
         assert_eq!(of(Some((20, 25))), (vec![0], vec![false]));
         assert_eq!(of(None), (vec![1], vec![true]));
+    }
+
+    #[test]
+    fn options_that_come_later_are_weighed_as_if_they_had_been_there() {
+        let first = |cost: f64| vec![ride(0.0, 8.0, cost)];
+        let kept = ride(8.3, 8.0, 0.0);
+        let fixed = [FixedMotion { sweep: &kept.sweep, comes_in: None }];
+        let mut choice = Choice::new(vec![first(1.0), first(1.0), first(1.0)], &fixed, &SHIPPED.choice);
+        assert_eq!(choice.solve(), vec![0, 0, 0]);
+        let again = |options: &[JointOption]| -> Vec<JointOption> {
+            let copy = |o: &JointOption| JointOption { sweep: Arc::clone(&o.sweep), ..*o };
+            options.iter().map(copy).collect()
+        };
+        for (i, y, chosen) in [(2, 4.0, [0, 0, 1]), (0, 8.0, [0, 0, 1]), (1, -4.0, [0, 1, 1])] {
+            let mut options = again(&choice.agents[i]);
+            options.push(ride(y, 8.0, 2.0));
+            choice.set_options(i, options);
+            let anew: Vec<Vec<JointOption>> = choice.agents.iter().map(|own| again(own)).collect();
+            assert_eq!(choice.solve(), chosen);
+            assert_eq!(Choice::new(anew, &fixed, &SHIPPED.choice).solve(), chosen);
+        }
+        // Other options in place of the known ones.
+        choice.set_options(1, vec![ride(4.0, 8.0, 1.0), ride(-8.0, 8.0, 2.0)]);
+        assert_eq!(choice.solve(), vec![0, 1, 1]);
     }
 }

@@ -41,9 +41,7 @@ impl WorkerPool {
         f: impl Fn(&T) -> R + Sync + Send,
     ) -> Vec<R> {
         match self.pool() {
-            Some(pool) if items.len() >= many && !is_in_another(pool) => {
-                shared(pool, self.threads, items, f)
-            }
+            Some(pool) if items.len() >= many && !is_in_another(pool) => shared(pool, self.threads, items, f),
             _ => items.iter().map(f).collect(),
         }
     }

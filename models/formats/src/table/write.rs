@@ -186,7 +186,8 @@ const QUOTE: char = '\'';
 
 /// Spreadsheets of East Asian languages take the wide forms of the signs too, and some skip blanks before a sign.
 fn is_formula(text: &str) -> bool {
-    const SIGNS: [char; 11] = ['=', '+', '-', '@', '\t', '\r', '\n', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
+    const SIGNS: [char; 11] =
+        ['=', '+', '-', '@', '\t', '\r', '\n', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
     text.starts_with(QUOTE) || text.trim_start_matches([' ', '\u{a0}', '\u{feff}']).starts_with(SIGNS)
 }
 

@@ -47,7 +47,9 @@ impl AllowedFolders {
     /// `not-found` for a file in none of the folders, or one that cannot be read.
     pub fn read(&self, path: &str) -> Result<HeldFile, Problem> {
         let mut found = self.0.iter().filter_map(|allowed| Some((allowed, allowed.below(path)?)));
-        found.find_map(|(allowed, name)| allowed.reader.read(&name, u64::MAX).ok()).ok_or_else(|| self.not_here(path))
+        found
+            .find_map(|(allowed, name)| allowed.reader.read(&name, u64::MAX).ok())
+            .ok_or_else(|| self.not_here(path))
     }
 
     /// Writes a complete file and returns its path. It does not write through a link, and the folder must

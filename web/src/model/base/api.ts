@@ -43,9 +43,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Experts are warm, the store reads and writes, the queue has room, workers, readers and the data folder answer, and
-         *     a worker is free of calls that have ended, for long calls and for those in the background. `failing` lists those of
-         *     `experts`, `store`, `queue`, `workers`, `readers`, `long-workers`, `background-workers` and `data` that fail.
+         * Checks whether the server accepts work. Experts are loaded, the store reads and writes, the queue has room, and
+         *     workers, readers and the data folder respond. For long calls and for background calls, at least one worker is not
+         *     blocked by a call that has ended. `failing` lists those of `experts`, `store`, `queue`, `workers`, `readers`,
+         *     `long-workers`, `background-workers` and `data` that fail.
          */
         get: operations["readyz"];
         put?: never;
@@ -152,7 +153,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** Cancels a generation; an id that is not under way is nothing to do. */
+        /** Cancels a generation of the same caller (user, token or address). An id without a running or queued job is no error. */
         delete: operations["cancelJob"];
         options?: never;
         head?: never;
@@ -170,7 +171,7 @@ export interface paths {
         put?: never;
         /**
          * Draws a map from a template and its parameters: lanes with links, neighbours and boundaries, kerbs, crosswalks,
-         *     stop signs, lights over nine seconds. Stores nothing.
+         *     stop signs, signals over nine seconds. Stores nothing.
          */
         post: operations["makeMap"];
         delete?: never;
@@ -220,7 +221,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Reads a map. It never changes, so it may be kept for ever. */
+        /** Reads a map. It never changes, so it may be cached for ever. */
         get: operations["readMap"];
         put?: never;
         post?: never;
@@ -240,9 +241,9 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
-         *     cyclists on bike lanes or on the right; traffic at a rate from the arms, and parked cars. Boxes keep 0.1 m
-         *     apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
+         * Places road users on a map: vehicles on lanes, pedestrians on crosswalks and pavements, cyclists on cycle
+         *     lanes or on the right, traffic that enters by the arms at a rate, and parked cars. Boxes are at least 0.1
+         *     m apart and all centres lie in the region. Fewer than requested is no error. Stores nothing.
          */
         post: operations["place"];
         delete?: never;
@@ -261,9 +262,9 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Begins a run in a scene, or takes one up from a snapshot. The client drives the road users in `egos`; the server
-         *     drives all others from step to step. They know what has happened and what egos announce. The run is kept in memory
-         *     and forgotten when it is not used for `idle_s`.
+         * Begins a run in a scene, or continues one from a snapshot. The client drives the road users in `egos`; the server
+         *     drives all others from step to step, with knowledge of the past and of the plans that egos announce. The run is
+         *     kept in memory and deleted after `idle_s` without use.
          */
         post: operations["beginRun"];
         delete?: never;
@@ -280,14 +281,14 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Says how a run is: who is where, how long it may go on, when it was used. By Accept, NDJSON or SSE follow it: the run
-         *     first, then each step as it is made, until the run is forgotten. Looking at a run and following it are no use of it,
-         *     and change nothing.
+         * Returns the state of a run: the current states, the remaining steps, the time since its last use. With NDJSON or SSE
+         *     in Accept, the reply follows the run: first the run, then each step, until the run is deleted. Reading or following a
+         *     run does not count as use and changes nothing.
          */
         get: operations["readRun"];
         put?: never;
         post?: never;
-        /** Forgets a run. */
+        /** Deletes a run. */
         delete: operations["deleteRun"];
         options?: never;
         head?: never;
@@ -303,7 +304,10 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Says what the others would do over the next nine seconds if egos drove these plans. The run does not change. */
+        /**
+         * Predicts the motion of the others over the next nine seconds if the egos drove these plans. The run does
+         *     not change.
+         */
         post: operations["peekRun"];
         delete?: never;
         options?: never;
@@ -318,7 +322,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Gives the scene of a run as it was when the run began. */
+        /** Returns the scene of a run as it was when the run began. */
         get: operations["readRunScene"];
         put?: never;
         post?: never;
@@ -338,8 +342,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Gives the run as a text that begins another one: in this server or another, now or later. It goes on with the same
-         *     bytes as this one.
+         * Returns the run as text, from which another run can begin: on this server or another, now or later. It continues
+         *     with the same bytes as this one.
          */
         post: operations["saveRun"];
         delete?: never;
@@ -356,15 +360,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * A WebSocket for the steps of a run: messages are those of the line for generations, each `body` that of a step. A
-         *     client waits for the reply to a step before it sends the next one.
+         * A WebSocket for the steps of a run. Messages have the form of those for generations (`GET /v1/generate`), with
+         *     the body of a step as `body`. A client waits for the reply to a step before it sends the next one.
          */
         get: operations["openRunLine"];
         put?: never;
         /**
-         * Makes a step: the egos are where the body says, all others go on, and answer to what they see then. Steps are
-         *     numbered from 1 on. The last number again gives the same reply again, whatever its body, so that a lost reply can be
-         *     asked for; any other number than the next one is refused (`step-order`).
+         * Makes a step: the egos take the states of the body, and all others move on and react to them. Steps are numbered
+         *     from 1. Repeating the last number returns the same reply, whatever the body, so that a client can recover a lost
+         *     reply; any other number than the next one is refused (`step-order`).
          */
         post: operations["stepRun"];
         delete?: never;
@@ -493,9 +497,9 @@ export interface paths {
         put?: never;
         /**
          * Searches a scene for results that satisfy a condition. Each try draws the numbers of the situation, generates once
-         *     and is scored; the numbers of the next tries follow from how near the tries before came. The reply is a stream of
-         *     events (NDJSON or SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends
-         *     after most of `generate_s` with the tries that it has made; a client that leaves ends it at once. Stores nothing.
+         *     and is scored; earlier scores determine the numbers of the next tries. The reply is a stream of events (NDJSON or
+         *     SSE) or only the last event (JSON), by Accept. Equal requests give equal tries. A search ends after most of
+         *     `generate_s` with the tries made so far, or at once when the client disconnects. Stores nothing.
          */
         post: operations["search"];
         delete?: never;
@@ -510,12 +514,12 @@ export interface components {
     schemas: {
         /**
          * AcceptedEvent
-         * @description First event: what will be done.
+         * @description First event: the planned work.
          */
         AcceptedEvent: {
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -529,38 +533,38 @@ export interface components {
             job: string;
             /**
              * Format: uint
-             * @description Jobs before this one when it was queued.
+             * @description Number of jobs ahead of this one when it was queued.
              */
             queue_position: number;
-            /** @description Road users that answer to them. */
+            /** @description Road users that may react to them. */
             reacting: string[];
             /** @description Road users that get new futures. */
             regenerated: string[];
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description The seed in use.
+             * @description Seed in use.
              */
             seed: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
             /**
              * Format: uint
-             * @description Refinement steps of a window.
+             * @description Refinement steps per window.
              */
             steps: number;
-            /** @description Unlikely things known by now. */
+            /** @description Warnings so far. */
             warnings: components["schemas"]["Warning"][];
             /**
              * Format: uint
-             * @description Planning windows, one after the other.
+             * @description Number of successive planning windows.
              */
             windows: number;
         };
@@ -576,15 +580,15 @@ export interface components {
             conditions?: components["schemas"]["Conditions"];
             /**
              * Format: double
-             * @description Metres.
+             * @description Height, metres.
              * @default null
              */
             height_m?: number | null;
-            /** @description Unique in the scene, `[A-Za-z0-9_.:-]{1,64}`. */
+            /** @description Id, unique in the scene, `[A-Za-z0-9_.:-]{1,64}`. */
             id: string;
             /**
              * Format: double
-             * @description Metres; the subtype's when absent.
+             * @description Length, metres. Default: that of the subtype.
              * @default null
              */
             length_m?: number | null;
@@ -594,7 +598,7 @@ export interface components {
              */
             role?: string | null;
             /**
-             * @description Sets default size and limits.
+             * @description Finer type, which sets default size and limits.
              * @default unknown
              * @enum {string}
              */
@@ -614,13 +618,13 @@ export interface components {
              */
             track?: components["schemas"]["Track"];
             /**
-             * @description Selects expert and motion model; `other` is shown, never regenerated.
+             * @description Type, which selects expert and motion model; `other` is shown, but never regenerated.
              * @enum {string}
              */
             type: "vehicle" | "pedestrian" | "cyclist" | "other";
             /**
              * Format: double
-             * @description Metres; the subtype's when absent.
+             * @description Width, metres. Default: that of the subtype.
              * @default null
              */
             width_m?: number | null;
@@ -632,12 +636,12 @@ export interface components {
         AgentFutures: {
             /**
              * Format: uint64
-             * @description Index into `modes` of the one that is shown and exported.
+             * @description Index into `modes` of the future that is shown and exported.
              */
             chosen: number;
-            /** @description By falling probability. */
+            /** @description In order of decreasing probability. */
             modes: components["schemas"]["Future"][];
-            /** @description Why it gave up the motion that it had. */
+            /** @description Why it left its previous motion. */
             reaction?: components["schemas"]["Reaction"] | null;
         };
         /**
@@ -652,10 +656,10 @@ export interface components {
             ade_m: number | null;
             /**
              * Format: uint
-             * @description Collisions it is part of and the log does not show.
+             * @description Its collisions that are not in the log.
              */
             collisions: number;
-            /** @description Which step counted as the end. */
+            /** @description Step that counted as the end. */
             endpoint: components["schemas"]["Endpoint"];
             /** @description Only when a goal field is fixed. */
             goal_error: components["schemas"]["GoalError"] | null;
@@ -693,7 +697,7 @@ export interface components {
             min_ttc_s: number | null;
             /**
              * Format: uint
-             * @description Near misses it is part of and the log does not show.
+             * @description Its near misses that are not in the log.
              */
             near_misses: number;
             /**
@@ -708,7 +712,7 @@ export interface components {
             offroad_share: number | null;
             /**
              * Format: uint
-             * @description Overlaps below the threshold of a collision that it is part of and the log does not show.
+             * @description Its overlaps below the threshold of a collision that are not in the log.
              */
             overlaps: number;
             /**
@@ -731,7 +735,7 @@ export interface components {
          * AgentType
          * @description Type of a road user; selects the expert and the motion model.
          *
-         *     `vehicle`: Anything with an engine on a lane: cars, trucks, buses, motorcycles.
+         *     `vehicle`: Motor vehicles on lanes: cars, trucks, buses, motorcycles.
          *
          *     `pedestrian`: A person on foot.
          *
@@ -743,9 +747,9 @@ export interface components {
         AgentType: "vehicle" | "pedestrian" | "cyclist" | "other";
         /**
          * All
-         * @description The word `all`.
+         * @description The value `all`.
          *
-         *     `all`: Everyone.
+         *     `all`: All road users.
          * @enum {string}
          */
         All: "all";
@@ -754,10 +758,10 @@ export interface components {
          * @description A judged card.
          */
         Answer: {
-            /** @description Features of the card, as the reply had them. */
+            /** @description Features of the card, as in the reply. */
             features: components["schemas"]["Features"];
             /**
-             * @description Places of the card, as the reply had them: later rounds have no similar card.
+             * @description Positions of the card, as in the reply; later rounds have no similar card.
              * @default {}
              */
             places?: {
@@ -770,14 +774,14 @@ export interface components {
         };
         /**
          * AnswerSample
-         * @description One joint scene of the answer. Its score stands in `scores`.
+         * @description One joint scene of the answer. Its score is in `scores`.
          */
         AnswerSample: {
-            /** @description Road user's id to its futures. */
+            /** @description Futures by id of the road user. */
             agents: {
                 [key: string]: components["schemas"]["Futures"];
             };
-            /** @description Empty here; a place for the score when it is saved. */
+            /** @description Empty in the reply; holds the score in a saved scene. */
             score: unknown;
         };
         /**
@@ -785,60 +789,61 @@ export interface components {
          * @description A crosswalk, speed bump or driveway.
          */
         Area: {
-            /** @description Unique among areas of the kind. */
+            /** @description Id, unique among areas of the kind. */
             id: string;
             /** @description Open ring. */
             polygon_m: components["schemas"]["Points"];
         };
         /**
          * Arm
-         * @description A road that leads to a junction, seen from the junction.
+         * @description A road that leads to a junction, as seen from the junction.
          */
         Arm: {
             /**
              * Format: double
-             * @description Where it leads, counter-clockwise from east, degrees.
+             * @description Direction from the junction, counter-clockwise from east, degrees.
              * @default 0
              */
             angle_deg: number;
             /**
              * Format: double
-             * @description Width of the crosswalk over it, metres; less than half a metre is none.
+             * @description Width of the crosswalk across it, metres; below half a metre there is none.
              * @default 3
              */
             crosswalk_m: number;
             /**
              * Format: double
-             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
+             * @description Width of the cycle lane on each side, metres; below half a metre there is none.
              * @default 0
              */
             cycle_lane_m: number;
             /**
              * Format: uint8
-             * @description Lanes towards the junction.
+             * @description Number of inbound lanes, towards the junction.
              * @default 1
              */
             lanes_in: number;
             /**
              * Format: uint8
-             * @description Lanes away from it.
+             * @description Number of outbound lanes, away from the junction.
              * @default 1
              */
             lanes_out: number;
             /**
              * Format: double
-             * @description From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+             * @description Length from the centre of the junction to the edge of the map, metres; longer where the junction needs
+             *     it.
              * @default 90
              */
             length_m: number;
             /**
-             * @description With `priority`: its traffic goes first.
+             * @description With `priority`: its traffic has right of way.
              * @default false
              */
             main: boolean;
             /**
              * Format: double
-             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
+             * @description Width of the raised median, metres; below half a metre there is none.
              * @default 0
              */
             median_m: number;
@@ -849,67 +854,68 @@ export interface components {
              */
             speed_limit_kmh: number;
             /**
-             * @description Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
-             *     in left-hand traffic) to the kerb; null is the usual.
+             * @description Allowed turns of each inbound lane, in order from the middle of the road to the kerb; null selects the
+             *     usual turns.
              * @default null
              */
             turns: components["schemas"]["Turn"][][] | null;
         };
         /**
          * ArmDoc
-         * @description Where a road comes in.
+         * @description An arm: a road that enters the map or the region.
          */
         ArmDoc: {
             /**
              * Format: double
-             * @description Direction in which it leads, radians.
+             * @description Driving direction at the entry, radians.
              */
             heading_rad: number;
-            /** @description The compass point that it comes from, with a number where several do: `north-east`, `west-2`. */
+            /** @description Compass direction that it comes from, with a number if several arms share it: `north-east`, `west-2`. */
             id: string;
-            /** @description From right to left. */
+            /** @description Its lanes, from right to left. */
             lanes: components["schemas"]["ArmLane"][];
             /**
              * Format: uint
-             * @description Those that come in later.
+             * @description Vehicles that enter later.
              */
             later: number;
             /**
              * Format: double
-             * @description To its line, metres: the first junction, or where the road ends or joins another.
+             * @description Length from the entry to the end line, metres: the first junction, or where the road ends or joins
+             *     another.
              */
             length_m: number;
             /**
              * Format: double
-             * @description Most vehicles an hour that its lanes take.
+             * @description Capacity of its lanes, vehicles per hour.
              */
             most_per_hour: number;
             /**
              * Format: uint
-             * @description Vehicles of its traffic that are there at the start.
+             * @description Vehicles of its traffic that are present at the start.
              */
             placed: number;
             /**
              * Format: double
-             * @description Middle of its lanes there, metres.
+             * @description Middle of its lanes at the entry, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description The same, metres.
+             * @description Middle of its lanes at the entry, metres.
              */
             y_m: number;
         };
         /**
          * ArmLane
-         * @description A lane by which an arm leads in.
+         * @description A lane by which an arm enters the map or the region.
          */
         ArmLane: {
             /** @description Id of the lane. */
             lane: string;
             /**
              * Format: double
-             * @description Arc length at which it comes in, metres.
+             * @description Arc length of the entry, metres.
              */
             s_m: number;
         };
@@ -918,31 +924,31 @@ export interface components {
          * @description Position of an arm, for editing handles.
          */
         ArmPlace: {
-            /** @description Where the arm leaves the map, metres. */
+            /** @description Point where the arm leaves the map, metres. */
             end_m: number[];
-            /** @description Where each of its lanes in ends, metres. */
+            /** @description End of each inbound lane, metres. */
             ins_m: number[][];
-            /** @description From the middle to the kerb beside the lanes in and beside the lanes out, metres. */
+            /** @description Distances from the middle to the kerb of the inbound lanes and to that of the outbound lanes, metres. */
             kerbs_m: number[];
-            /** @description Where traffic towards the junction stops, in the middle of the arm, metres. */
+            /** @description Stop position of inbound traffic, in the middle of the arm, metres. */
             mouth_m: number[];
             /** @description Such as `North`. */
             name: string;
-            /** @description Where each of its lanes out begins, metres. */
+            /** @description Start of each outbound lane, metres. */
             outs_m: number[][];
-            /** @description Where its turn lanes lead, from the middle of the road to the kerb; single connections apart. */
+            /** @description Turns of its inbound lanes, from the middle of the road to the kerb, without single connections. */
             turns: components["schemas"]["Turn"][][];
         };
         /**
          * Arrivals
-         * @description Traffic that comes in by an arm.
+         * @description Traffic that enters by an arm.
          */
         Arrivals: {
             /** @description Id of one of the reply's `arms`. */
             arm: string;
             /**
              * Format: double
-             * @description Motor vehicles an hour, all lanes together.
+             * @description Motor vehicles per hour, all lanes together.
              */
             per_hour: number;
         };
@@ -965,7 +971,7 @@ export interface components {
             horizon_s?: number;
             /**
              * Format: uint64
-             * @description Futures that are planned for each road user.
+             * @description Number of futures planned for each road user.
              * @default 6
              */
             modes?: number;
@@ -999,7 +1005,7 @@ export interface components {
         BatchSituation: {
             /**
              * @description Road users that get the conditions: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`.
-             *     Each is generated in units of its own.
+             *     Each is generated in separate units.
              */
             agents?: string[];
             /** @description Goal. */
@@ -1008,18 +1014,18 @@ export interface components {
             length_m?: components["schemas"]["Distribution"] | null;
             /** @description Name in the results: letters, digits, - and _. Default: that of the template or the pattern, or `free`. */
             name?: string | null;
-            /** @description What the road users beside it are. */
+            /** @description Types and sizes of the other road users. */
             others?: components["schemas"]["OtherKinds"];
             /**
-             * @description Figures of the template by name, those absent are drawn by the seed; or parameters of the pattern, those absent
-             *     have their standard values.
+             * @description By name: figures of the template, of which absent ones are drawn by the seed; or parameters of the pattern, of
+             *     which absent ones have their standard values.
              */
             parameters?: {
                 [key: string]: components["schemas"]["Distribution"];
             };
             /**
              * @description Pattern of the road that the maps of the scenes are searched for: a name of `dragtraffic match --list`, a file, or
-             *     the pattern itself. Its road users are put at each place where it fits; those of the scene are left out.
+             *     the pattern itself. Its road users are placed where it fits, and those of the scene are removed.
              */
             pattern?: components["schemas"]["PatternChoice"] | null;
             /** @description Start. */
@@ -1029,32 +1035,32 @@ export interface components {
              * @enum {string|null}
              */
             template?: "brake" | "cut-in" | "late" | null;
-            /** @description Type that the road user has in place of its own. */
+            /** @description Type of the road user, in place of its own. */
             type?: components["schemas"]["AgentType"] | null;
             /** @description Width of the road user, metres. */
             width_m?: components["schemas"]["Distribution"] | null;
             /**
-             * @description Id of the road user that the figures under `pair.` are about. Default: the one that a template or a pattern
-             *     affects, else the one with whom it comes nearest to a collision.
+             * @description Id of the other road user of the figures under `pair.`. Default: the one that a template or a pattern
+             *     affects, else the one with which a collision comes nearest.
              */
             with?: string | null;
         };
         /**
          * Bound
-         * @description One bound as it is in force.
+         * @description A bound in force.
          */
         Bound: {
             /**
              * Format: uint64
-             * @description In the unit of the bound's name.
+             * @description Value, in the unit of the bound's name.
              */
             value: number;
-            /** @description What it bounds. */
+            /** @description Description of the bounded quantity. */
             what: string;
         };
         /**
          * Boundary
-         * @description A stretch of a lane's side and the line or edge that bounds it.
+         * @description A section of a lane's side, with the road line or edge that bounds it.
          */
         Boundary: {
             /**
@@ -1077,7 +1083,7 @@ export interface components {
         };
         /**
          * Build
-         * @description What the program was built for.
+         * @description Build of the program.
          */
         Build: {
             /** @description Cargo profile. */
@@ -1087,33 +1093,34 @@ export interface components {
         };
         /**
          * ByRoad
-         * @description A place on a lane that can be had instead of a goal.
+         * @description A position on a lane that can be reached instead of the goal.
          */
         ByRoad: {
             /**
              * Format: double
-             * @description From the goal, metres.
+             * @description Distance from the goal, metres.
              */
             distance_m: number;
             /**
              * Format: double
-             * @description Of the lane, radians.
+             * @description Heading of the lane, radians.
              */
             heading_rad: number;
             /**
              * Format: double
-             * @description On the lane's middle, metres.
+             * @description Position on the centre line of the lane, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description On the lane's middle, metres.
+             * @description Position on the centre line of the lane, metres.
              */
             y_m: number;
         };
         /**
          * CarPark
-         * @description A street with a car park beside it: in at one end, along aisles, out at the other.
+         * @description A street with a car park beside it: its entrance is at one end, its exit at the other, with aisles between
+         *     them.
          */
         CarPark: {
             /**
@@ -1124,7 +1131,7 @@ export interface components {
             aisle_m: number;
             /**
              * Format: uint8
-             * @description Aisles with bays on both sides.
+             * @description Number of aisles with bays on both sides.
              * @default 3
              */
             aisles: number;
@@ -1142,7 +1149,7 @@ export interface components {
             bay_width_m: number;
             /**
              * Format: uint8
-             * @description Bays along each side of an aisle.
+             * @description Number of bays along each side of an aisle.
              * @default 12
              */
             bays: number;
@@ -1160,7 +1167,7 @@ export interface components {
             lane_width_m: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; less than half a metre is none.
+             * @description Width of the pavements, metres; below half a metre there are none.
              * @default 2.5
              */
             sidewalk_m: number;
@@ -1171,7 +1178,7 @@ export interface components {
              */
             speed_limit_kmh: number;
             /**
-             * @description Side of the road that traffic keeps to.
+             * @description Side of the road on which traffic drives.
              * @default right-hand
              */
             traffic: components["schemas"]["Traffic"];
@@ -1183,23 +1190,23 @@ export interface components {
         Change: {
             /** @description The road user. */
             agent: string;
-            /** @description What it does, and because of whom. */
+            /** @description What it does, and its cause. */
             reaction: components["schemas"]["Reaction"];
         };
         /**
          * Check
-         * @description One check, or one failure of it.
+         * @description A check that passed, or one failure of a check.
          */
         Check: {
-            /** @description Where it fails, metres. */
+            /** @description Place of the failure, metres. */
             at_m: number[] | null;
-            /** @description What it is about. */
+            /** @description Subject of the check. */
             kind: components["schemas"]["CheckKind"];
-            /** @description Lanes it is about. */
+            /** @description Lanes concerned. */
             lanes: string[];
             /** @description The finding as data. */
             message: components["schemas"]["Message"];
-            /** @description All is well. */
+            /** @description Whether it passed. */
             passed: boolean;
             /** @description The finding in English. */
             text: string;
@@ -1208,13 +1215,13 @@ export interface components {
          * CheckKind
          * @description Subject of a check.
          *
-         *     `lanes-lead`: Every lane leads somewhere.
+         *     `lanes-lead`: Every lane has a successor or leaves the map, and can be reached.
          *
          *     `turns`: A bus of 12 m (in a car park: a car) can turn.
          *
          *     `widths`: No lane is too narrow.
          *
-         *     `signals-apart`: No two movements with green at the same time conflict.
+         *     `signals-apart`: No two movements with simultaneous green conflict.
          * @enum {string}
          */
         CheckKind: "lanes-lead" | "turns" | "widths" | "signals-apart";
@@ -1241,20 +1248,19 @@ export interface components {
         };
         /**
          * Collision
-         * @description Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
+         * @description Two road users collide: their boxes overlap by more than the thresholds. One entry per pair.
          */
         Collision: {
-            /** @description The one listed first. */
+            /** @description The road user listed first. */
             a: string;
             /** @description The other. */
             b: string;
             /**
              * Format: double
-             * @description Speed at which the two closed in at the first moment, m/s (their relative speed when they
-             *     already overlap).
+             * @description Closing speed at the first moment, m/s (relative speed if they already overlap).
              */
             closing_speed_mps: number;
-            /** @description Both move as recorded. It does not count. */
+            /** @description Both move as recorded; the event does not count. */
             in_log: boolean;
             /**
              * Format: double
@@ -1269,24 +1275,24 @@ export interface components {
         };
         /**
          * CompactFuture
-         * @description One possible motion. The first number of a column is its value at the first step, the second how much the
-         *     next value is greater, and each further one by how much that changes: with two running sums the columns of a
-         *     scene document come out, to the last digit.
+         * @description One possible motion as second differences. A column starts with its first value, followed by the first
+         *     difference and then by the changes of the difference. Two running sums restore the columns of a scene
+         *     document exactly.
          */
         CompactFuture: {
             /**
              * Format: uint32
-             * @description Which of the generator's anchors it follows.
+             * @description Index of the generator's anchor that it follows.
              */
             anchor?: number | null;
-            /** @description What is wrong with it, the worst first. */
+            /** @description Faults, the worst first. */
             faults?: components["schemas"]["Fault"][];
             /**
              * Format: uint64
              * @description Scene step of the first value.
              */
             first_step: number;
-            /** @description Ten-thousandths of a radian. */
+            /** @description Heading in units of 0.0001 rad. */
             heading_e4rad: number[];
             /** @description What it does. */
             manoeuvre?: components["schemas"]["Manoeuvre"] | null;
@@ -1295,11 +1301,11 @@ export interface components {
              * @description Relative weight among the road user's futures; see `calibrated` of the answer.
              */
             probability: number;
-            /** @description How it stands to others. */
+            /** @description Relations to other road users. */
             relations?: components["schemas"]["Relation"][];
-            /** @description Millimetres a second. */
+            /** @description Velocity, mm/s. */
             vx_mmps: number[];
-            /** @description Millimetres a second. */
+            /** @description Velocity, mm/s. */
             vy_mmps: number[];
             /** @description Box centre, millimetres. */
             x_mm: number[];
@@ -1313,17 +1319,17 @@ export interface components {
         CompactFutures: {
             /**
              * Format: uint64
-             * @description Index into `compact` of the one that is shown and exported.
+             * @description Index into `compact` of the future that is shown and exported.
              */
             chosen: number;
-            /** @description By falling probability. */
+            /** @description In order of decreasing probability. */
             compact: components["schemas"]["CompactFuture"][];
-            /** @description Why it gave up the motion that it had. */
+            /** @description Why it left its previous motion. */
             reaction?: components["schemas"]["Reaction"] | null;
         };
         /**
          * ConditionRange
-         * @description Allowed sizes and speeds of one agent type; both ends are allowed.
+         * @description Ranges of the sizes and speeds of one agent type; both ends are included.
          */
         ConditionRange: {
             /** @description Metres. */
@@ -1344,7 +1350,7 @@ export interface components {
         };
         /**
          * ConditionRanges
-         * @description What conditions may ask for, by type; both ends are allowed.
+         * @description Ranges of conditions by type; both ends are included.
          */
         ConditionRanges: {
             cyclist: components["schemas"]["ConditionRange"];
@@ -1353,7 +1359,7 @@ export interface components {
         };
         /**
          * Conditions
-         * @description All that a user fixes about one road user. A number fixes a field, null or absence frees it.
+         * @description Conditions of one road user. A number fixes a field; null or absence leaves it free.
          */
         Conditions: {
             /**
@@ -1365,54 +1371,55 @@ export interface components {
             goal?: components["schemas"]["Goal"] | null;
             /**
              * Format: double
-             * @description Metres.
+             * @description Length, metres.
              */
             length_m?: number | null;
             /** @description Start fields. */
             start?: components["schemas"]["Start"] | null;
             /**
-             * @description Expert to use in place of the road user's own type's.
+             * @description Type whose expert is used in place of the expert of the road user's own type.
              * @enum {unknown}
              */
             type?: "vehicle" | "pedestrian" | "cyclist" | null;
-            /** @description Places that it passes on its way, in this order; always in the frame `scene`. */
+            /** @description Via points in the order in which they are passed, always in the frame `scene`. */
             via?: components["schemas"]["Via"][];
             /**
              * Format: double
-             * @description Metres.
+             * @description Width, metres.
              */
             width_m?: number | null;
         };
         /**
          * Connection
-         * @description A way from a lane of an arm to a lane of an arm: the same one to turn back. All are counted from 0, arms in the order
-         *     of the parameters and lanes from the middle of the road to the kerb; written as ids of lanes, which count from 1.
+         * @description A path from an inbound lane to an outbound lane, which for a U-turn is of the same arm. Arms count in the order of
+         *     the parameters, lanes from the middle of the road to the kerb: from 0 here, from 1 in the ids of lanes that documents
+         *     have.
          */
         Connection: {
-            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            /** @description Inbound lane, such as `arm2.in1`: the lane of the second arm next to the middle of the road. */
             from: string;
-            /** @description A lane away from it, such as `arm3.out1`. */
+            /** @description Outbound lane, such as `arm3.out1`. */
             to: string;
         };
         /**
          * Connections
-         * @description What a junction has and has not beside the ways that its turn lanes make.
+         * @description Paths through a junction that are added to, or removed from, those of its turn lanes.
          */
         Connections: {
             /**
-             * @description Ways that there are in any case.
+             * @description Added paths.
              * @default []
              */
             added: components["schemas"]["Connection"][];
             /**
-             * @description Ways that there are not.
+             * @description Removed paths.
              * @default []
              */
             removed: components["schemas"]["Connection"][];
         };
         /**
          * Control
-         * @description Priority where roads meet.
+         * @description Right of way at a junction.
          *
          *     `signals`: Traffic lights.
          *
@@ -1424,7 +1431,7 @@ export interface components {
         Control: "signals" | "priority" | "equal";
         /**
          * CornerPlace
-         * @description Where a kerb bends.
+         * @description A bend of a kerb at a corner.
          */
         CornerPlace: {
             /** @description The arms that it joins. */
@@ -1463,7 +1470,7 @@ export interface components {
             diversity: number;
             /**
              * Format: double
-             * @description Seconds to generate.
+             * @description Time to generate, seconds.
              */
             horizon_s: number;
             /**
@@ -1478,7 +1485,7 @@ export interface components {
             samples: number;
             /**
              * Format: uint64
-             * @description Repeats the answer.
+             * @description Seed of the random draws; equal seeds give equal answers.
              */
             seed: number;
             /**
@@ -1489,18 +1496,18 @@ export interface components {
         };
         /**
          * Density
-         * @description How many: exactly one of the two.
+         * @description Density: exactly one of `count` and `per_lane_km`.
          */
         Density: {
             /**
              * Format: uint64
-             * @description Road users in all.
+             * @description Total number of road users.
              * @default null
              */
             count?: number | null;
             /**
              * Format: double
-             * @description Road users for each kilometre of lane for motor vehicles in the region, junctions left out.
+             * @description Road users per kilometre of lane for motor vehicles in the region, without junctions.
              * @default null
              */
             per_lane_km?: number | null;
@@ -1519,23 +1526,23 @@ export interface components {
          * DepartureWord
          * @description Why a road user left.
          *
-         *     `left_the_map`: The roads of the map end there.
+         *     `left_the_map`: It left the map.
          *
-         *     `arrived`: It is where its goal is.
+         *     `arrived`: It reached its goal.
          * @enum {string}
          */
         DepartureWord: "left_the_map" | "arrived";
         /**
          * Distribution
-         * @description A number, or where it is drawn from.
+         * @description A number, or the distribution that it is drawn from.
          */
         Distribution: number | {
-            /** @description Values in a grid, both bounds among them. */
+            /** @description Number of values in a grid, both bounds included. */
             points?: number;
-            /** @description Even between the least and the greatest value. */
+            /** @description Uniform between the least and the greatest value. */
             uniform: number[];
         } | {
-            /** @description One of these; a grid takes all. */
+            /** @description One of these values; a grid takes all. */
             choice: number[];
         };
         /**
@@ -1543,13 +1550,13 @@ export interface components {
          * @description `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where it begins.
          */
         DraftEvent: {
-            /** @description Futures by road user; only the chosen ones, or all by `stream_modes`. */
+            /** @description Futures by road user: only the chosen ones or all, according to `stream_modes`. */
             agents: {
                 [key: string]: components["schemas"]["Futures"];
             };
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -1561,7 +1568,7 @@ export interface components {
             job: string;
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
@@ -1571,7 +1578,7 @@ export interface components {
             sample: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
             /**
@@ -1581,7 +1588,7 @@ export interface components {
             step?: number;
             /**
              * Format: uint
-             * @description Refinement steps of a window.
+             * @description Refinement steps per window.
              */
             steps: number;
             /**
@@ -1592,7 +1599,7 @@ export interface components {
         };
         /**
          * Drivable
-         * @description A surface that may be driven on.
+         * @description A drivable surface.
          */
         Drivable: {
             /**
@@ -1600,19 +1607,19 @@ export interface components {
              * @default []
              */
             holes_m?: components["schemas"]["Points"][];
-            /** @description Unique among drivable areas. */
+            /** @description Id, unique among drivable areas. */
             id: string;
             /** @description Open ring. */
             polygon_m: components["schemas"]["Points"];
         };
         /**
          * DrivingManner
-         * @description Accelerations of a manner of moving.
+         * @description Acceleration limits of a driving style.
          */
         DrivingManner: {
             /**
              * Format: double
-             * @description Greatest speeding up.
+             * @description Greatest acceleration.
              */
             accel_mps2: number;
             /**
@@ -1632,14 +1639,14 @@ export interface components {
          */
         DuplicateRequest: {
             /**
-             * @description The original's with "copy" after it when absent.
+             * @description Name of the copy. Default: the original's, with "copy" after it.
              * @default null
              */
             name?: string | null;
         };
         /**
          * Ego
-         * @description An ego at the end of a step.
+         * @description State and plan of an ego at the end of a step.
          */
         Ego: {
             /**
@@ -1650,8 +1657,8 @@ export interface components {
             /** @description One of the run's egos. */
             id: string;
             /**
-             * @description Where it says that it goes: at most 90 states, the first 0.1 s after the step's end. Without a plan the others
-             *     expect it to go on along its lane.
+             * @description Announced motion: at most 90 states, the first 0.1 s after the step's end. Without a plan, the others expect
+             *     it to continue along its lane.
              * @default {
              *       "heading_rad": [],
              *       "vx_mps": [],
@@ -1663,12 +1670,12 @@ export interface components {
             plan?: components["schemas"]["Motion"];
             /**
              * Format: double
-             * @description Of the box centre, m/s.
+             * @description Velocity of the box centre, m/s.
              */
             vx_mps: number;
             /**
              * Format: double
-             * @description Of the box centre, m/s.
+             * @description Velocity of the box centre, m/s.
              */
             vy_mps: number;
             /**
@@ -1687,7 +1694,7 @@ export interface components {
          * @description A pair with a collision, an overlap or a near miss, and its surrogate safety measures.
          */
         Encounter: {
-            /** @description The one listed first. */
+            /** @description The road user listed first. */
             a: string;
             /** @description The other. */
             b: string;
@@ -1703,12 +1710,12 @@ export interface components {
             gap_m: number | null;
             /**
              * Format: double
-             * @description Least time gap of the one that follows the other: gap over its speed, seconds.
+             * @description Least headway of the follower, seconds: gap divided by its speed.
              */
             headway_s: number | null;
-            /** @description As in the list. */
+            /** @description As in the list of its kind. */
             in_log: boolean;
-            /** @description The list that it is in. */
+            /** @description Kind of the event. */
             kind: components["schemas"]["EncounterKind"];
             /** @description The worst values of the recording over the scored time; null without a recording of both. */
             log: components["schemas"]["Measures"] | null;
@@ -1729,18 +1736,18 @@ export interface components {
             ttc_s: number | null;
             /**
              * Format: double
-             * @description Between the two at that time, metres.
+             * @description Midpoint between the two at that time, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description Between the two at that time, metres.
+             * @description Midpoint between the two at that time, metres.
              */
             y_m: number;
         };
         /**
          * EncounterKind
-         * @description What a pair comes to.
+         * @description Kind of an encounter.
          *
          *     `collision`: In the list of collisions.
          *
@@ -1752,11 +1759,12 @@ export interface components {
         EncounterKind: "collision" | "overlap" | "near_miss";
         /**
          * Endpoint
-         * @description Which step counts as the end of a future.
+         * @description The step that counts as the end of a future.
          *
          *     `last`: The last one.
          *
-         *     `before_last`: The one before: the goal position was given, so the last says nothing (the paper's rule).
+         *     `before_last`: The one before: the goal position was given, so the last step carries no information (the paper's
+         *     rule).
          * @enum {string}
          */
         Endpoint: "last" | "before_last";
@@ -1767,7 +1775,7 @@ export interface components {
         ErrorEvent: {
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -1777,16 +1785,16 @@ export interface components {
             event: "error";
             /** @description Id of the job. */
             job: string;
-            /** @description Problem that a refusal before the stream would have returned. */
+            /** @description The problem, as a refusal before the stream returns it. */
             problem: components["schemas"]["Problem"];
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
         };
@@ -1797,17 +1805,17 @@ export interface components {
         Event: components["schemas"]["AcceptedEvent"] | components["schemas"]["DraftEvent"] | components["schemas"]["FinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["SupersededEvent"] | components["schemas"]["HeartbeatEvent"];
         /**
          * Fault
-         * @description One thing that is wrong with a motion.
+         * @description A fault of a motion.
          */
         Fault: {
             /** @description The road edge that is driven over, by its id in the map. */
             edge?: string | null;
             /**
              * Format: double
-             * @description How bad, in the unit of its kind.
+             * @description Extent, in the unit of its kind.
              */
             extent?: number | null;
-            /** @description What. */
+            /** @description Kind of the fault. */
             kind: components["schemas"]["FaultKind"];
             /**
              * Format: double
@@ -1836,48 +1844,48 @@ export interface components {
          * FaultKind
          * @description Kind of a fault, the worst first.
          *
-         *     `collision`: Its box meets another's; `extent` is the closing speed, m/s.
+         *     `collision`: Its box overlaps another's; `extent` is the closing speed, m/s.
          *
          *     `red_light`: A stop line is crossed at red; `extent` is the speed, m/s.
          *
-         *     `wrong_way`: Against the direction of every lane there; `extent` is how far, metres.
+         *     `wrong_way`: Against the direction of every lane there; `extent` is the distance driven, metres.
          *
-         *     `over_median`: Over what divides two roads; `extent` is how far past the edge, metres.
+         *     `over_median`: Over the median between two directions; `extent` is the distance past the edge, metres.
          *
-         *     `off_road`: Over a kerb or away from the road; `extent` is how far past the edge, metres.
+         *     `off_road`: Over a kerb or off the road; `extent` is the distance past the edge, metres.
          *
-         *     `off_map`: Where the roads of the map have ended; `extent` is how far from the lanes, metres.
+         *     `off_map`: Beyond the end of the map's roads; `extent` is the distance from the lanes, metres.
          *
-         *     `on_carriageway`: On foot along a lane, or across lanes beside a crosswalk; `extent` is how far, metres.
+         *     `on_carriageway`: On foot along a lane, or across lanes beside a crosswalk; `extent` is the distance walked, metres.
          *
-         *     `speeding`: Above the speed limit; `extent` is by how much, m/s.
+         *     `speeding`: Above the speed limit; `extent` is the excess, m/s.
          *
-         *     `harsh_braking`: Braking; `extent` in m/s2.
+         *     `harsh_braking`: Hard braking; `extent` is the deceleration, m/s2.
          *
-         *     `harsh_steering`: Turning; `extent` is the acceleration sideways, m/s2.
+         *     `harsh_steering`: Hard steering; `extent` is the sideways acceleration, m/s2.
          *
          *     `running`: A pedestrian runs; `extent` is the speed, m/s.
          *
-         *     `askew`: Ends at an angle to its lane; `extent` in radians.
+         *     `askew`: Ends at an angle to its lane; `extent` is the angle, radians.
          *
          *     `fails_to_yield`: A pedestrian waits at a crosswalk that this one drives over; `extent` is the pedestrian's delay, seconds.
          *
-         *     `forces_braking`: Another has to brake hard; `extent` is that braking, m/s2.
+         *     `forces_braking`: Another road user has to brake hard; `extent` is its deceleration, m/s2.
          *
-         *     `near_miss`: Another is met all but; `extent` is the gap, metres.
+         *     `near_miss`: Near miss with another road user; `extent` is the gap, metres.
          *
-         *     `via_missed`: A via point is passed too far away, or not at its time; `extent` is how far it is at the nearest, metres.
+         *     `via_missed`: A via point is passed too far away, or not at its time; `extent` is the least distance to it, metres.
          *
-         *     `goal_missed`: The goal is not met; `extent` is what is left, metres.
+         *     `goal_missed`: The goal is not met; `extent` is the remaining distance, metres.
          * @enum {string}
          */
         FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "off_map" | "on_carriageway" | "speeding" | "harsh_braking" | "harsh_steering" | "running" | "askew" | "fails_to_yield" | "forces_braking" | "near_miss" | "via_missed" | "goal_missed";
         /**
          * Features
-         * @description A motion of one road user, or of several together, in such terms.
+         * @description The traits of a motion of one road user, or of several together.
          */
         Features: {
-            /** @description By road user and other: it goes first where their ways cross. */
+            /** @description By road user and other: whether it goes first where their paths cross. */
             first?: {
                 [key: string]: {
                     [key: string]: boolean;
@@ -1885,31 +1893,32 @@ export interface components {
             };
             /**
              * Format: double
-             * @description Mean distance from the recording, metres; of several their mean. Absent where nothing was recorded.
+             * @description Mean distance from the recording, metres; for several road users the mean. Absent without a recording.
              */
             from_log_m?: number | null;
             /**
              * Format: double
-             * @description Least time between it and another where their ways cross, at most 5 s; of several the least.
+             * @description Least time between it and another where their paths cross, seconds, at most 5; for several road users
+             *     the least.
              */
             gap_s: number;
             /**
              * Format: double
-             * @description Greatest change of velocity over half a second, m/s2; of several the greatest.
+             * @description Greatest change of velocity over half a second, m/s2; for several road users the greatest.
              */
             harshness_mps2: number;
-            /** @description By road user: what it drives. */
+            /** @description Manoeuvre by road user. */
             manoeuvres?: {
                 [key: string]: components["schemas"]["Manoeuvre"];
             };
             /**
              * Format: double
-             * @description Mean speed, m/s; of several their mean.
+             * @description Mean speed, m/s; for several road users the mean.
              */
             pace_mps: number;
             /**
              * Format: double
-             * @description Time that it stands, seconds; of several their mean.
+             * @description Time at standstill, seconds; for several road users the mean.
              */
             standing_s: number;
         };
@@ -1920,12 +1929,12 @@ export interface components {
          */
         Feedback: {
             /**
-             * @description Judged cards, the first round's first, without cards that were neither kept nor rejected.
+             * @description Judged cards in the order of the rounds, without cards that were neither kept nor rejected.
              * @default []
              */
             answers?: components["schemas"]["Answer"][];
             /**
-             * @description Traits to ignore, whatever the verdicts show.
+             * @description Traits to ignore, whatever the verdicts are.
              * @default []
              */
             forgotten?: components["schemas"]["Trait"][];
@@ -1937,41 +1946,41 @@ export interface components {
         };
         /**
          * Field
-         * @description A value and where it came from.
+         * @description A value and its source.
          */
         Field: {
             /** @description Origin. */
             from: components["schemas"]["Source"];
             /**
              * Format: double
-             * @description In the unit of the field's name.
+             * @description Value, in the unit of the field's name.
              */
             value: number;
         };
         /**
          * FieldProblem
-         * @description One fault and its place.
+         * @description A fault of a request and its place.
          */
         FieldProblem: {
-            /** @description A word that programs can switch on. */
+            /** @description Code for programs. */
             code: string;
             /** @description Value found and value expected, in English. */
             detail: string;
             /**
              * Format: double
-             * @description The value found, where it is a number.
+             * @description The value found, if it is a number.
              */
             got?: number;
             /**
              * Format: double
-             * @description Greatest value allowed, where that is the fault.
+             * @description Greatest allowed value, if it is exceeded.
              */
             max?: number;
             /** @description The fault as data; faults outside of bodies and files may have none. */
             message?: components["schemas"]["Message"];
             /**
              * Format: double
-             * @description Least value allowed, where that is the fault.
+             * @description Least allowed value, if it is not reached.
              */
             min?: number;
             /** @description JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter. */
@@ -1983,18 +1992,18 @@ export interface components {
          */
         FinalEvent: {
             /**
-             * @description Are the probabilities of the futures calibrated? If false, they are relative weights: their order counts.
-             *     docs/results.md has their log loss.
+             * @description Whether the probabilities of the futures are calibrated. If not, they are relative weights, of which only
+             *     the order counts. docs/results.md has their log loss.
              */
             calibrated: boolean;
             /**
-             * @description Six characters that name what the answer follows from: the scene with its conditions and the futures it keeps,
-             *     options, seed, weights and version. Identical calls have identical codes.
+             * @description Result code, six characters. It identifies the inputs of the answer: the scene with its conditions and the
+             *     futures it keeps, options, seed, weights and version. Identical calls have identical codes.
              */
             code: string;
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -2002,22 +2011,22 @@ export interface components {
              * @constant
              */
             event: "final";
-            /** @description Of a round: what its cards are like, and what was learned. */
+            /** @description Of a round: the features of its cards, and the learned wishes. */
             feedback?: components["schemas"]["Round"];
             /**
-             * @description The scene's `generated` member, all but `samples`: put `samples` in and save (those in
+             * @description The scene's `generated` member without `samples`. To save the answer, insert `samples` (those in
              *     compact form as columns).
              */
             generated: components["schemas"]["GeneratedHead"];
             /** @description Id of the job. */
             job: string;
-            /** @description Every condition field as it was used. */
+            /** @description All condition fields as they were used. */
             resolved: {
                 [key: string]: components["schemas"]["Resolved"];
             };
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
@@ -2029,17 +2038,17 @@ export interface components {
             scores: components["schemas"]["ScoreReply"][] | null;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
-            /** @description Where the time went. */
+            /** @description Durations of the stages. */
             timing: components["schemas"]["Timing"];
-            /** @description Unlikely things that were done anyway. */
+            /** @description Warnings: unlikely requests that were carried out. */
             warnings: components["schemas"]["Warning"][];
             /**
              * Format: uint
-             * @description Planning windows that were run. A chosen future runs through all of them; its alternatives are those
-             *     of the first and end with its plan.
+             * @description Number of planning windows. A chosen future covers all of them; its alternatives are those of the
+             *     first window and end with the plan of that window.
              */
             windows: number;
         };
@@ -2048,40 +2057,40 @@ export interface components {
          * @description Description of a format for clients.
          */
         FormatInfo: {
-            /** @description Can be written. */
+            /** @description Whether it can be written. */
             export: boolean;
-            /** @description Ends of file names, the first one for exports. */
+            /** @description File extensions, the first one for exports. */
             extensions: string[];
-            /** @description Word for `--from`, `--to` and `?format=`. */
+            /** @description Id for `--from`, `--to` and `?format=`. */
             id: string;
-            /** @description Can be read. */
+            /** @description Whether it can be read. */
             import: boolean;
             /**
-             * @description Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports the
-             *     losses it had.
+             * @description Codes of the losses that a written file may have ([`crate::loss::code`]). Each export reports its
+             *     losses.
              */
             loses: string[];
-            /** @description Holds many scenes in one file. */
+            /** @description Whether one file holds many scenes. */
             many: boolean;
             /** @description Media type of an exported file. */
             media_type: string;
-            /** @description For people. */
+            /** @description Display name. */
             name: string;
-            /** @description Content of a file, and how it is read and written. */
+            /** @description Description of the content of a file, and of reading and writing it. */
             notes: string;
-            /** @description May come with the network it belongs to ([`ImportOptions::net`]). */
+            /** @description Whether it may come with its road network ([`ImportOptions::net`]). */
             takes_net: boolean;
         };
         /**
          * Future
-         * @description One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
-         *     0.001 m, 0.0001 rad and 0.001 m/s.
+         * @description One possible motion as columns, one value per step from `first_step`, without gaps. Rounded to 0.001 m,
+         *     0.0001 rad and 0.001 m/s.
          */
         Future: {
             /**
              * Format: uint32
-             * @description Which of the generator's anchors it follows: the same number while a goal is dragged is the same
-             *     idea.
+             * @description Index of the generator's anchor that it follows. While a goal is dragged, an equal index means the
+             *     same plan.
              */
             anchor?: number | null;
             /** @description Faults, the worst first. */
@@ -2097,7 +2106,7 @@ export interface components {
             manoeuvre?: components["schemas"]["Manoeuvre"] | null;
             /**
              * Format: double
-             * @description Share of belief among the road user's futures.
+             * @description Probability among the road user's futures.
              */
             probability: number;
             /** @description Relations to other road users. */
@@ -2118,9 +2127,9 @@ export interface components {
         Futures: components["schemas"]["AgentFutures"] | components["schemas"]["CompactFutures"];
         /**
          * FuturesForm
-         * @description How the futures of a reply are written.
+         * @description Form of the futures in a reply.
          *
-         *     `columns`: As a scene document has them.
+         *     `columns`: As in a scene document.
          *
          *     `compact`: The same numbers in about half the bytes.
          * @enum {string}
@@ -2154,9 +2163,9 @@ export interface components {
              */
             client?: string | null;
             /**
-             * @description Replace the scene's own conditions of these road users, whole. Type and size always count. A start, goal or via
-             *     point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the scene
-             *     keeps no future of it, and its own conditions are others.
+             * @description Conditions that replace all those of the scene for these road users. Type and size always apply. A start, goal
+             *     or via point is refused (`not-asked`) where it would change no motion: the road user is not in `agents`, the
+             *     scene keeps no future of it, and its own conditions are others.
              * @default {}
              */
             conditions?: {
@@ -2170,21 +2179,21 @@ export interface components {
             diversity?: number;
             /**
              * Format: uint64
-             * @description Drafts that stand sooner than this after the work began are left out, `initial` too, in milliseconds; 0
-             *     leaves out none. An answer that is there as soon as that needs no drafts before it, and comes together with
-             *     `accepted`, which waits for it so long.
+             * @description Time from the start of the work before which drafts are left out, `initial` included, milliseconds; 0
+             *     leaves out none. `accepted` waits as long for the first draft or the answer: an early answer comes together
+             *     with it.
              * @default 0
              */
             draft_delay_ms?: number;
             /**
              * Format: uint64
-             * @description `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
-             *     all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+             * @description Minimum time between two drafts, milliseconds: an earlier `step` event is left out; 0 sends all. A page at
+             *     60 frames per second shows at most one draft in 16 ms.
              * @default 0
              */
             draft_interval_ms?: number;
             /**
-             * @description With `scene_id`: refuse when the scene has changed.
+             * @description With `scene_id`: the call is refused if the scene has changed.
              * @default null
              */
             etag?: string | null;
@@ -2195,7 +2204,7 @@ export interface components {
              * @default null
              */
             feedback?: components["schemas"]["Feedback"] | null;
-            /** @description How futures are written, in drafts and in `final`. */
+            /** @description Form of the futures, in drafts and in `final`. */
             futures?: components["schemas"]["FuturesForm"];
             /**
              * @description With `scene`: the server holds it in memory. Later calls use the name in the reply's header `Dragtraffic-Scene`
@@ -2205,17 +2214,17 @@ export interface components {
             hold?: boolean;
             /**
              * Format: double
-             * @description Time to generate, seconds. Beyond 9 s it is planned window after window.
+             * @description Time to generate, seconds. Beyond 9 s it is planned window by window.
              * @default 9
              */
             horizon_s?: number;
             /**
-             * @description The client's id of the job, to cancel it by.
+             * @description The client's id of the job, which can cancel it.
              * @default null
              */
             job?: string | null;
             /**
-             * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
+             * @description Use of the futures of earlier calls, for road users that are not generated in this one.
              * @default answered
              */
             kept_futures?: components["schemas"]["KeptFutures"];
@@ -2249,7 +2258,7 @@ export interface components {
             replan_interval_s?: number | null;
             /**
              * Format: uint64
-             * @description Rises with each request of `client`.
+             * @description Increases with each request of `client`.
              * @default null
              */
             revision?: number | null;
@@ -2270,7 +2279,7 @@ export interface components {
              */
             scene_id?: string | null;
             /**
-             * @description Put scores into `final`.
+             * @description Whether `final` has scores.
              * @default true
              */
             score?: boolean;
@@ -2300,13 +2309,13 @@ export interface components {
              */
             steps?: number;
             /**
-             * @description What drafts carry.
+             * @description Futures in drafts.
              * @default chosen
              */
             stream_modes?: components["schemas"]["StreamModes"];
             /**
-             * @description Numbers that decide what counts as a near miss, harsh braking and the like, in `faults` and `scores`; those
-             *     absent have their defaults. They change no motion.
+             * @description Thresholds of near misses, harsh braking and the like, in `faults` and `scores`; absent ones have their
+             *     defaults. They change no motion.
              * @default {
              *       "along_lane_m": 3,
              *       "askew_rad": 0.26,
@@ -2351,11 +2360,11 @@ export interface components {
              * @default 0
              */
             chosen_sample?: number;
-            /** @description RFC 3339 time; absent where equal calls are to give equal files. */
+            /** @description RFC 3339 time; absent where equal calls must give equal files. */
             created_at?: string;
-            /** @description Hash of the user's part that these futures answer. */
+            /** @description Hash of the user's part of the scene, from which the futures were generated. */
             input_sha256: string;
-            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            /** @description Licence of the answer if it is stricter than that of the scene: the licence of the weights. */
             licence?: string | null;
             /**
              * @description The request's options as sent.
@@ -2371,12 +2380,12 @@ export interface components {
              */
             seed?: number;
             /**
-             * @description The user's part has changed since.
+             * @description Whether the user's part has changed since.
              * @default false
              */
             stale?: boolean;
             /**
-             * @description Expert's name to the hash of its weights.
+             * @description Hash of the weights by expert.
              * @default {}
              */
             weights?: {
@@ -2395,9 +2404,9 @@ export interface components {
             chosen_sample: number;
             /** @description RFC 3339 time. */
             created_at: string;
-            /** @description Hash of the user's part that the futures answer. */
+            /** @description Hash of the user's part of the scene, from which the futures were generated. */
             input_sha256: string;
-            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            /** @description Licence of the answer if it is stricter than that of the scene: the licence of the weights. */
             licence?: string | null;
             /** @description The request's options as sent, without scene and conditions. */
             request: unknown;
@@ -2406,9 +2415,9 @@ export interface components {
              * @description Seed that repeats the answer.
              */
             seed: number;
-            /** @description The user's part has changed since. */
+            /** @description Whether the user's part has changed since. */
             stale: boolean;
-            /** @description Expert's name to the hash of its weights. */
+            /** @description Hash of the weights by expert. */
             weights: {
                 [key: string]: string;
             };
@@ -2425,7 +2434,7 @@ export interface components {
             ahead_m?: number | null;
             /**
              * Format: double
-             * @description Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+             * @description Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
              */
             heading_rad?: number | null;
             /**
@@ -2434,13 +2443,13 @@ export interface components {
              */
             left_m?: number | null;
             /**
-             * @description Ids of road edges of the map, such as those of a median, that the road user may drive over: no fault, and no
-             *     reason to go another way.
+             * @description Ids of road edges of the map, such as those of a median, that the road user may drive over, without a fault
+             *     and without a detour.
              */
             may_cross?: string[];
             /**
-             * @description What the goal is relative to. It replaces place, heading and, where none is fixed, speed; with `after_s` it
-             *     replaces the time.
+             * @description Road user that the goal is relative to. The relation replaces position, heading and, where none is fixed,
+             *     speed; with `after_s` it replaces the time.
              */
             relation?: components["schemas"]["GoalRelation"] | null;
             /**
@@ -2455,10 +2464,11 @@ export interface components {
             time_s?: number | null;
             /**
              * Format: double
-             * @description Frame `agent`: radians from the start's heading, then wrapped; a request takes at most a turn either way, 6.2832.
+             * @description Frame `agent`: radians from the start's heading, wrapped when read; a request may have at most a full
+             *     turn either way, 6.2832.
              */
             turn_rad?: number | null;
-            /** @description In place of `speed_mps`; fixes a free heading too. */
+            /** @description Velocity in place of `speed_mps`; it also fixes a free heading. */
             velocity?: components["schemas"]["Velocity"] | null;
             /**
              * Format: double
@@ -2494,7 +2504,7 @@ export interface components {
         };
         /**
          * GoalRanges
-         * @description Fields of a goal; those absent are free.
+         * @description Fields of a goal; absent ones are free.
          */
         GoalRanges: {
             /** @description Metres along the heading of the start, or of the recorded goal. */
@@ -2506,11 +2516,11 @@ export interface components {
             /** @description Metres to the left of this heading; 0 with `ahead_m` alone. */
             left_m?: components["schemas"]["Distribution"] | null;
             /**
-             * @description The goal is where the recording has the road user at `time_s`, with its heading and speed there; `ahead_m`,
-             *     `left_m` and `turn_rad` are from there, in place of the start. Default: false.
+             * @description The goal is the recorded state of the road user at `time_s`; `ahead_m`, `left_m` and `turn_rad` are
+             *     relative to it instead of the start. Default: false.
              */
             recorded?: boolean;
-            /** @description What the goal is relative to. */
+            /** @description Road user that the goal is relative to. */
             relation?: components["schemas"]["GoalRelationRanges"] | null;
             /** @description Metres per second. */
             speed_mps?: components["schemas"]["Distribution"] | null;
@@ -2533,17 +2543,18 @@ export interface components {
         GoalRelation: {
             /**
              * Format: double
-             * @description The goal's own place is reached so many seconds after the other one was nearest to it; negative is before.
+             * @description Seconds from the moment when the other one is nearest to the goal's position until the goal is
+             *     reached; negative is before.
              */
             after_s?: number | null;
             /**
              * Format: double
-             * @description Gap from the front of the other one to the own rear, along the lanes, metres.
+             * @description Gap from the front of the other one to the rear of this road user, along the lanes, metres.
              */
             ahead_m?: number | null;
             /**
              * Format: double
-             * @description Gap from the own front to the rear of the other one, along the lanes, metres.
+             * @description Gap from the front of this road user to the rear of the other one, along the lanes, metres.
              */
             behind_m?: number | null;
             /**
@@ -2553,16 +2564,17 @@ export interface components {
             behind_s?: number | null;
             /**
              * Format: int32
-             * @description Lanes to the left of the other one's lane in its direction; negative is to the right. Not with `after_s`; 0 when
-             *     free.
+             * @description Number of lanes to the left of the other one's lane, in its direction; negative is to the right. Not with
+             *     `after_s`; 0 when free.
              */
             lanes_left?: number | null;
             /**
              * Format: double
-             * @description How much slower than the other one, m/s; negative is faster. Not with `after_s`; 0 when free.
+             * @description Speed difference to the other one, m/s: positive is slower, negative is faster. Not with `after_s`; 0
+             *     when free.
              */
             slower_mps?: number | null;
-            /** @description Id of the other road user. Relations form no ring, and no row of more than four. */
+            /** @description Id of the other road user. Relations form no cycle, and no chain of more than four. */
             to: string;
         } & ({
             ahead_m: number;
@@ -2578,17 +2590,20 @@ export interface components {
          * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m`, `behind_s` and `after_s`.
          */
         GoalRelationRanges: {
-            /** @description The goal's own place is reached so many seconds after the other one was nearest to it. */
+            /**
+             * @description Seconds from the moment when the other one is nearest to the goal's position until the goal is
+             *     reached.
+             */
             after_s?: components["schemas"]["Distribution"] | null;
-            /** @description Gap from the front of the other one to the own rear, metres. */
+            /** @description Gap from the front of the other one to the rear of this road user, metres. */
             ahead_m?: components["schemas"]["Distribution"] | null;
-            /** @description Gap from the own front to the rear of the other one, metres. */
+            /** @description Gap from the front of this road user to the rear of the other one, metres. */
             behind_m?: components["schemas"]["Distribution"] | null;
             /** @description The same gap in seconds at the speed of the goal. */
             behind_s?: components["schemas"]["Distribution"] | null;
-            /** @description Lanes to the left of the other one's, in whole numbers; negative is to the right. */
+            /** @description Number of lanes to the left of the other one's lane, a whole number; negative is to the right. */
             lanes_left?: components["schemas"]["Distribution"] | null;
-            /** @description How much slower than the other one, m/s; negative is faster. */
+            /** @description Speed difference to the other one, m/s: positive is slower, negative is faster. */
             slower_mps?: components["schemas"]["Distribution"] | null;
             /** @description Id of the other road user. */
             to: string;
@@ -2602,17 +2617,17 @@ export interface components {
         };
         /**
          * HealthStatus
-         * @description Health of the server in a word, for its operators.
+         * @description Health of the server in one word, for its operators.
          *
          *     `ok`: The process answers.
          *
-         *     `ready`: It takes work.
+         *     `ready`: It accepts work.
          * @enum {string}
          */
         HealthStatus: "ok" | "ready";
         /**
          * HeartbeatEvent
-         * @description A sign of life between events, only in NDJSON: SSE has comments for it.
+         * @description Keep-alive between events, only in NDJSON; SSE uses comments.
          */
         HeartbeatEvent: {
             /** @constant */
@@ -2620,22 +2635,22 @@ export interface components {
         };
         /**
          * ImportReply
-         * @description Result of a file.
+         * @description Result of importing a file.
          */
         ImportReply: {
-            /** @description A name of the formats table. */
+            /** @description Id of the format. */
             format: string;
             /** @description Scenes in the order of the file. */
             scenes: components["schemas"]["ImportedScene"][];
-            /** @description Records that are no scenes. */
+            /** @description Records that are not scenes. */
             skipped: components["schemas"]["SkippedRecord"][];
         };
         /**
          * ImportWarning
-         * @description Something a reader changed or left out without refusing.
+         * @description A change or an omission by a reader that accepted the file.
          */
         ImportWarning: {
-            /** @description The kind of change; programs switch on it. */
+            /** @description Kind of the change, a code for programs. */
             code: string;
             /** @description The change in English. */
             detail: string;
@@ -2644,31 +2659,31 @@ export interface components {
         };
         /**
          * ImportedBody
-         * @description Result of a file, or of each of several.
+         * @description Result of importing a file, or of each of several.
          */
         ImportedBody: components["schemas"]["ImportReply"] | components["schemas"]["ImportedFiles"];
         /**
          * ImportedFile
-         * @description One of several files: what it gave, or why it gave nothing.
+         * @description One of several files, with its result or its problem.
          */
         ImportedFile: {
-            /** @description A name of the formats table. */
+            /** @description Id of the format. */
             format?: string;
-            /** @description Name of the file, as the form gave it. */
+            /** @description Name of the file in the form. */
             name?: string;
-            /** @description Why nothing of it was taken. */
+            /** @description Problem for which nothing was imported. */
             problem?: components["schemas"]["Problem"];
             /** @description Scenes in the order of the file. */
             scenes?: components["schemas"]["ImportedScene"][];
-            /** @description Records that are no scenes. */
+            /** @description Records that are not scenes. */
             skipped?: components["schemas"]["SkippedRecord"][];
         };
         /**
          * ImportedFiles
-         * @description Results of several files.
+         * @description Results of importing several files.
          */
         ImportedFiles: {
-            /** @description In the order of the form. */
+            /** @description Results in the order of the form. */
             files: components["schemas"]["ImportedFile"][];
         };
         /**
@@ -2680,15 +2695,15 @@ export interface components {
             counts: components["schemas"]["Counts"];
             /** @description As in the ETag header; not in a dry run. */
             etag?: string;
-            /** @description Id it was stored under; not in a dry run. */
+            /** @description Id under which it is stored; not in a dry run. */
             id?: string;
-            /** @description For people. */
+            /** @description Display name. */
             name: string;
             /** @description The scene itself, only in a dry run. */
             scene?: components["schemas"]["Scene"];
             /**
              * Format: uint
-             * @description Steps of 0.1 s.
+             * @description Number of steps of 0.1 s.
              */
             steps: number;
             /** @description Changes and omissions of the reader. */
@@ -2696,52 +2711,75 @@ export interface components {
         };
         /**
          * Info
-         * @description What this server is and can do.
+         * @description Description of the server.
          */
         Info: {
             build: components["schemas"]["Build"];
-            /** @description What conditions may ask for. */
+            /** @description Ranges of conditions. */
             condition_ranges: components["schemas"]["ConditionRanges"];
-            /** @description What a generation has when the request does not say. */
+            /** @description Defaults of a generation. */
             defaults: components["schemas"]["Defaults"];
-            /** @description What computes the networks. */
+            /** @description Device that computes the networks. */
             device: string;
             /** @description Formats of files. */
             formats: components["schemas"]["FormatInfo"][];
-            /** @description Bounds of the server by name, and those of the scene format. */
+            /** @description Limits of the server and of the scene format, by name. */
             limits: {
                 [key: string]: components["schemas"]["Bound"];
             };
-            /** @description What each kind of road user can do. */
+            /** @description Motion limits of each kind of road user. */
             motion_limits: components["schemas"]["KindLimits"];
             /** @description Name of the program. */
             name: string;
-            /** @description Sentences for people who run the server. */
+            /** @description Notices for the operators of the server. */
             notices: string[];
             /** @description Weights of placement; null when road users are placed evenly along lanes. */
             placement: components["schemas"]["PlacementInfo"] | null;
             /** @description Version of the program. */
             version: string;
+            /** @description Versions of the interfaces. */
+            versions: components["schemas"]["InterfaceVersions"];
             /** @description Experts by name. */
             weights: {
                 [key: string]: components["schemas"]["WeightsInfo"];
             };
         };
         /**
+         * InterfaceVersions
+         * @description Versions of the interfaces: each changes only when older programs or files need a change.
+         */
+        InterfaceVersions: {
+            /**
+             * Format: uint64
+             * @description The API, the first part of its addresses: `/v1`.
+             */
+            api: number;
+            /**
+             * Format: uint64
+             * @description The scene document.
+             */
+            scene: number;
+            /**
+             * Format: uint64
+             * @description The file of saved scenes; absent in a program without one.
+             */
+            store?: number | null;
+        };
+        /**
          * Intermediate
-         * @description The state to which a window sends a road user whose goal is due after the window's end. It lies on the way
-         *     to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+         * @description The target of a planning window for a road user whose goal is due after the window's end. It lies on the
+         *     way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
          */
         Intermediate: {
             /** Format: double */
             heading_rad: number;
-            /** @description The plan met it. */
+            /** @description Whether the plan reaches it. */
             reached: boolean;
             /** Format: double */
             speed_mps: number;
             /**
              * Format: double
-             * @description Scene time at which the state was to be reached, seconds: the end of the window's plan.
+             * @description Scene time of the target, seconds: the end of the window's plan.
              */
             time_s: number;
             /**
@@ -2760,7 +2798,7 @@ export interface components {
          */
         Junction: {
             /**
-             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @description 3 to 6 arms, at least 20 degrees apart.
              * @default [
              *       {
              *         "angle_deg": 3,
@@ -2816,7 +2854,7 @@ export interface components {
             /** @description Single connections through the junction, in addition to those of the turn lanes. */
             connections?: components["schemas"]["Connections"];
             /**
-             * @description Priority at the junction.
+             * @description Right of way at the junction.
              * @default signals
              */
             control: components["schemas"]["Control"];
@@ -2833,7 +2871,7 @@ export interface components {
              */
             lane_width_m: number;
             /**
-             * @description Lights, with `signals`.
+             * @description Signal program, with `signals`.
              * @default {
              *       "all_red_s": 1,
              *       "green_s": 10,
@@ -2845,47 +2883,48 @@ export interface components {
             program: components["schemas"]["Program"];
             /**
              * Format: double
-             * @description Width of the pavements, metres; less than half a metre is none.
+             * @description Width of the pavements, metres; below half a metre there are none.
              * @default 2.5
              */
             sidewalk_m: number;
             /**
-             * @description Side of the road that traffic keeps to.
+             * @description Side of the road on which traffic drives.
              * @default right-hand
              */
             traffic: components["schemas"]["Traffic"];
         };
         /**
          * JunctionPath
-         * @description A way through a junction that is drawn.
+         * @description A drawn path through a junction.
          */
         JunctionPath: {
-            /** @description It is there because it was added. */
+            /** @description Whether it was added to those of the turn lanes. */
             added: boolean;
-            /** @description A lane towards the junction, such as `arm2.in1`: of the second arm the one next to the middle of the road. */
+            /** @description Inbound lane, such as `arm2.in1`: the lane of the second arm next to the middle of the road. */
             from: string;
             /** @description Id of its lane in the map. */
             lane: string;
-            /** @description A lane away from it, such as `arm3.out1`. */
+            /** @description Outbound lane, such as `arm3.out1`. */
             to: string;
             /** @description The direction, as seen from the entry. */
             turn: components["schemas"]["Turn"];
         };
         /**
          * KeptFutures
-         * @description What becomes of the futures of earlier calls, of road users that are not generated in this one.
+         * @description Use of the futures of earlier calls, for road users that are not generated in this one.
          *
-         *     `answered`: They are planned around and answered beside the new ones: the samples are the whole scene's.
+         *     `answered`: The plans take them into account, and the answer contains them beside the new ones: its samples are of
+         *     the whole scene.
          *
-         *     `omitted`: They are planned around and not answered, for a client that has them itself.
+         *     `omitted`: The plans take them into account, and the answer leaves them out, for a client that has them.
          *
-         *     `forgotten`: They are dropped before planning: their road users follow the recording again.
+         *     `forgotten`: They are removed before planning: their road users follow the recording again.
          * @enum {string}
          */
         KeptFutures: "answered" | "omitted" | "forgotten";
         /**
          * KindLimits
-         * @description Motion limits by kind of road user, each of the kind's usual size.
+         * @description Motion limits by kind of road user, for the usual size of each kind.
          */
         KindLimits: {
             bus: components["schemas"]["MotionLimits"];
@@ -2904,7 +2943,7 @@ export interface components {
         Kinematic: {
             /**
              * Format: double
-             * @description Greatest speeding up, m/s2.
+             * @description Greatest acceleration, m/s2.
              */
             accel_mps2: number;
             /**
@@ -2914,12 +2953,12 @@ export interface components {
             brake_mps2: number;
             /**
              * Format: double
-             * @description Greatest curvature above 1 m/s, 1/m; none for walkers.
+             * @description Greatest curvature above 1 m/s, 1/m; none for pedestrians.
              */
             curvature_per_m: number | null;
             /**
              * Format: double
-             * @description Greatest jerk along the way, m/s3; none for walkers.
+             * @description Greatest jerk along the path, m/s3; none for pedestrians.
              */
             jerk_mps3: number | null;
             /**
@@ -2934,12 +2973,12 @@ export interface components {
             speed_mps: number;
             /**
              * Format: uint
-             * @description Steps with at least one value over its limit ([`KinematicLimits`]).
+             * @description Number of steps with at least one value over its limit ([`KinematicLimits`]).
              */
             violations: number;
             /**
              * Format: double
-             * @description Greatest turning, rad/s; none for walkers.
+             * @description Greatest yaw rate, rad/s; none for pedestrians.
              */
             yaw_rate_radps: number | null;
         };
@@ -2948,10 +2987,10 @@ export interface components {
          * @description One lane.
          */
         Lane: {
-            /** @description Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`. */
+            /** @description Id, unique among lanes, `[A-Za-z0-9_.:-]{1,64}`. */
             id: string;
             /**
-             * @description Leads through a junction between two lanes.
+             * @description Whether it connects two lanes through a junction.
              * @default false
              */
             interpolating?: boolean;
@@ -2968,7 +3007,7 @@ export interface components {
             /** @description Centre line in driving direction, at least two points. */
             points_m: components["schemas"]["Points"];
             /**
-             * @description Ids of lanes that lead here.
+             * @description Ids of lanes that lead to this one.
              * @default []
              */
             predecessors?: string[];
@@ -3001,7 +3040,7 @@ export interface components {
             type?: "undefined" | "freeway" | "surface_street" | "bike_lane" | "bus_lane" | "sidewalk" | "parking";
             /**
              * Format: double
-             * @description Metres; assumed by type when absent.
+             * @description Width, metres; assumed by type when absent.
              * @default null
              */
             width_m?: number | null;
@@ -3057,29 +3096,29 @@ export interface components {
         };
         /**
          * LearnedWish
-         * @description A wish with what it rests on.
+         * @description A learned wish with its evidence.
          */
         LearnedWish: {
-            /** @description Positions of the answers that contradict it. */
+            /** @description Indices of the answers that contradict it. */
             against: number[];
-            /** @description Least and most among the kept ones, in the unit of the trait; none were kept: absent. */
+            /** @description Least and greatest value of the kept cards, in the unit of the trait; absent if none were kept. */
             kept?: [
                 number,
                 number
             ] | null;
-            /** @description Least and most among the rejected ones. */
+            /** @description Least and greatest value of the rejected cards. */
             rejected?: [
                 number,
                 number
             ] | null;
-            /** @description It was said outright. */
+            /** @description Whether the user stated it. */
             said: boolean;
             /**
              * Format: double
-             * @description How sure it is, 0 to 1.
+             * @description Confidence, 0 to 1.
              */
             strength: number;
-            /** @description Which way. */
+            /** @description Direction of the wish. */
             wants: components["schemas"]["WishDirection"];
         } & ({
             /** @constant */
@@ -3113,27 +3152,27 @@ export interface components {
         });
         /**
          * Limiting
-         * @description The limit of motion that binds.
+         * @description Reason why a goal is unreachable: a motion limit, traffic, or a relation that does not exist.
          *
-         *     `acceleration`: Speeding up, m/s2.
+         *     `acceleration`: Acceleration, m/s2.
          *
-         *     `braking`: Slowing down, m/s2.
+         *     `braking`: Deceleration, m/s2.
          *
          *     `speed`: Top speed, m/s.
          *
          *     `lateral`: Sideways acceleration, m/s2.
          *
-         *     `curvature`: Tightness of a turn, 1/m.
+         *     `curvature`: Curvature, 1/m.
          *
-         *     `traffic`: Another agent is in the way and stays there.
+         *     `traffic`: Another road user blocks the path permanently.
          *
-         *     `relation`: The goal is relative to an agent or a lane that is not there.
+         *     `relation`: The goal is relative to a road user or a lane that does not exist there.
          * @enum {string}
          */
         Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic" | "relation";
         /**
          * Log
-         * @description The word `log`.
+         * @description The value `log`.
          *
          *     `log`: The recording.
          * @enum {string}
@@ -3147,7 +3186,7 @@ export interface components {
         Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
         /**
          * Map
-         * @description Everything that does not move.
+         * @description The map of a scene: lanes, lines, edges, areas and stop signs.
          */
         Map: {
             /**
@@ -3156,7 +3195,7 @@ export interface components {
              */
             crosswalks?: components["schemas"]["Area"][];
             /**
-             * @description Surfaces that may be driven on.
+             * @description Drivable surfaces.
              * @default []
              */
             drivable?: components["schemas"]["Drivable"][];
@@ -3171,7 +3210,7 @@ export interface components {
              */
             lanes?: components["schemas"]["Lane"][];
             /**
-             * @description Ends of the road's surface.
+             * @description Edges of the road surface.
              * @default []
              */
             road_edges?: components["schemas"]["RoadEdge"][];
@@ -3197,7 +3236,7 @@ export interface components {
          */
         MapBody: {
             /**
-             * @description Name of the scene; that of the template when left out.
+             * @description Name of the scene. Default: that of the template.
              * @default null
              */
             name?: string | null;
@@ -3224,17 +3263,17 @@ export interface components {
         MapItem: {
             /**
              * Format: uint64
-             * @description Size of its JSON.
+             * @description Size of its JSON, bytes.
              */
             bytes: number;
             /**
              * Format: uint64
-             * @description Points of them all.
+             * @description Total number of their points.
              */
             points: number;
             /**
              * Format: uint64
-             * @description Lines and areas.
+             * @description Number of its lines and areas.
              */
             polylines: number;
             /** @description Content hash, 64 hex digits. */
@@ -3249,7 +3288,7 @@ export interface components {
         };
         /**
          * MapRef
-         * @description Names a map by its content.
+         * @description Reference to a map by its content hash.
          */
         MapRef: {
             /** @description `sha256:` and 64 hex digits, see `scene::LaneMap::hash`. */
@@ -3260,17 +3299,17 @@ export interface components {
          * @description A new map.
          */
         MapReply: {
-            /** @description Where the arms lie, in the order of the parameters. */
+            /** @description Positions of the arms, in the order of the parameters. */
             arms: components["schemas"]["ArmPlace"][];
-            /** @description What was looked at. A check that failed forbids nothing. */
+            /** @description Checks of the map. A failed check is only a notice. */
             checks: components["schemas"]["Check"][];
-            /** @description Where kerbs bend between them. */
+            /** @description Bends of the kerbs between the arms. */
             corners: components["schemas"]["CornerPlace"][];
             /** @description The template with all its parameters. */
             layout: components["schemas"]["Layout"];
             /** @description A scene with the map and no road users. Its `x_layout` has the template and its parameters. */
             scene: components["schemas"]["Scene"];
-            /** @description Ways from lane to lane where roads meet at grade. */
+            /** @description Paths from lane to lane where roads meet at grade. */
             ways: components["schemas"]["JunctionPath"][];
         };
         /**
@@ -3290,7 +3329,7 @@ export interface components {
             gap_m: number | null;
             /**
              * Format: double
-             * @description Least time gap of the one that follows the other: gap over its speed, seconds.
+             * @description Least headway of the follower, seconds: gap divided by its speed.
              */
             headway_s: number | null;
             /**
@@ -3317,23 +3356,23 @@ export interface components {
             lane_width_m: number;
             /**
              * Format: uint8
-             * @description Lanes that go through.
+             * @description Through lanes.
              * @default 2
              */
             lanes: number;
             /**
-             * @description A ramp leaves, before the other one joins.
+             * @description Whether a ramp leaves, upstream of the one that joins.
              * @default false
              */
             off_ramp: boolean;
             /**
-             * @description A ramp joins.
+             * @description Whether a ramp joins.
              * @default true
              */
             on_ramp: boolean;
             /**
              * Format: double
-             * @description Length beside the through lanes on which to speed up or slow down, metres.
+             * @description Length of the parallel lane for acceleration or deceleration, metres.
              * @default 150
              */
             parallel_m: number;
@@ -3356,7 +3395,7 @@ export interface components {
              */
             speed_limit_kmh: number;
             /**
-             * @description Side of the road that traffic keeps to.
+             * @description Side of the road on which traffic drives.
              * @default right-hand
              */
             traffic: components["schemas"]["Traffic"];
@@ -3366,9 +3405,9 @@ export interface components {
          * @description One sentence.
          */
         Message: {
-            /** @description Names the sentence; it never changes. */
+            /** @description Code of the sentence, which never changes. */
             code: string;
-            /** @description What fills its placeholders. An optional value that is absent is left out. */
+            /** @description Values of its placeholders. An absent optional value is left out. */
             values: {
                 [key: string]: components["schemas"]["MessageValue"];
             };
@@ -3398,7 +3437,7 @@ export interface components {
              * @default
              */
             notes?: string;
-            /** @description WOMD's objects of interest, by road user's id. */
+            /** @description WOMD's objects of interest, by road user id. */
             objects_of_interest?: string[];
             /**
              * @description Frame of the source.
@@ -3427,13 +3466,13 @@ export interface components {
              */
             source_id?: string | null;
             /**
-             * @description Words to find it by.
+             * @description Search terms.
              * @default []
              */
             tags?: string[];
             /** @description The source's times of the steps, seconds, when they are not exactly 0.1 s apart from zero. */
             timestamps_s?: number[] | null;
-            /** @description WOMD's tracks to predict: road user's id and difficulty. */
+            /** @description WOMD's tracks to predict: id of the road user, and difficulty. */
             tracks_to_predict?: [
                 string,
                 number
@@ -3452,12 +3491,12 @@ export interface components {
         };
         /**
          * MotionLimits
-         * @description What one kind of road user can do; answers never go beyond it.
+         * @description Motion limits of one kind of road user; answers never exceed them.
          */
         MotionLimits: {
             /**
              * Format: double
-             * @description Greatest speeding up.
+             * @description Greatest acceleration.
              */
             accel_mps2: number;
             /**
@@ -3465,15 +3504,18 @@ export interface components {
              * @description Greatest braking, positive.
              */
             brake_mps2: number;
-            /** @description What a future does where there is time. */
+            /** @description Limits of a future without time pressure. */
             comfortable: components["schemas"]["DrivingManner"];
             /**
              * Format: double
-             * @description Greatest curvature; null on foot, where turning has no bound. Vehicles longer than the kind's
-             *     usual ones turn wider.
+             * @description Greatest curvature; null for pedestrians, who turn without a bound. Vehicles longer than usual for the
+             *     kind turn wider.
              */
             curvature_per_m: number | null;
-            /** @description What a future does where time presses. It does more only where a goal or another road user forces it. */
+            /**
+             * @description Limits of a future under time pressure. It exceeds them only if a goal or another road user requires
+             *     it.
+             */
             hurried: components["schemas"]["DrivingManner"];
             /**
              * Format: double
@@ -3488,26 +3530,27 @@ export interface components {
         };
         /**
          * NearMiss
-         * @description Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
+         * @description Two moving road users nearly collide, and their boxes never touch. One entry per pair, at its worst
+         *     moment.
          */
         NearMiss: {
-            /** @description The one listed first. */
+            /** @description The road user listed first. */
             a: string;
             /** @description The other. */
             b: string;
             /**
              * Format: double
-             * @description Rate at which the gap shrank then, m/s.
+             * @description Rate at which the gap shrinks at that time, m/s.
              */
             closing_speed_mps: number;
             /**
              * Format: double
-             * @description Gap between the boxes then, metres.
+             * @description Gap between the boxes at that time, metres.
              */
             distance_m: number;
             /**
-             * @description The log itself shows it: both move as recorded, or the recording has the same meeting at about
-             *     the same time, no less hard. It does not count.
+             * @description The event is in the log: both move as recorded, or the recording has the same encounter at about the
+             *     same time, at least as severe. It does not count.
              */
             in_log: boolean;
             /**
@@ -3517,7 +3560,7 @@ export interface components {
             time_s: number;
             /**
              * Format: double
-             * @description Time to collision at constant velocity then, seconds, if there is one.
+             * @description Time to collision at that time, at constant velocity, seconds, if there is one.
              */
             ttc_s: number | null;
         };
@@ -3579,21 +3622,21 @@ export interface components {
         };
         /**
          * OtherKinds
-         * @description Kind and size of the road users that are there beside the one with the conditions.
+         * @description Type and size of the road users other than the one with the conditions.
          */
         OtherKinds: {
-            /** @description Who: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`. */
+            /** @description Road users: ids, `@all`, `@moving`, `@vehicles`, `@pedestrians`, `@cyclists`, `@ego`. */
             agents?: string[];
             /** @description Length of each, metres. */
             length_m?: components["schemas"]["Distribution"] | null;
-            /** @description Type in place of their own. */
+            /** @description Type, in place of their own. */
             type?: components["schemas"]["AgentType"] | null;
             /** @description Width of each, metres. */
             width_m?: components["schemas"]["Distribution"] | null;
         };
         /**
          * OtherSide
-         * @description Where another way comes from.
+         * @description Direction from which another way comes.
          *
          *     `left`: From the left.
          *
@@ -3605,20 +3648,20 @@ export interface components {
         OtherSide: "left" | "right" | "oncoming";
         /**
          * Overlap
-         * @description The boxes of two road users overlap by less than a collision takes. One entry a pair.
+         * @description The boxes of two road users overlap by less than the thresholds of a collision. One entry per pair.
          */
         Overlap: {
-            /** @description The one listed first. */
+            /** @description The road user listed first. */
             a: string;
             /** @description The other. */
             b: string;
             /**
              * Format: double
-             * @description Greatest depth, metres: the least gap of the pair is this below zero.
+             * @description Greatest depth, metres: the least gap of the pair, with the opposite sign.
              */
             depth_m: number;
             /**
-             * @description The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+             * @description The event is in the log: both move as recorded, or the recording has an overlap as deep. It does not
              *     count.
              */
             in_log: boolean;
@@ -3630,7 +3673,7 @@ export interface components {
         };
         /**
          * PairChoice
-         * @description Which pairs are scored.
+         * @description The pairs to score.
          *
          *     `all`: Every pair.
          *
@@ -3640,18 +3683,18 @@ export interface components {
         PairChoice: "all" | "regenerated";
         /**
          * Parked
-         * @description Cars parked along kerbs and in lots: exactly one of the two.
+         * @description Cars parked at kerbs and in car parks: exactly one of `per_100m` and `share`.
          */
         Parked: {
             /**
              * Format: double
-             * @description Cars on each 100 m of kerb that has room; of the bays in lots as large a share.
+             * @description Cars per 100 m of kerb with room; the same share of the bays in car parks is occupied.
              * @default null
              */
             per_100m?: number | null;
             /**
              * Format: double
-             * @description Share of the places that are taken.
+             * @description Share of the parking places that are occupied.
              * @default null
              */
             share?: number | null;
@@ -3660,16 +3703,17 @@ export interface components {
         PatternChoice: ("ALKS-cut-in" | "ALKS-cut-out" | "ALKS-deceleration" | "CBDA" | "CBFA" | "CBLA" | "CBNA" | "CBNAO" | "CBTA" | "CCCscp" | "CCFhol" | "CCFhos" | "CCFtap" | "CCRb" | "CCRm" | "CCRs" | "CPFA" | "CPLA" | "CPNA" | "CPNCO" | "CPTA" | "crosswalk-after-bend" | "merge" | "roundabout-entry") | string | components["schemas"]["RoadPattern"];
         /**
          * PatternGoal
-         * @description The goal of a road user. Its place follows from `at_m`, from `relation`, or from the mean of both speeds over the time.
+         * @description The goal of a road user. Its position follows from `at_m`, from `relation`, or from the mean of both
+         *     speeds over the time.
          */
         PatternGoal: {
             /** @description Metres along the way from the place. */
             at_m?: (number | string) | null;
-            /** @description In place of a time: constant braking from the speed of the start to that of the goal, m/s2. */
+            /** @description Constant braking from the speed of the start to that of the goal, in place of a time, m/s2. */
             braking_mps2?: (number | string) | null;
             /** @description Metres to the left of the way. Default: as at the start on the same way, else 0. */
             left_m?: (number | string) | null;
-            /** @description Place relative to another road user as it moves in the result. */
+            /** @description Position relative to another road user and its motion in the result. */
             relation?: components["schemas"]["PatternRelation"] | null;
             /** @description Speed, km/h. Default: that of the start. */
             speed_kmh?: (number | string) | null;
@@ -3683,7 +3727,7 @@ export interface components {
          * @description A number that may be varied.
          */
         PatternParameter: {
-            /** @description What it is. */
+            /** @description Description. */
             note?: string | null;
             /** @description Least and greatest value. */
             range: [
@@ -3701,15 +3745,15 @@ export interface components {
          * @description A goal relative to another road user: exactly one of `ahead_m`, `behind_m` and `behind_s`.
          */
         PatternRelation: {
-            /** @description Gap from the front of the other one to the own rear, metres. */
+            /** @description Gap from the front of the other one to the rear of this road user, metres. */
             ahead_m?: (number | string) | null;
-            /** @description Gap from the own front to the rear of the other one, metres. */
+            /** @description Gap from the front of this road user to the rear of the other one, metres. */
             behind_m?: (number | string) | null;
             /** @description The same gap in seconds at the speed of the goal. */
             behind_s?: (number | string) | null;
             /**
              * Format: int32
-             * @description Lanes to the left of the other one's; negative is to the right.
+             * @description Number of lanes to the left of the other one's lane; negative is to the right.
              * @default 0
              */
             lanes_left?: number;
@@ -3721,11 +3765,11 @@ export interface components {
          * @description A road user of a pattern.
          */
         PatternUser: {
-            /** @description Start ahead of an earlier road user of the list: its id, with `gap_m`. */
+            /** @description Id of an earlier road user of the list ahead of which this one starts, with `gap_m`. */
             ahead_of?: string | null;
             /** @description Start along the way, metres from the place; negative is before it. */
             at_m?: (number | string) | null;
-            /** @description Start along the way in seconds from the place at the own speed; negative is before it. */
+            /** @description Start along the way, seconds from the place at its speed; negative is before it. */
             at_s?: (number | string) | null;
             /** @description Gap along the way between the two boxes, metres, with `ahead_of`. */
             gap_m?: (number | string) | null;
@@ -3743,10 +3787,10 @@ export interface components {
             subtype?: string | null;
             /** @description Type. */
             type: components["schemas"]["AgentType"];
-            /** @description Places of the own way that it passes, metres from the place, at any time; 4 at most. */
+            /** @description Via points on its way, metres from the place, at any time; at most 4. */
             via_m?: (number | string)[];
             /**
-             * @description The way that it starts on.
+             * @description The way on which it starts.
              * @default own
              */
             way?: components["schemas"]["PatternWay"];
@@ -3755,11 +3799,11 @@ export interface components {
         };
         /**
          * PatternWay
-         * @description A way of the place, along which road users are put. All ways have the place at 0 m.
+         * @description A way at the place, along which road users are placed. All ways have the place at 0 m.
          *
-         *     `own`: That of the subject.
+         *     `own`: The way of the subject.
          *
-         *     `against`: That of the subject, in the opposite direction.
+         *     `against`: The way of the subject, in the opposite direction.
          *
          *     `other`: The lane that is crossed or joined.
          *
@@ -3769,20 +3813,20 @@ export interface components {
          *
          *     `oncoming`: The lane in the opposite direction.
          *
-         *     `from-left`: Across the own way, from the left: along the crosswalk where one is there.
+         *     `from-left`: Across the way of the subject, from the left; along the crosswalk if there is one.
          *
-         *     `from-right`: Across the own way, from the right: along the crosswalk where one is there.
+         *     `from-right`: Across the way of the subject, from the right; along the crosswalk if there is one.
          * @enum {string}
          */
         PatternWay: "own" | "against" | "other" | "left" | "right" | "oncoming" | "from-left" | "from-right";
         /**
          * PeekBody
-         * @description Body of a peek.
+         * @description Body of a peek into the future of a run.
          */
         PeekBody: {
             /**
-             * @description Motion by ego, the first state 0.1 s after the present; at most 90 states. An ego that is left out does what it
-             *     has announced.
+             * @description Motion by ego, the first state 0.1 s after the present; at most 90 states. An ego that is left out follows its
+             *     announced plan.
              * @default {}
              */
             plans?: {
@@ -3791,10 +3835,10 @@ export interface components {
         };
         /**
          * PeekReply
-         * @description What the others would do.
+         * @description Predicted motion of the other road users.
          */
         PeekReply: {
-            /** @description Who would change its plan because of whom. */
+            /** @description Changes of plan with their causes. */
             changes: components["schemas"]["Change"][];
             /** @description The first collision of each ego with each other road user. */
             faults: components["schemas"]["RunFault"][];
@@ -3813,17 +3857,20 @@ export interface components {
          * @description Body of a placement. Exactly one of `scene` and `scene_id` is given.
          */
         PlaceBody: {
-            /** @description Traffic by arm, until the end of the scene. Vehicles on the lanes of these arms come only from here. */
+            /**
+             * @description Traffic by arm, until the end of the scene. It is the only source of vehicles on the lanes of these
+             *     arms.
+             */
             arrivals?: components["schemas"]["Arrivals"][];
-            /** @description Density; absent or null is 12 per kilometre, or 0 with `arrivals` or `parked`. */
+            /** @description Density. Absent or null: 12 per kilometre, or 0 with `arrivals` or `parked`. */
             density?: components["schemas"]["Density"] | null;
             /**
-             * @description With `scene_id`: refuse when the scene has changed.
+             * @description With `scene_id`: the call is refused if the scene has changed.
              * @default null
              */
             etag?: string | null;
             /**
-             * @description Road users of the scene that stay; null keeps all. The others are taken to be gone.
+             * @description Road users of the scene to keep; null keeps all. The others count as removed.
              * @default null
              */
             keep?: string[] | null;
@@ -3835,7 +3882,7 @@ export interface components {
             min_gap_m?: number;
             /** @description Parked cars, in addition to `density`. */
             parked?: components["schemas"]["Parked"] | null;
-            /** @description Where; null is the whole map. It may reach 50 m beyond the map's box. */
+            /** @description Region; null is the whole map. It may reach 50 m beyond the map's box. */
             region?: components["schemas"]["Region"] | null;
             /**
              * @description The scene itself; its map may be `{"ref":"sha256:HEX"}`.
@@ -3849,11 +3896,14 @@ export interface components {
             scene_id?: string | null;
             /**
              * Format: uint64
-             * @description The same seed gives the same answer.
+             * @description Seed of the random draws; equal seeds give equal answers.
              * @default 0
              */
             seed?: number;
-            /** @description Speeds of moving motor vehicles; null draws them by the road. Vehicles at rest, as in a queue, stay at rest. */
+            /**
+             * @description Speeds of moving motor vehicles; null draws the speeds typical of each road. Vehicles at rest, as in a
+             *     queue, stay at rest.
+             */
             speeds?: components["schemas"]["Speeds"] | null;
             /**
              * Format: double
@@ -3862,7 +3912,7 @@ export interface components {
              */
             start_s?: number;
             /**
-             * @description Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
+             * @description Shares of `vehicle`, `pedestrian` and `cyclist`, which sum to 1.
              * @default null
              */
             types?: {
@@ -3875,7 +3925,7 @@ export interface components {
         });
         /**
          * PlaceReply
-         * @description What was placed.
+         * @description Result of a placement.
          */
         PlaceReply: {
             /**
@@ -3885,14 +3935,14 @@ export interface components {
             agents: components["schemas"]["Agent"][];
             /** @description Arms: where roads enter the map or the region, with the traffic placed on each. */
             arms: components["schemas"]["ArmDoc"][];
-            /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
+            /** @description `model`, or `lane-sampler` if the weights folder has no placement weights. */
             method: components["schemas"]["PlacementMethod"];
             /**
              * Format: uint
-             * @description Places at kerbs and in lots; null without `parked`.
+             * @description Parking places at kerbs and in car parks; null without `parked`.
              */
             parking_places: number | null;
-            /** @description Why, in one sentence; null when all were placed. */
+            /** @description Reason for `unplaced`, in one sentence; null if all were placed. */
             reason: string | null;
             /**
              * Format: uint
@@ -3902,7 +3952,7 @@ export interface components {
         };
         /**
          * PlacementInfo
-         * @description Facts about placement weights.
+         * @description Description of the placement weights.
          */
         PlacementInfo: {
             licence: string;
@@ -3913,11 +3963,11 @@ export interface components {
         };
         /**
          * PlacementMethod
-         * @description How road users are placed.
+         * @description Method of placement.
          *
-         *     `model`: By learned rates and distributions.
+         *     `model`: Learned rates and distributions.
          *
-         *     `lane-sampler`: Even along lanes, at the speed limit: where there are no weights, and to compare with.
+         *     `lane-sampler`: Evenly along lanes, at the speed limit: without weights, and as a baseline.
          * @enum {string}
          */
         PlacementMethod: "model" | "lane-sampler";
@@ -3936,18 +3986,18 @@ export interface components {
         Points: components["schemas"]["Point"][] | unknown | unknown;
         /**
          * Problem
-         * @description RFC 9457 problem. Switch on `code`, which never changes.
+         * @description RFC 9457 problem. Programs switch on `code`, which never changes.
          */
         Problem: {
-            /** @description Road user that an expert failed for. */
+            /** @description Road user for which an expert failed. */
             agent?: string;
             /**
              * Format: uint64
-             * @description The revision that took over.
+             * @description The newer revision that replaced this one.
              */
             by_revision?: number;
             /**
-             * @description The word to switch on.
+             * @description Code for programs.
              * @enum {string}
              */
             code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "forbidden" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "step-order" | "too-many-runs" | "too-many-requests" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "not-asked" | "unknown-map" | "too-many-agents" | "map-too-large" | "map-too-complex" | "reply-too-large" | "too-much-work" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "idempotency-key-reused" | "upgrade-required" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
@@ -3958,11 +4008,11 @@ export interface components {
             column?: number;
             /** @description Explanation of this occurrence. */
             detail: string;
-            /** @description All faults that were found in the body or the query. */
+            /** @description All faults found in the body or the query. */
             errors?: components["schemas"]["FieldProblem"][];
-            /** @description ETag of the scene as it is stored now. */
+            /** @description ETag of the stored scene. */
             etag?: string;
-            /** @description What is not ready. */
+            /** @description Components that are not ready. */
             failing?: string[];
             /**
              * Format: uint64
@@ -3973,7 +4023,7 @@ export interface components {
             instance?: string;
             /**
              * Format: uint64
-             * @description The bound that was met.
+             * @description The limit that caused the refusal.
              */
             limit?: number;
             /**
@@ -3985,21 +4035,21 @@ export interface components {
             message?: components["schemas"]["Message"];
             /**
              * Format: uint64
-             * @description Byte of the decoded file.
+             * @description Offset in the decoded file, bytes.
              */
             offset?: number;
-            /** @description What the reader of a file found there. */
+            /** @description Fault that the reader of a file found there. */
             reason?: string;
             /** @description Id of the request, as in X-Request-Id and in the server's log. */
             request_id?: string;
             /**
              * Format: uint64
-             * @description The same in milliseconds, more precise.
+             * @description The same time in milliseconds, more precise.
              */
             retry_after_ms?: number;
             /**
              * Format: uint64
-             * @description Seconds after which to ask again, as in Retry-After.
+             * @description Time to wait before the next attempt, seconds, as in Retry-After.
              */
             retry_after_s?: number;
             /**
@@ -4009,24 +4059,24 @@ export interface components {
             status: number;
             /**
              * Format: uint
-             * @description Refinement step at which an expert failed; 0 is the first guess.
+             * @description Refinement step at which an expert failed; 0 is the initial draft.
              */
             step?: number;
-            /** @description A few words for people, the same for each occurrence. */
+            /** @description Short title, the same for each occurrence. */
             title: string;
             /** @description Page about the code, relative to this server. */
             type: string;
-            /** @description When the scene was stored, RFC 3339. */
+            /** @description Time at which the scene was stored, RFC 3339. */
             updated_at?: string;
         };
         /**
          * Program
-         * @description The lights of a junction: its phases follow one another without end.
+         * @description Signal program of a junction, whose phases repeat in a cycle.
          */
         Program: {
             /**
              * Format: double
-             * @description Red for all before the next green, seconds.
+             * @description All-red time before the next green, seconds.
              * @default 1
              */
             all_red_s: number;
@@ -4038,26 +4088,25 @@ export interface components {
             green_s: number;
             /**
              * Format: double
-             * @description How long the first green has been on when the scene begins, seconds.
+             * @description Time for which the first green has been on at the start of the scene, seconds.
              * @default 7
              */
             offset_s: number;
             /**
-             * @description Turns across oncoming traffic.
+             * @description Phases of turns across oncoming traffic.
              * @default permissive
              */
             turns_across: components["schemas"]["TurnAcross"];
             /**
              * Format: double
-             * @description Yellow after it, seconds.
+             * @description Yellow after each green, seconds.
              * @default 3
              */
             yellow_s: number;
         };
         /**
          * Reach
-         * @description Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
-         *     what it would take.
+         * @description Whether a goal is met. `unreachable` has the nearest state and what the goal would require.
          */
         Reach: {
             /**
@@ -4078,20 +4127,20 @@ export interface components {
             /** @constant */
             status: "reached";
         } | {
-            /** @description Limit that binds. */
+            /** @description Limit that prevents it. */
             limiting: components["schemas"]["Limiting"];
             /** @description The reason as data. */
             message: components["schemas"]["Message"];
-            /** @description State at the goal time that comes nearest. */
+            /** @description Nearest state that can be reached at the goal time. */
             nearest: components["schemas"]["NearestState"];
             /**
              * Format: double
-             * @description Amount that the goal would take, in that limit's unit, where a formula gives it.
+             * @description Amount that the goal would require, in the unit of the limit, where a formula gives it.
              */
             needs: number | null;
             /** @constant */
             status: "unreachable";
-            /** @description The agent in the way, if there is one. */
+            /** @description The road user in the way, if there is one. */
             with?: string | null;
             /** @description The reason in English. */
             words: string;
@@ -4103,21 +4152,21 @@ export interface components {
         Reacting: boolean | string[];
         /**
          * Reaction
-         * @description Why a road user gave up the motion that it had.
+         * @description Why a road user left its previous motion.
          */
         Reaction: {
-            /** @description The road user that its own motion would have met. */
+            /** @description The road user with which its previous motion conflicts. */
             cause: string;
             /**
              * Format: double
-             * @description Delay against its own motion, seconds; negative for earlier.
+             * @description Delay relative to its previous motion, seconds; negative is earlier.
              */
             delay_s: number;
             /** @description Kind of the reaction. */
             kind: components["schemas"]["ReactionKind"];
             /**
              * Format: double
-             * @description Speed then, m/s.
+             * @description Speed at that time, m/s.
              */
             speed_mps: number;
             /**
@@ -4127,28 +4176,28 @@ export interface components {
             time_s: number;
             /**
              * Format: double
-             * @description Where then, metres.
+             * @description Position at that time, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description Where then, metres.
+             * @description Position at that time, metres.
              */
             y_m: number;
         };
         /**
          * ReactionKind
-         * @description How a road user reacts to another.
+         * @description Kind of a reaction to another road user.
          *
          *     `waits`: Comes to rest.
          *
-         *     `slows`: Is slower.
+         *     `slows`: Slows down.
          *
-         *     `speeds_up`: Is faster.
+         *     `speeds_up`: Speeds up.
          *
-         *     `keeps_clear`: Takes another line.
+         *     `keeps_clear`: Takes another path.
          *
-         *     `stays_out`: Comes in later than the others, and does not come in: its place is taken then.
+         *     `stays_out`: Was due to enter later, and does not enter because its place is occupied.
          * @enum {string}
          */
         ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear" | "stays_out";
@@ -4160,15 +4209,15 @@ export interface components {
             /** @description The road user. */
             agent: string;
             /**
-             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
-             *     the same time, no less bad.
+             * @description The event is in the log: the motion is the recorded one, or the recording has the same event at about
+             *     the same time, at least as severe.
              */
             in_log: boolean;
             /** @description Lane of the red signal. */
             lane: string;
             /**
              * Format: double
-             * @description Speed then, m/s.
+             * @description Speed at that time, m/s.
              */
             speed_mps: number;
             /**
@@ -4179,14 +4228,14 @@ export interface components {
         };
         /**
          * Reference
-         * @description What trajectories are compared with.
+         * @description Motion with which trajectories are compared.
          */
         Reference: components["schemas"]["Log"] | {
             [key: string]: components["schemas"]["Trajectory"];
         };
         /**
          * Region
-         * @description Where centres may lie: exactly one of the two.
+         * @description Region for box centres: exactly one of `circle` and `polygon_m`.
          */
         Region: {
             /** @description Circle. */
@@ -4199,7 +4248,7 @@ export interface components {
         };
         /**
          * Relation
-         * @description A motion and another's.
+         * @description Relation of a motion to that of another road user.
          */
         Relation: {
             /**
@@ -4207,35 +4256,35 @@ export interface components {
              * @description Time between the two at that place, seconds.
              */
             gap_s?: number | null;
-            /** @description Which. */
+            /** @description Kind of the relation. */
             kind: components["schemas"]["RelationKind"];
             /**
              * Format: double
-             * @description Scene time at which this one is there, seconds.
+             * @description Scene time at which this one is at the place, seconds.
              */
             time_s: number;
             /** @description The other road user. */
             with: string;
             /**
              * Format: double
-             * @description Where, metres.
+             * @description Position at that time, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description Where, metres.
+             * @description Position at that time, metres.
              */
             y_m: number;
         };
         /**
          * RelationKind
-         * @description Relation of a motion to another's.
+         * @description Kind of a relation between two motions.
          *
-         *     `before`: Their paths cross, and this one is there first.
+         *     `before`: Their paths cross, and this one passes first.
          *
-         *     `after`: Their paths cross, and this one is there second.
+         *     `after`: Their paths cross, and this one passes second.
          *
-         *     `follows`: Behind the other on the same way.
+         *     `follows`: Behind the other on the same path.
          *
          *     `gives_way_to`: Slows down or waits where their paths cross, so that the other goes first.
          * @enum {string}
@@ -4243,29 +4292,29 @@ export interface components {
         RelationKind: "before" | "after" | "follows" | "gives_way_to";
         /**
          * Resolved
-         * @description Every condition field of one road user as it was used.
+         * @description All condition fields of one road user as they were used.
          */
         Resolved: {
             /**
-             * @description Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
-             *     road leads to in the same time.
+             * @description If its shown future leaves the road or drives against the traffic: the place nearest to the goal that can be
+             *     reached along the road in the same time.
              */
             by_road?: components["schemas"]["ByRoad"] | null;
-            /** @description Where it goes. */
+            /** @description Its goal. */
             goal: components["schemas"]["ResolvedGoal"];
-            /** @description One entry for each window that ended its plan before the goal was due. */
+            /** @description Targets of the windows whose plan ends before the goal is due. */
             intermediate?: components["schemas"]["Intermediate"][];
-            /** @description Along the heading. */
+            /** @description Length, metres. */
             length_m: components["schemas"]["Field"];
-            /** @description Verdict on the goal. */
+            /** @description Whether the goal is met. */
             reach: components["schemas"]["Reach"];
-            /** @description Where it begins. */
+            /** @description Its start. */
             start: components["schemas"]["ResolvedStart"];
-            /** @description Expert that ran. */
+            /** @description Type whose expert was used. */
             type: components["schemas"]["AgentType"];
-            /** @description How its shown future passes each via point, in their order. */
+            /** @description How its shown future passes each via point, in order. */
             via?: components["schemas"]["ResolvedVia"][];
-            /** @description Across the heading. */
+            /** @description Width, metres. */
             width_m: components["schemas"]["Field"];
         };
         /**
@@ -4297,14 +4346,14 @@ export interface components {
         ResolvedVia: {
             /**
              * Format: double
-             * @description How near the future comes, metres.
+             * @description Least distance of the future from it, metres.
              */
             distance_m: number;
-            /** @description It is passed within its tolerance, and at its time where that is fixed. */
+            /** @description Whether it is passed within its tolerance, and at its time if that is fixed. */
             passed: boolean;
             /**
              * Format: double
-             * @description Scene time then, seconds.
+             * @description Scene time at the least distance, seconds.
              */
             time_s: number;
             /**
@@ -4314,12 +4363,12 @@ export interface components {
             tolerance_m: number;
             /**
              * Format: double
-             * @description Where it lies, metres.
+             * @description Its position, metres.
              */
             x_m: number;
             /**
              * Format: double
-             * @description Where it lies, metres.
+             * @description Its position, metres.
              */
             y_m: number;
         };
@@ -4336,13 +4385,13 @@ export interface components {
             bend_deg: number;
             /**
              * Format: double
-             * @description Width of a crosswalk half way, metres; less than half a metre is none.
+             * @description Width of the crosswalk half way along the road, metres; below half a metre there is none.
              * @default 0
              */
             crosswalk_m: number;
             /**
              * Format: double
-             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
+             * @description Width of the cycle lane on each side, metres; below half a metre there is none.
              * @default 0
              */
             cycle_lane_m: number;
@@ -4354,13 +4403,13 @@ export interface components {
             lane_width_m: number;
             /**
              * Format: uint8
-             * @description Lanes the other way.
+             * @description Lanes in the opposite direction.
              * @default 2
              */
             lanes_backward: number;
             /**
              * Format: uint8
-             * @description Lanes eastwards, where the road begins.
+             * @description Lanes in the forward direction, which is east at the start of the road.
              * @default 2
              */
             lanes_forward: number;
@@ -4372,13 +4421,13 @@ export interface components {
             length_m: number;
             /**
              * Format: double
-             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
+             * @description Width of the raised median, metres; below half a metre there is none.
              * @default 0
              */
             median_m: number;
             /**
              * Format: double
-             * @description Width of a strip for parked cars on both sides, metres; less than half a metre is none.
+             * @description Width of the parking strip on each side, metres; below half a metre there is none.
              * @default 0
              */
             parking_m: number;
@@ -4390,12 +4439,12 @@ export interface components {
             radius_m: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; less than half a metre is none.
+             * @description Width of the pavements, metres; below half a metre there are none.
              * @default 2.5
              */
             sidewalk_m: number;
             /**
-             * @description Speed bumps before and behind the crosswalk.
+             * @description Whether speed bumps lie before and after the crosswalk.
              * @default false
              */
             speed_bumps: boolean;
@@ -4406,19 +4455,19 @@ export interface components {
              */
             speed_limit_kmh: number;
             /**
-             * @description Side of the road that traffic keeps to.
+             * @description Side of the road on which traffic drives.
              * @default right-hand
              */
             traffic: components["schemas"]["Traffic"];
         };
         /**
          * RoadEdge
-         * @description The end of the road's surface.
+         * @description An edge of the road surface.
          */
         RoadEdge: {
-            /** @description Unique among road edges. */
+            /** @description Id, unique among road edges. */
             id: string;
-            /** @description In order. */
+            /** @description Points in order. */
             points_m: components["schemas"]["Points"];
             /**
              * @description WOMD's name in snake case, or `sidewalk`.
@@ -4429,11 +4478,11 @@ export interface components {
         };
         /**
          * RoadFeature
-         * @description What is at the place.
+         * @description Feature at the place.
          *
          *     `lane`: A lane for motor vehicles outside of junctions.
          *
-         *     `crosswalk`: A crosswalk over the way of the subject.
+         *     `crosswalk`: A crosswalk across the way of the subject.
          *
          *     `crossing`: The way of the subject crosses another lane for motor vehicles.
          *
@@ -4448,9 +4497,9 @@ export interface components {
          * @description A painted line.
          */
         RoadLine: {
-            /** @description Unique among road lines. */
+            /** @description Id, unique among road lines. */
             id: string;
-            /** @description In order. */
+            /** @description Points in order. */
             points_m: components["schemas"]["Points"];
             /**
              * @description WOMD's name in snake case.
@@ -4461,7 +4510,7 @@ export interface components {
         };
         /**
          * RoadNeeds
-         * @description What the road must have.
+         * @description Requirements on the road.
          */
         RoadNeeds: {
             /**
@@ -4478,9 +4527,9 @@ export interface components {
             before_m?: number;
             /** @description The way of the subject bends within 60 m before the place, or stays straight there. Default: either. */
             bend?: boolean | null;
-            /** @description What is there. */
+            /** @description Feature at the place. */
             feature: components["schemas"]["RoadFeature"];
-            /** @description From where the other way comes, as the subject sees it. */
+            /** @description Direction from which the other way comes, as seen by the subject. */
             from?: components["schemas"]["OtherSide"] | null;
             /** @description Least and greatest speed limit of the lane, km/h. Default: any. */
             limit_kmh?: [
@@ -4491,12 +4540,15 @@ export interface components {
             neighbor?: components["schemas"]["LaneSide"] | null;
             /** @description A signal controls the way of the subject, or none does. Default: either. */
             signal?: boolean | null;
-            /** @description How the way of the subject turns: from 25 m before the place to 5 m after it, on a lane over all of the way. */
+            /**
+             * @description Turn of the subject's way: from 25 m before the place to 5 m after it; for the feature `lane` over the
+             *     whole way.
+             */
             turn?: components["schemas"]["RoadTurn"] | null;
         };
         /**
          * RoadPattern
-         * @description A situation on any map: what the road must have, and who drives or walks there.
+         * @description A situation on any map: requirements on the road, and the road users there.
          */
         RoadPattern: {
             /** @description Short name: letters, digits, - and _. */
@@ -4507,7 +4559,7 @@ export interface components {
             };
             /** @description The road. */
             road: components["schemas"]["RoadNeeds"];
-            /** @description Where the parameters are from. */
+            /** @description Source of the parameters. */
             source?: string | null;
             /** @description One sentence. */
             title: string;
@@ -4516,7 +4568,7 @@ export interface components {
         };
         /**
          * RoadTurn
-         * @description How a way turns.
+         * @description Turn of a way.
          *
          *     `straight`: By less than 20 degrees.
          *
@@ -4533,19 +4585,19 @@ export interface components {
         Round: {
             /** @description One per future of the requested road user, or one per sample, the most preferred first. */
             cards: components["schemas"]["RoundCard"][];
-            /** @description What the answers agree upon, the surest first. */
+            /** @description Wishes on which the answers agree, with the most certain first. */
             wishes: components["schemas"]["LearnedWish"][];
         };
         /**
          * RoundCard
-         * @description A candidate that is shown.
+         * @description A candidate on a card.
          */
         RoundCard: {
             /** @description Features of the card; the client returns them with the verdict. */
             features: components["schemas"]["Features"];
             /**
              * Format: double
-             * @description The share of the learned wishes that it fulfils; absent while none is known.
+             * @description Share of the learned wishes that it fulfils; absent if none is known.
              */
             match?: number | null;
             /** @description Box centres at every half second, by road user; the client returns them with the verdict. */
@@ -4559,7 +4611,7 @@ export interface components {
          */
         Roundabout: {
             /**
-             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @description 3 to 6 arms, at least 20 degrees apart.
              * @default [
              *       {
              *         "angle_deg": 0,
@@ -4638,24 +4690,24 @@ export interface components {
             ring_lane_width_m: number;
             /**
              * Format: uint8
-             * @description Lanes of the ring.
+             * @description Number of lanes of the ring.
              * @default 1
              */
             ring_lanes: number;
             /**
              * Format: double
-             * @description Speed limit in the ring, km/h.
+             * @description Speed limit of the ring, km/h.
              * @default 30
              */
             ring_speed_limit_kmh: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; less than half a metre is none.
+             * @description Width of the pavements, metres; below half a metre there are none.
              * @default 2.5
              */
             sidewalk_m: number;
             /**
-             * @description Side of the road that traffic keeps to.
+             * @description Side of the road on which traffic drives.
              * @default right-hand
              */
             traffic: components["schemas"]["Traffic"];
@@ -4672,13 +4724,13 @@ export interface components {
              */
             egos?: string[] | null;
             /**
-             * @description With `scene_id`: refuse when the scene has changed.
+             * @description With `scene_id`: the call is refused if the scene has changed.
              * @default null
              */
             etag?: string | null;
             /**
              * Format: double
-             * @description Each of the others plans anew after so many seconds; 1 by default.
+             * @description Replan interval of the other road users, seconds; 1 by default.
              * @default null
              */
             plan_interval_s?: number | null;
@@ -4694,12 +4746,12 @@ export interface components {
             scene_id?: string | null;
             /**
              * Format: uint64
-             * @description Repeats the run; 0 by default.
+             * @description Seed, which repeats the run; 0 by default.
              * @default null
              */
             seed?: number | null;
             /**
-             * @description A snapshot of a run in this scene, base64: the run goes on from there.
+             * @description A snapshot of a run in this scene, base64, from which the run continues.
              * @default null
              */
             snapshot?: string | null;
@@ -4728,7 +4780,7 @@ export interface components {
         });
         /**
          * RunEvent
-         * @description What a follower of a run is told: the run first, then each step as it is made, the end when the run is forgotten.
+         * @description An event of a followed run: first the run, then each step, last `end` when the server deletes the run.
          */
         RunEvent: {
             /** @constant */
@@ -4749,12 +4801,12 @@ export interface components {
         };
         /**
          * RunFault
-         * @description A fault and the road user whose it is.
+         * @description A fault and its road user.
          */
         RunFault: {
-            /** @description Of a collision the one that drove into the other. */
+            /** @description The road user with the fault; in a collision, the one that drove into the other. */
             agent: string;
-            /** @description What, when and where. */
+            /** @description The fault, with its time and position. */
             fault: components["schemas"]["Fault"];
         };
         /**
@@ -4766,21 +4818,21 @@ export interface components {
             egos: string[];
             /**
              * Format: uint64
-             * @description Seconds without a request after which the server forgets the run.
+             * @description Time without a request after which the server deletes the run, seconds.
              */
             idle_s: number;
             /**
              * Format: double
-             * @description Each of the others plans anew after so many seconds.
+             * @description Replan interval of the other road users, seconds.
              */
             plan_interval_s: number;
-            /** @description The present. */
+            /** @description Current states, in the form of a step. */
             present: components["schemas"]["StepReply"];
             /** @description Id of the run. */
             run: string;
             /**
              * Format: uint64
-             * @description Repeats the run.
+             * @description Seed, which repeats the run.
              */
             seed: number;
             /**
@@ -4790,12 +4842,12 @@ export interface components {
             step_s: number;
             /**
              * Format: uint64
-             * @description Steps that may still be made.
+             * @description Number of remaining steps.
              */
             steps_left: number;
             /**
              * Format: uint64
-             * @description Seconds since the last request that used the run; looking at it is no use.
+             * @description Time since the last request that used the run, seconds. Reading its state does not count.
              */
             unused_s: number;
         };
@@ -4804,7 +4856,7 @@ export interface components {
          * @description One coherent answer for all regenerated road users.
          */
         Sample: {
-            /** @description Road user's id to its futures. */
+            /** @description Futures by id of the road user. */
             agents: {
                 [key: string]: components["schemas"]["AgentFutures"];
             };
@@ -4816,7 +4868,7 @@ export interface components {
         };
         /**
          * SamplingMethod
-         * @description How the numbers of a situation are chosen.
+         * @description Method by which the numbers of a situation are chosen.
          *
          *     `grid`: Every combination of the values.
          *
@@ -4826,7 +4878,7 @@ export interface components {
          *
          *     `sobol`: Scrambled Sobol points, which spread evenly over all ranges at once; best with a power of two of draws.
          *
-         *     `search`: Tries that come nearer to `where`: CMA-ES over the ranges, for each seed of its own.
+         *     `search`: Search for results that satisfy `where`: CMA-ES over the ranges, separately for each seed.
          * @enum {string}
          */
         SamplingMethod: "grid" | "random" | "latin-hypercube" | "sobol" | "search";
@@ -4837,7 +4889,7 @@ export interface components {
         Saved: {
             /** @description As in the ETag header. */
             etag: string;
-            /** @description Of the scene. */
+            /** @description Id of the scene. */
             id: string;
         };
         /**
@@ -4888,7 +4940,7 @@ export interface components {
              */
             meta?: components["schemas"]["Meta"];
             /**
-             * @description For people.
+             * @description Display name.
              * @default
              */
             name?: string;
@@ -4910,12 +4962,12 @@ export interface components {
         };
         /**
          * SceneItem
-         * @description A scene as lists show it.
+         * @description A scene in a list.
          */
         SceneItem: {
             /**
              * Format: uint64
-             * @description Size as stored.
+             * @description Size in the store, bytes.
              */
             bytes: number;
             /** @description Road users by type. */
@@ -4924,7 +4976,7 @@ export interface components {
             created_at: string;
             /** @description With quotes, as in the ETag header. */
             etag: string;
-            /** @description Has generated futures. */
+            /** @description Whether it has generated futures. */
             generated: boolean;
             /** @description Id of the scene. */
             id: string;
@@ -4932,26 +4984,26 @@ export interface components {
             licence: string | null;
             /** @description Content hash of the map, 64 hex digits. */
             map_sha256: string;
-            /** @description For people. */
+            /** @description Display name. */
             name: string;
-            /** @description User whose scene it is, on a server whose scenes have owners. */
+            /** @description Owner of the scene, on a server whose scenes have owners. */
             owner?: string | null;
-            /** @description Scene it is a variant of. */
+            /** @description Scene of which it is a variant. */
             parent_id: string | null;
-            /** @description Demo scenes and those of the data folder; duplicate one to change it. */
+            /** @description Whether it is read-only, as demo scenes and those of the data folder are; duplicate one to change it. */
             readonly: boolean;
-            /** @description What others may do with it. */
+            /** @description Rights of other users on it. */
             shared?: components["schemas"]["SceneShare"] | null;
-            /** @description Format or tool it came from. */
+            /** @description Source: format or tool. */
             source: string;
             /** @description Id in the source. */
             source_id: string | null;
             /**
              * Format: uint
-             * @description Steps of 0.1 s.
+             * @description Number of steps of 0.1 s.
              */
             steps: number;
-            /** @description Words to find it by. */
+            /** @description Search terms. */
             tags: string[];
             /** @description RFC 3339. */
             updated_at: string;
@@ -4981,7 +5033,7 @@ export interface components {
              */
             notes?: string | null;
             /**
-             * @description What others may do with the scene, where scenes have owners; only its owner says so.
+             * @description Rights of other users on the scene, where scenes have owners; only its owner sets them.
              * @default null
              */
             shared?: components["schemas"]["SceneShare"] | null;
@@ -4995,9 +5047,8 @@ export interface components {
          * SceneScore
          * @description Score of the scene. Shares are 0 to 1 and `None` where no road user qualifies.
          *
-         *     Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
-         *     `collision_rate` nor with the road users; distances, times and the other shares are measured over all
-         *     motion, the recorded too.
+         *     Lists include events of the log, marked `in_log`. These events do not count in `collision_rate` and in the
+         *     counts of road users. Distances, times and the other shares cover all motion, including recorded motion.
          */
         SceneScore: {
             /**
@@ -5011,12 +5062,12 @@ export interface components {
             assumed_width: boolean;
             /**
              * Format: double
-             * @description Share of road users in any collision that the log does not show.
+             * @description Share of road users in any collision that is not in the log.
              */
             collision_rate: number;
             /**
              * Format: double
-             * @description Share of road users in any collision, those of the log counted (the paper's scenario collision
+             * @description Share of road users in any collision, including those in the log (the paper's scenario collision
              *     rate).
              */
             collision_rate_with_log: number;
@@ -5024,7 +5075,7 @@ export interface components {
             collisions: components["schemas"]["Collision"][];
             /** @description The pairs of the three lists with their measures. By time, then by pair. */
             encounters: components["schemas"]["Encounter"][];
-            /** @description Which step counted as the end. */
+            /** @description Step that counted as the end. */
             endpoint: components["schemas"]["Endpoint"];
             /** @description Means over the road users with fixed goal fields. */
             goal_error: components["schemas"]["GoalError"] | null;
@@ -5035,7 +5086,7 @@ export interface components {
             goals_reached: number | null;
             /** @description Braking harder than the threshold; `worst` in m/s2. */
             harsh_braking: components["schemas"]["Stretch"][];
-            /** @description Turning harder than the threshold; `worst` in m/s2 sideways. */
+            /** @description Steering harder than the threshold; `worst` is the sideways acceleration, m/s2. */
             harsh_steering: components["schemas"]["Stretch"][];
             /**
              * Format: double
@@ -5059,7 +5110,7 @@ export interface components {
             /**
              * Format: double
              * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
-             *     overlap. People in company are left out where they touch.
+             *     overlap. Contact between pedestrians who walk together does not count.
              */
             min_distance_m: number | null;
             /**
@@ -5076,13 +5127,13 @@ export interface components {
             min_ttc_s: number | null;
             /** @description By time, then by pair. */
             near_misses: components["schemas"]["NearMiss"][];
-            /** @description Wheels where the roads of the map have ended; `worst` in metres from the lanes. */
+            /** @description Vehicles beyond the end of the map's roads; `worst` in metres from the lanes. */
             off_map: components["schemas"]["Stretch"][];
-            /** @description Vehicles off the road, but for those over a median. */
+            /** @description Vehicles off the road, except those over a median. */
             off_road: components["schemas"]["Stretch"][];
             /**
              * Format: double
-             * @description Farthest a vehicle's corner goes off the road, metres.
+             * @description Greatest distance of a vehicle's corner from the road, metres.
              */
             offroad_max_m: number | null;
             /**
@@ -5092,7 +5143,7 @@ export interface components {
             offroad_share: number | null;
             /** @description Pedestrians along a lane, or across lanes beside a crosswalk; `worst` in metres walked. */
             on_carriageway: components["schemas"]["Stretch"][];
-            /** @description Vehicles over what divides two roads. */
+            /** @description Vehicles over the median between two directions. */
             over_median: components["schemas"]["Stretch"][];
             /**
              * Format: double
@@ -5115,7 +5166,7 @@ export interface components {
              * @description Mean absolute speed error of the future that ends closest, m/s.
              */
             speed_error_mps: number | null;
-            /** @description Vehicles above the speed limit; `worst` in m/s above it. */
+            /** @description Vehicles above the speed limit; `worst` is the excess, m/s. */
             speeding: components["schemas"]["Stretch"][];
             /** @description Vehicles against the traffic. */
             wrong_way: components["schemas"]["Stretch"][];
@@ -5127,22 +5178,22 @@ export interface components {
         };
         /**
          * SceneShare
-         * @description What others than its owner may do with a scene.
+         * @description Rights of other users than the owner on a scene.
          *
-         *     `nobody`: Nothing: it is not found.
+         *     `nobody`: No rights: the scene is not found.
          *
-         *     `read`: See, generate in and copy it.
+         *     `read`: Read it, generate in it and copy it.
          *
-         *     `edit`: And change it; only its owner deletes it.
+         *     `edit`: Also change it; only its owner deletes it.
          * @enum {string}
          */
         SceneShare: "nobody" | "read" | "edit";
         /**
          * ScoreReply
-         * @description Answer to a score request.
+         * @description Reply to a score request.
          */
         ScoreReply: {
-            /** @description Each road user, by id. */
+            /** @description Scores of the road users by id. */
             agents: {
                 [key: string]: components["schemas"]["AgentScore"];
             };
@@ -5157,7 +5208,7 @@ export interface components {
          */
         ScoreRequest: {
             /**
-             * @description With `scene_id`: refuse when the scene has changed.
+             * @description With `scene_id`: the call is refused if the scene has changed.
              * @default null
              */
             etag?: string | null;
@@ -5166,7 +5217,7 @@ export interface components {
              * @default all
              */
             pairs?: components["schemas"]["PairChoice"];
-            /** @description The log by default. */
+            /** @description Reference; the log by default. */
             reference?: components["schemas"]["Reference"] | null;
             /**
              * @description The scene itself.
@@ -5179,7 +5230,7 @@ export interface components {
              */
             scene_id?: string | null;
             /**
-             * @description Numbers that decide what counts; those absent have their defaults.
+             * @description Thresholds; absent ones have their defaults.
              * @default {
              *       "along_lane_m": 3,
              *       "askew_rad": 0.26,
@@ -5208,7 +5259,7 @@ export interface components {
              *     }
              */
             thresholds?: components["schemas"]["Thresholds"];
-            /** @description Motion to score; for the rest the chosen futures, else the log. */
+            /** @description Motion to score, by road user; the others are scored with their chosen future, else with the log. */
             trajectories?: {
                 [key: string]: components["schemas"]["Trajectory"];
             };
@@ -5219,12 +5270,12 @@ export interface components {
         });
         /**
          * SearchAcceptedEvent
-         * @description First event: what will be tried.
+         * @description First event: the extent of the search.
          */
         SearchAcceptedEvent: {
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -5236,22 +5287,22 @@ export interface components {
             job: string;
             /**
              * Format: uint
-             * @description Jobs before this one when it was queued.
+             * @description Number of jobs ahead of this one when it was queued.
              */
             queue_position: number;
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
             /**
              * Format: uint64
-             * @description Most tries that are made.
+             * @description Maximum number of tries.
              */
             tries: number;
             /** @description Paths of the numbers that are varied. */
@@ -5263,13 +5314,13 @@ export interface components {
          */
         SearchBody: {
             /**
-             * @description With `scene_id`: refuse when the scene has changed.
+             * @description With `scene_id`: the call is refused if the scene has changed.
              * @default null
              */
             etag?: string | null;
             /**
              * Format: uint64
-             * @description Ends the search when so many tries satisfy the condition. Default: all tries are made.
+             * @description Number of tries that satisfy the condition at which the search ends. Default: all tries are made.
              * @default null
              */
             found?: number | null;
@@ -5286,7 +5337,7 @@ export interface components {
              */
             generate?: components["schemas"]["BatchOptions"];
             /**
-             * @description The client's id of the job, to cancel it by.
+             * @description The client's id of the job, which can cancel it.
              * @default null
              */
             job?: string | null;
@@ -5317,14 +5368,14 @@ export interface components {
              */
             seeds?: number | number[];
             /**
-             * @description What is varied: a template with ranges of its figures, or conditions with ranges. A condition for several road
-             *     users is searched for each of them.
+             * @description The varied situation: a template with ranges of its figures, or conditions with ranges. A condition for
+             *     several road users is searched for each of them.
              * @default {}
              */
             situation?: components["schemas"]["BatchSituation"];
             /**
              * Format: uint64
-             * @description Tries for each road user and each seed. All of them together are at most 1000.
+             * @description Number of tries per road user and seed; at most 1000 in total.
              * @default 100
              */
             tries?: number;
@@ -5342,11 +5393,11 @@ export interface components {
          * SearchEnd
          * @description Why a search ended.
          *
-         *     `found`: As many tries satisfy the condition as were wanted.
+         *     `found`: The requested number of tries satisfies the condition.
          *
          *     `tries`: All tries are made.
          *
-         *     `time`: The time of a call is over; the tries so far are there.
+         *     `time`: The time limit of a call is reached; the reply has the tries so far.
          * @enum {string}
          */
         SearchEnd: "found" | "tries" | "time";
@@ -5362,7 +5413,7 @@ export interface components {
         SearchFinalEvent: {
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /** @description Why the search ended. */
@@ -5383,12 +5434,12 @@ export interface components {
             nearest: number | null;
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
             /** @description All tries. */
@@ -5399,7 +5450,7 @@ export interface components {
          * @description A try.
          */
         SearchTriedEvent: {
-            /** @description Names the result, in six characters. */
+            /** @description Result code, six characters. */
             code?: string;
             /** @description Drawn numbers by path, such as `goal.speed_mps`. */
             drawn: {
@@ -5407,7 +5458,7 @@ export interface components {
             };
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -5430,33 +5481,33 @@ export interface components {
             job: string;
             /**
              * Format: double
-             * @description How far it is from the condition, 0 where it holds; absent without a result.
+             * @description Distance from the condition, 0 if it holds; absent without a result.
              */
             miss?: number;
             /**
              * Format: uint64
-             * @description Rises by one a try, from 0.
+             * @description Number of the try, from 0.
              */
             number: number;
             /** @description The road user that the situation affects. */
             other?: string;
-            /** @description How it ended. */
+            /** @description Its outcome. */
             outcome: components["schemas"]["UnitOutcome"];
-            /** @description Code of the problem for which there is no result. */
+            /** @description Code of the problem, if there is no result. */
             problem?: string;
             /** @description The body of a `POST /v1/generate` that gives the same result, without its scene; absent without a result. */
             request?: components["schemas"]["TryRequest"];
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
-            /** @description What the actor of a template does, in one sentence. */
+            /** @description Behaviour of the actor of a template, in one sentence. */
             what?: string;
         };
         /**
@@ -5464,7 +5515,7 @@ export interface components {
          * @description One try.
          */
         SearchTry: {
-            /** @description Names the result, in six characters. */
+            /** @description Result code, six characters. */
             code?: string;
             /** @description Drawn numbers by path, such as `goal.speed_mps`. */
             drawn: {
@@ -5478,23 +5529,23 @@ export interface components {
             goal?: string;
             /**
              * Format: double
-             * @description How far it is from the condition, 0 where it holds; absent without a result.
+             * @description Distance from the condition, 0 if it holds; absent without a result.
              */
             miss?: number;
             /**
              * Format: uint64
-             * @description Rises by one a try, from 0.
+             * @description Number of the try, from 0.
              */
             number: number;
             /** @description The road user that the situation affects. */
             other?: string;
-            /** @description How it ended. */
+            /** @description Its outcome. */
             outcome: components["schemas"]["UnitOutcome"];
-            /** @description Code of the problem for which there is no result. */
+            /** @description Code of the problem, if there is no result. */
             problem?: string;
             /** @description The body of a `POST /v1/generate` that gives the same result, without its scene; absent without a result. */
             request?: components["schemas"]["TryRequest"];
-            /** @description What the actor of a template does, in one sentence. */
+            /** @description Behaviour of the actor of a template, in one sentence. */
             what?: string;
         };
         /**
@@ -5508,9 +5559,9 @@ export interface components {
              * @default null
              */
             anchor?: number | null;
-            /** @description Box centres at every half second after the start, metres; at most 18 count. */
+            /** @description Box centres at every half second after the start, metres; at most 18 are used. */
             x_m: number[];
-            /** @description As many as `x_m`. */
+            /** @description Box centres, metres; as many as `x_m`. */
             y_m: number[];
         };
         /**
@@ -5518,9 +5569,9 @@ export interface components {
          * @description The signal of one lane over the scene.
          */
         Signal: {
-            /** @description Lane that obeys it. */
+            /** @description Id of the lane that obeys it. */
             lane: string;
-            /** @description Run-length states; first steps rise. */
+            /** @description Run-length encoded states, in order of their first steps. */
             states: components["schemas"]["SignalRun"][];
             /**
              * @description Stop position.
@@ -5538,7 +5589,7 @@ export interface components {
         ];
         /**
          * SkippedRecord
-         * @description A record of a file that is no scene.
+         * @description A record of a file that is not a scene.
          */
         SkippedRecord: {
             /**
@@ -5551,7 +5602,7 @@ export interface components {
         };
         /**
          * SnapshotReply
-         * @description A run as a text. Without its scene.
+         * @description A run as text, without its scene.
          */
         SnapshotReply: {
             /**
@@ -5561,15 +5612,15 @@ export interface components {
             bytes: number;
             /**
              * Format: uint64
-             * @description Steps that it has made.
+             * @description Number of steps that the run has made.
              */
             number: number;
-            /** @description Base64, for `snapshot` of a run that is begun. */
+            /** @description The snapshot, base64, for `snapshot` of a new run. */
             snapshot: string;
         };
         /**
          * Source
-         * @description Where the value of a field came from.
+         * @description Source of the value of a field.
          *
          *     `user`: Fixed by the user.
          *
@@ -5585,7 +5636,7 @@ export interface components {
         Source: "user" | "log" | "default" | "model" | "relation";
         /**
          * Speeds
-         * @description Between which speeds motor vehicles start that move.
+         * @description Range of start speeds of moving motor vehicles.
          */
         Speeds: {
             /**
@@ -5606,7 +5657,7 @@ export interface components {
         Start: {
             /**
              * Format: double
-             * @description Radians, then wrapped; a request takes at most a turn either way, 6.2832.
+             * @description Heading, radians, wrapped when read; a request may have at most a full turn either way, 6.2832.
              */
             heading_rad?: number | null;
             /**
@@ -5614,7 +5665,7 @@ export interface components {
              * @description m/s.
              */
             speed_mps?: number | null;
-            /** @description In place of `speed_mps`; fixes a free heading too. */
+            /** @description Velocity in place of `speed_mps`; it also fixes a free heading. */
             velocity?: components["schemas"]["Velocity"] | null;
             /**
              * Format: double
@@ -5629,7 +5680,7 @@ export interface components {
         } & (unknown & unknown);
         /**
          * StartRanges
-         * @description Fields of a start; those absent are the scene's: of the conditions there, else of the recording.
+         * @description Fields of a start; absent ones are those of the scene: from its conditions, else from the recording.
          */
         StartRanges: {
             /** @description Metres from the start in the scene, along the lane that it is on, else along its heading. */
@@ -5642,7 +5693,7 @@ export interface components {
             speed_mps?: components["schemas"]["Distribution"] | null;
             /** @description Multiple of the speed in the scene, in place of `speed_mps`. */
             speed_times?: components["schemas"]["Distribution"] | null;
-            /** @description Radians from the heading there. */
+            /** @description Radians from the heading of that start. */
             turn_rad?: components["schemas"]["Distribution"] | null;
             /** @description Box centre in the frame of the scene, metres; with `y_m`. */
             x_m?: components["schemas"]["Distribution"] | null;
@@ -5651,7 +5702,7 @@ export interface components {
         };
         /**
          * State
-         * @description Place, heading and velocity of a road user at one moment, scene frame.
+         * @description Position, heading and velocity of a road user at one moment, scene frame.
          */
         State: {
             /** Format: double */
@@ -5670,33 +5721,33 @@ export interface components {
          * @description Body of a step.
          */
         StepBody: {
-            /** @description Every ego at the end of the step. */
+            /** @description States of all egos at the end of the step. */
             egos?: components["schemas"]["Ego"][];
             /**
              * Format: uint64
-             * @description Number of the step: one more than the last. The last one again gives the same reply again.
+             * @description Number of the step: one more than the last. Repeating the last number returns the same reply.
              */
             number: number;
         };
         /**
          * StepReply
-         * @description What a step came to.
+         * @description Result of a step.
          */
         StepReply: {
-            /** @description Who changed its plan because of whom. */
+            /** @description Changes of plan with their causes. */
             changes: components["schemas"]["Change"][];
-            /** @description Ids of those who came in. */
+            /** @description Ids of the road users that entered. */
             entered: string[];
             /** @description Collisions and vehicles off the road that began in this step. */
             faults: components["schemas"]["RunFault"][];
-            /** @description Those who left. */
+            /** @description Road users that left. */
             left: components["schemas"]["Departure"][];
             /**
              * Format: uint64
              * @description Number of the step; 0 for the start.
              */
             number: number;
-            /** @description Everybody who is there, egos too, by id. */
+            /** @description States of all present road users by id, egos included. */
             states: {
                 [key: string]: components["schemas"]["State"];
             };
@@ -5711,7 +5762,7 @@ export interface components {
          * @description A stop sign.
          */
         StopSign: {
-            /** @description Unique among stop signs. */
+            /** @description Id, unique among stop signs. */
             id: string;
             /**
              * @description Ids of lanes that obey it.
@@ -5723,7 +5774,7 @@ export interface components {
         };
         /**
          * StreamModes
-         * @description What drafts carry.
+         * @description Futures in drafts.
          *
          *     `chosen`: The chosen future of each road user.
          *
@@ -5733,7 +5784,7 @@ export interface components {
         StreamModes: "chosen" | "all";
         /**
          * Stretch
-         * @description Something one road user does over a stretch of time.
+         * @description An event of one road user over a time interval.
          */
         Stretch: {
             /** @description The road user. */
@@ -5741,8 +5792,8 @@ export interface components {
             /** @description Off the road and over a median: the road edge that is driven over, by its id in the map. */
             edge: string | null;
             /**
-             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
-             *     the same time, no less bad.
+             * @description The event is in the log: the motion is the recorded one, or the recording has the same event at about
+             *     the same time, at least as severe.
              */
             in_log: boolean;
             /**
@@ -5757,9 +5808,9 @@ export interface components {
             until_s: number;
             /**
              * Format: double
-             * @description The worst of it, in the unit of its list: metres off the road, off the map, driven against the traffic or
-             *     walked on the carriageway; m/s2 of braking or sideways; share of the limit for turns; m/s above the speed limit
-             *     or of running; radians askew.
+             * @description Greatest value, in the unit of its list: metres off the road, off the map, driven against the traffic or walked
+             *     on the carriageway; m/s2 of braking or sideways acceleration; share of the limit for turns; m/s above the speed
+             *     limit or of running; radians askew.
              */
             worst: number | null;
             /**
@@ -5775,17 +5826,17 @@ export interface components {
         };
         /**
          * SupersededEvent
-         * @description Last event of a call that a newer revision of its client took over.
+         * @description Last event of a call that a newer revision of its client replaced.
          */
         SupersededEvent: {
             /**
              * Format: uint64
-             * @description The newer one.
+             * @description The newer revision.
              */
             by_revision: number;
             /**
              * Format: double
-             * @description Since the request was read, milliseconds.
+             * @description Time since the request was read, milliseconds.
              */
             elapsed_ms: number;
             /**
@@ -5797,12 +5848,12 @@ export interface components {
             job: string;
             /**
              * Format: uint64
-             * @description Revision of the request, when it had one.
+             * @description Revision of the request, if it has one.
              */
             revision?: number;
             /**
              * Format: uint64
-             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             * @description Increases by one per event; a gap marks events that were dropped for a slow reader.
              */
             seq: number;
         };
@@ -5819,7 +5870,7 @@ export interface components {
         TemplateItem: {
             /** @description The template with all its parameters. */
             layout: components["schemas"]["Layout"];
-            /** @description Its name for people. */
+            /** @description Display name. */
             title: string;
         };
         /**
@@ -5831,18 +5882,18 @@ export interface components {
         };
         /**
          * Thresholds
-         * @description Numbers that decide what counts. Those absent in a document have their defaults.
+         * @description Thresholds of events. Ones absent in a document have their defaults.
          */
         Thresholds: {
             /**
              * Format: double
-             * @description Walking along a lane for longer than this is walking on the carriageway, metres.
+             * @description Walking farther than this along a lane is walking on the carriageway, metres.
              * @default 3
              */
             along_lane_m?: number;
             /**
              * Format: double
-             * @description Turned by more than this from every lane at its end is askew, radians.
+             * @description A vehicle is askew if it ends at more than this angle to every lane, radians.
              * @default 0.26
              */
             askew_rad?: number;
@@ -5854,27 +5905,27 @@ export interface components {
             closing_speed_mps?: number;
             /**
              * Format: double
-             * @description ... or when more than this share of the smaller box is covered: a child under a bus has a
-             *     tiny intersection over union. Above 1 turns the rule off (the paper's form).
+             * @description Boxes also collide when more than this share of the smaller one is covered: a child under a bus has a
+             *     tiny intersection over union. A value above 1 disables the rule (the paper's form).
              * @default 0.5
              */
             covered_share?: number;
             /**
              * Format: double
-             * @description Crossing this near beside a crosswalk is walking on the carriageway, metres.
+             * @description Crossing beside a crosswalk, within this distance of it, is walking on the carriageway, metres.
              * @default 15
              */
             crosswalk_m?: number;
             /**
              * Format: double
-             * @description Near miss of one that follows another: only when avoiding the collision needs more braking
-             *     than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
+             * @description Near miss of a follower: only if it must brake harder than this to avoid the collision, m/s2 (DRAC,
+             *     3.35 in Archer 2005).
              * @default 3.35
              */
             follow_brake_mps2?: number;
             /**
              * Format: double
-             * @description Braking above this of another that gives way is forced on it, m/s2.
+             * @description A road user that gives way is forced to brake if it brakes harder than this, m/s2.
              * @default 3
              */
             forced_brake_mps2?: number;
@@ -5922,19 +5973,19 @@ export interface components {
             iou?: number;
             /**
              * Format: double
-             * @description Slower than this counts as standing, m/s.
+             * @description Below this speed, a road user stands, m/s.
              * @default 0.5
              */
             moving_mps?: number;
             /**
              * Format: double
-             * @description Off the map: no lane and no road edge within this, metres.
+             * @description Off the map: no lane and no road edge within this distance, metres.
              * @default 5
              */
             off_map_m?: number;
             /**
              * Format: double
-             * @description A corner farther outside than this is off the road, metres.
+             * @description A vehicle is off the road if a corner is farther outside than this, metres.
              * @default 0.1
              */
             offroad_m?: number;
@@ -5957,7 +6008,7 @@ export interface components {
             right_on_red?: boolean;
             /**
              * Format: double
-             * @description A faster pedestrian runs, m/s.
+             * @description A pedestrian faster than this runs, m/s.
              * @default 2.5
              */
             running_mps?: number;
@@ -5975,7 +6026,7 @@ export interface components {
             speeding_share?: number;
             /**
              * Format: double
-             * @description Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
+             * @description Near miss: time to collision below this, seconds. The search ends at [`LOOK_AHEAD_S`].
              * @default 1.5
              */
             ttc_s?: number;
@@ -6006,7 +6057,7 @@ export interface components {
         };
         /**
          * Timing
-         * @description Time spent, milliseconds.
+         * @description Durations of the stages, milliseconds.
          */
         Timing: {
             /**
@@ -6016,17 +6067,17 @@ export interface components {
             choice_ms: number;
             /**
              * Format: double
-             * @description Map and road users.
+             * @description Encoding of the map and the road users.
              */
             encode_ms: number;
             /**
              * Format: double
-             * @description First guess.
+             * @description Initial draft.
              */
             initial_ms: number;
             /**
              * Format: double
-             * @description Waiting for a worker.
+             * @description Wait for a worker.
              */
             queue_ms: number;
             /**
@@ -6034,12 +6085,12 @@ export interface components {
              * @description Scores.
              */
             score_ms: number;
-            /** @description Each denoising step. */
+            /** @description Each refinement step. */
             step_ms: number[];
         };
         /**
          * Track
-         * @description Recorded states as columns, one value a step from `first_step`.
+         * @description Recorded states as columns, one value per step from `first_step`.
          */
         Track: {
             /**
@@ -6071,13 +6122,13 @@ export interface components {
         };
         /**
          * Traffic
-         * @description Side of the road that traffic keeps to.
+         * @description Side of the road on which traffic drives.
          * @enum {string}
          */
         Traffic: "right-hand" | "left-hand";
         /**
          * Trait
-         * @description Something about a motion that a person can name and wish otherwise.
+         * @description A property of a motion that a user can name and want changed.
          */
         Trait: {
             /** @constant */
@@ -6111,7 +6162,7 @@ export interface components {
         };
         /**
          * Trajectory
-         * @description Motion of one road user as columns, one value a step from `first_step`.
+         * @description Motion of one road user as columns, one value per step from `first_step`.
          */
         Trajectory: {
             /**
@@ -6127,7 +6178,7 @@ export interface components {
         };
         /**
          * TryRequest
-         * @description A generation that gives the result of a try again.
+         * @description A generation that reproduces the result of a try.
          */
         TryRequest: {
             /** @description Road users to generate; absent for all. */
@@ -6150,7 +6201,7 @@ export interface components {
             horizon_s: number;
             /**
              * Format: uint64
-             * @description Futures that are planned for each road user.
+             * @description Number of futures planned for each road user.
              * @default 6
              */
             modes: number;
@@ -6192,15 +6243,15 @@ export interface components {
          * TurnAcross
          * @description Left turns (right turns in left-hand traffic) while oncoming traffic has green.
          *
-         *     `permissive`: They have green with it and give way.
+         *     `permissive`: They have green at the same time and give way.
          *
-         *     `protected`: They have a phase of their own.
+         *     `protected`: They have a separate phase.
          * @enum {string}
          */
         TurnAcross: "permissive" | "protected";
         /**
          * UnitOutcome
-         * @description How a unit ended.
+         * @description Outcome of a unit.
          *
          *     `kept`: Its result satisfies the condition, or there is none.
          *
@@ -6241,28 +6292,28 @@ export interface components {
         } & (unknown & unknown & unknown & unknown);
         /**
          * Verdict
-         * @description A person's verdict on a card.
+         * @description The user's verdict on a card.
          *
-         *     `keep`: Good.
+         *     `keep`: The card is kept.
          *
-         *     `reject`: Not that.
+         *     `reject`: The card is rejected.
          * @enum {string}
          */
         Verdict: "keep" | "reject";
         /**
          * Via
-         * @description A place that a road user passes on its way.
+         * @description A via point of a road user.
          */
         Via: {
             /**
              * Format: double
-             * @description Scene time at which it is passed, seconds, within half a second; when it comes to it where free. Later than
+             * @description Scene time at which it is passed, seconds, with a tolerance of half a second; any time if free. Later than
              *     those before it and no later than the goal. Snapped to 0.1.
              */
             time_s?: number | null;
             /**
              * Format: double
-             * @description Passed no farther away than this, metres; 1 when absent.
+             * @description Greatest distance at which it counts as passed, metres; 1 when absent.
              */
             tolerance_m?: number | null;
             /**
@@ -6278,12 +6329,12 @@ export interface components {
         };
         /**
          * Warning
-         * @description Something unlikely that was done anyway.
+         * @description A warning: an unlikely request that was carried out.
          */
         Warning: {
-            /** @description The agent that it concerns. */
+            /** @description The road user concerned. */
             agent: string | null;
-            /** @description A word that programs can switch on. */
+            /** @description Code for programs. */
             code: components["schemas"]["WarningCode"];
             /** @description The warning in English. */
             detail: string;
@@ -6292,7 +6343,7 @@ export interface components {
         };
         /**
          * WarningCode
-         * @description What is unlikely.
+         * @description Kind of a warning.
          *
          *     `goal-unreachable`: No future within the limits meets the goal.
          *
@@ -6300,19 +6351,19 @@ export interface components {
          *
          *     `start-off-road`: No lane is near the start.
          *
-         *     `start-overlaps`: The start is in another road user's place.
+         *     `start-overlaps`: The start overlaps another road user.
          *
-         *     `extrapolated`: A log that ends was carried on.
+         *     `extrapolated`: A recording was extrapolated beyond its end.
          *
          *     `via-missed`: The shown future misses a via point.
          *
-         *     `nothing-generated`: No road user was named, and none has to continue beyond its known motion.
+         *     `nothing-generated`: No road user was requested, and none has to continue beyond its known motion.
          * @enum {string}
          */
         WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated" | "via-missed" | "nothing-generated";
         /**
          * WeightsInfo
-         * @description Facts about one expert's weights.
+         * @description Description of the weights of an expert.
          */
         WeightsInfo: {
             /** Format: double */
@@ -6325,7 +6376,7 @@ export interface components {
             parameters: number;
             sha256: string;
             trained_on: string;
-            /** @description Random weights, for tests. */
+            /** @description Whether the weights are random, for tests. */
             untrained: boolean;
         };
         /**
@@ -6335,10 +6386,10 @@ export interface components {
         Who: components["schemas"]["All"] | string[];
         /**
          * Wish
-         * @description A plain wish: a trait and which way.
+         * @description A wish: a trait and a direction.
          */
         Wish: {
-            /** @description Which way. */
+            /** @description Direction of the wish. */
             wants: components["schemas"]["WishDirection"];
         } & ({
             /** @constant */
@@ -6372,11 +6423,11 @@ export interface components {
         });
         /**
          * WishDirection
-         * @description Which way of a trait is wished.
+         * @description Direction of a wish.
          *
-         *     `more`: More of it; of an order or a manoeuvre: yes.
+         *     `more`: More of it; for an order or a manoeuvre: yes.
          *
-         *     `less`: Less of it; of an order or a manoeuvre: no.
+         *     `less`: Less of it; for an order or a manoeuvre: no.
          * @enum {string}
          */
         WishDirection: "more" | "less";
@@ -6824,9 +6875,9 @@ export interface operations {
     exportUnsaved: {
         parameters: {
             query?: {
-                /** @description A name of the formats table. */
+                /** @description Id of the format. */
                 format?: string;
-                /** @description Which sample of the generated futures; the chosen one when absent. */
+                /** @description Sample of the generated futures; the chosen one when absent. */
                 sample?: number;
                 /** @description `chosen` futures, or only the `log`. */
                 mode?: string;
@@ -7466,16 +7517,16 @@ export interface operations {
     importScenes: {
         parameters: {
             query?: {
-                /** @description A name of the formats table; recognised from the content when absent or `auto`. */
+                /** @description Id of the format; recognised from the content if absent or `auto`. */
                 format?: string;
                 /** @description Records to take, such as `0..9` (both ends), or one number. */
                 index?: string;
                 /**
-                 * @description The part of a map to read: `X,Y,RADIUS` keeps what lies within so many metres (10 to 5000) of a place in the
-                 *     coordinates of the file (longitude, latitude where it has degrees).
+                 * @description Part of a map to read: `X,Y,RADIUS` keeps the content within RADIUS metres (10 to 5000) of a position in the
+                 *     coordinates of the file (longitude, latitude if it has degrees).
                  */
                 around?: string;
-                /** @description Give the scenes back and store nothing. */
+                /** @description Return the scenes and store nothing. */
                 dry_run?: boolean;
                 /** @description Name of the file, a label only. */
                 name?: string;
@@ -7872,7 +7923,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description not under way any more */
+            /** @description no longer running */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -8750,7 +8801,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description what was placed */
+            /** @description result of the placement */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -9304,6 +9355,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
             /** @description uri-too-long */
             414: {
                 headers: {
@@ -9366,7 +9429,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy */
+            /** @description busy, shutting-down */
             503: {
                 headers: {
                     /** @description seconds until another attempt */
@@ -9376,7 +9439,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy";
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -9558,7 +9633,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description what they would do */
+            /** @description predicted motion */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10327,7 +10402,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description what the step came to */
+            /** @description result of the step */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10537,9 +10612,9 @@ export interface operations {
     listScenes: {
         parameters: {
             query?: {
-                /** @description Most scenes of a page, 1 to 200. */
+                /** @description Maximum number of scenes per page, 1 to 200. */
                 limit?: number;
-                /** @description `next` of the page before. */
+                /** @description `next` of the previous page. */
                 after?: string;
                 /** @description Text in the name, case ignored. */
                 q?: string;
@@ -10547,7 +10622,7 @@ export interface operations {
                 tag?: string;
                 /** @description Scene that the listed ones are variants of. */
                 parent?: string;
-                /** @description `updated` or `name`, with `-` before it for falling order. */
+                /** @description `updated` or `name`, with `-` before it for descending order. */
                 sort?: string;
             };
             header?: never;
@@ -11170,7 +11245,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description made */
+            /** @description created */
             201: {
                 headers: {
                     /** @description version of the scene */
@@ -12128,9 +12203,9 @@ export interface operations {
     exportScene: {
         parameters: {
             query?: {
-                /** @description A name of the formats table. */
+                /** @description Id of the format. */
                 format?: string;
-                /** @description Which sample of the generated futures; the chosen one when absent. */
+                /** @description Sample of the generated futures; the chosen one when absent. */
                 sample?: number;
                 /** @description `chosen` futures, or only the `log`. */
                 mode?: string;

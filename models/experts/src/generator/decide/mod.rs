@@ -41,9 +41,10 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let judge = window_judge(setting);
     let fixed: Vec<FixedMotion<'_>> = of.others.kept().collect();
     let candidates = setting.workers().map(&of.indices(), |&i| of.first_material(i).0.candidates());
-    let choice = Choice { agents: Vec::new(), fixed: &fixed, tuning: &setting.tuning().choice };
+    let choice = Choice::new(Vec::new(), &fixed, &setting.tuning().choice);
     let mut table = OptionTable { of, judge, choice, candidates };
-    table.choice.agents = setting.workers().map(&of.indices(), |&i| table.options(i));
+    let options = setting.workers().map(&of.indices(), |&i| table.options(i));
+    table.choice = Choice::new(options, &fixed, &setting.tuning().choice);
     let mut chosen = match setting.request.stages.shown {
         Shown::Chosen => table.solved(),
         Shown::Likeliest | Shown::Drawn => {
@@ -331,7 +332,8 @@ impl OptionTable<'_> {
         };
         let added: Vec<usize> = found.into_iter().map(place).collect();
         if self.candidates[i].len() > known {
-            self.choice.agents[i] = self.options(i);
+            let options = self.options(i);
+            self.choice.set_options(i, options);
         }
         added
     }
@@ -485,11 +487,11 @@ impl OptionTable<'_> {
         let all = of.setting.workers().map(&short, |&i| of.material(i).candidates());
         for (i, all) in short.iter().zip(all) {
             self.candidates[*i] = all;
-            self.choice.agents[*i] = Vec::new();
+            self.choice.set_options(*i, Vec::new());
         }
         let options = of.setting.workers().map(&short, |&i| self.options(i));
         for (i, options) in short.into_iter().zip(options) {
-            self.choice.agents[i] = options;
+            self.choice.set_options(i, options);
         }
         self.choice.solve()
     }
