@@ -184,7 +184,7 @@ pub fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
 }
 
 /// The fault of an id that no road user of the scene has.
-pub(crate) fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
+pub fn unknown_agent(pointer: String, id: &str) -> FieldProblem {
     let message = english::unknown_agent(&shortened(id));
     FieldProblem::new(pointer, formats::problem::code::UNKNOWN_AGENT, message)
 }

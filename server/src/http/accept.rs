@@ -65,7 +65,7 @@ fn accepted(headers: &HeaderMap) -> Option<String> {
     let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
     let lines: Vec<&str> = lines.collect();
     let is_empty = lines.iter().all(|line| line.trim().is_empty());
-    (!is_empty).then(|| without_charset(&lines.join(",")))
+    (!is_empty).then(|| without_parameters(&lines.join(",")))
 }
 
 /// The best of the offered types for an Accept header, where one is accepted.
@@ -73,14 +73,18 @@ fn best(accepted: &str, offered: &'static [MediaType<'static>]) -> Option<MediaT
     Accept::from_str(accepted).ok()?.negotiate(offered).cloned()
 }
 
-/// Accept without the charsets of its types, because all replies are UTF-8.
-fn without_charset(accept: &str) -> String {
+/// Accept without the parameters of its types but their weight: no reply has any, and each is UTF-8.
+fn without_parameters(accept: &str) -> String {
     let plain = |range: &str| {
-        let is_charset = |part: &&str| {
+        let is_weight = |part: &&str| {
             let name = part.split('=').next().unwrap_or_default().trim();
-            name.eq_ignore_ascii_case("charset")
+            name.eq_ignore_ascii_case("q")
         };
-        range.split(';').filter(|part| !is_charset(part)).collect::<Vec<_>>().join(";")
+        let (media_type, parameters) = range.split_once(';').unwrap_or((range, ""));
+        std::iter::once(media_type)
+            .chain(parameters.split(';').filter(is_weight))
+            .collect::<Vec<_>>()
+            .join(";")
     };
     accept.split(',').map(plain).collect::<Vec<_>>().join(",")
 }
@@ -113,6 +117,11 @@ mod tests {
         assert_eq!(form(""), Some(ReplyFormat::Json));
         assert_eq!(form("application/json;charset=utf-8"), Some(ReplyFormat::Json));
         assert_eq!(form("application/x-ndjson; Charset=UTF-8; q=0.9, */*;q=0.1"), Some(ReplyFormat::Ndjson));
+        assert_eq!(form("application/json; indent=4"), Some(ReplyFormat::Json));
+        assert_eq!(
+            form("application/json;odata=verbose;q=0.5, text/event-stream;level=1"),
+            Some(ReplyFormat::Sse)
+        );
         assert_eq!(form("image/png;charset=utf-8"), None);
     }
 

@@ -142,6 +142,14 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
+/// A form that the parser refuses, or whose bytes cannot be read.
+fn unread(error: multer::Error) -> Problem {
+    match error {
+        multer::Error::StreamReadFailed(cause) => broken(cause),
+        other => broken(other),
+    }
+}
+
 /// Limit of the parts of a form, whatever their names.
 const MOST_PARTS: usize = 100;
 /// Limit of the bytes before a form's first part, and of the head of a part: the parser searches all of them again with
@@ -167,7 +175,7 @@ pub fn parts<const N: usize>(
     let mut found = [const { Vec::new() }; N];
     let lines = Arc::new(Mutex::new(BoundaryLines::new(&boundary)));
     let mut read = form_of(form, &boundary, 0, Some(Arc::clone(&lines))).map_err(broken)?;
-    while let Some(mut field) = now(read.next_field()).map_err(broken)? {
+    while let Some(mut field) = now(read.next_field()).map_err(unread)? {
         let index = field.index();
         if index == MOST_PARTS {
             let detail = format!("at most {MOST_PARTS} parts of a form expected");
@@ -188,7 +196,7 @@ pub fn parts<const N: usize>(
         let at = lines.lock().unwrap_or_else(PoisonError::into_inner).at.get(index).copied();
         let at = at.ok_or_else(|| broken("a part without a line before it"))?;
         of_name.push(FormPart { label, form: Arc::clone(form), boundary: boundary.clone(), at });
-        while now(field.chunk()).map_err(broken)?.is_some() {}
+        while now(field.chunk()).map_err(unread)?.is_some() {}
     }
     let decoded = lines.lock().unwrap_or_else(PoisonError::into_inner).read;
     let count = found.iter().map(Vec::len).sum::<usize>() as u64;

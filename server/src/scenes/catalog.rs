@@ -4,7 +4,7 @@
 use super::length;
 use super::library::Library;
 use super::record;
-use super::store::{Expect, PackedScene, SceneRecord, Store, Viewer, Written};
+use super::store::{Expect, PackedScene, SceneRecord, Store, StoreError, StoredText, Viewer, Written};
 use super::weight;
 use api::home::not_found;
 use api::{Code, Home, Opened, Problem};
@@ -51,7 +51,7 @@ impl Catalog {
         memory.lend(lent);
         let lent: Weak<Cache<String, Opened>> = Arc::downgrade(&open);
         memory.lend(lent);
-        Self { store, library, maps, open, pool, party: Party::default() }
+        Self { store: store.within(memory), library, maps, open, pool, party: Party::default() }
     }
 
     /// The same for a caller: it sees only its scenes, and its cached scenes are charged to it.
@@ -68,7 +68,7 @@ impl Catalog {
             return Ok(Some(map));
         }
         let map = match self.store.map(&hash.hex()).await? {
-            Some(json) => Some(self.pool.document(json.len(), move || parse_map(&json)).await?),
+            Some(text) => Some(self.pool.document(text.json.len(), move || parse_map(&text.json)).await?),
             None => self.library.map(&hash).await?,
         };
         if let Some(map) = &map {
@@ -90,9 +90,19 @@ impl Catalog {
 
     /// A saved scene and its ETag.
     async fn saved(&self, id: &str) -> Result<(Scene, String), Problem> {
-        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
-        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
+        let (summary, text) = self.store.get(id).await?.ok_or_else(not_found)?;
+        let doc = self.parsed(text).await?;
         Ok((self.read(doc).await?, summary.etag))
+    }
+
+    /// The document of a stored scene.
+    ///
+    /// # Errors
+    /// A full queue, or a broken text.
+    pub async fn parsed(&self, text: StoredText) -> Result<SceneDoc, Problem> {
+        let length = text.json.len();
+        let parse = move || Ok(native::read_doc(&text.json)?);
+        self.pool.document(length, parse).await
     }
 
     /// JSON of an open scene.
@@ -108,11 +118,20 @@ impl Catalog {
     ///
     /// # Errors
     /// When the map is missing or the stored text is broken.
-    pub async fn with_map(&self, json: Vec<u8>, map_sha: &str) -> Result<Vec<u8>, Problem> {
+    pub async fn with_map(&self, scene: StoredText, map_sha: &str) -> Result<StoredText, Problem> {
         let map = self.store.map(map_sha).await?;
         let map = map.ok_or_else(|| Problem::internal("a stored scene's map is missing"))?;
-        let bytes = json.len() + map.len();
-        self.pool.document(bytes, move || record::with_map(&json, &map)).await
+        let bytes = scene.json.len() + map.json.len();
+        let join = move || {
+            let mut room = scene.room;
+            if !room.grow(bytes) {
+                return Err(StoreError::NoMemory.into());
+            }
+            let json = record::with_map(&scene.json, &map.json)?;
+            room.shrink(scene.json.len());
+            Ok(StoredText { json, room })
+        };
+        self.pool.document(bytes, join).await
     }
 
     /// Saves a scene under an id.

@@ -241,23 +241,32 @@ impl Library {
             if seen.get(&path).is_some_and(|known| known.is_read && is_stable) {
                 continue;
             }
-            if is_stable {
-                self.add_file(folder, &path, stamps.first().copied().flatten());
-            }
-            seen.insert(path, SeenFile { stamps, is_read: is_stable });
+            let is_read = is_stable && self.add_file(folder, &path, &stamps);
+            seen.insert(path, SeenFile { stamps, is_read });
         }
     }
 
-    /// Lists the scenes of a file in place of those that it had.
-    fn add_file(&self, folder: &DataFolder, path: &Path, stamp: Option<FileStamp>) {
-        let held = folder.read(path, u64::MAX).map_err(|error| error.to_string());
+    /// Lists the scenes of a file in place of those that it had. False if other requests fill the memory; no file gets more
+    /// than half of it.
+    fn add_file(&self, folder: &DataFolder, path: &Path, stamps: &[Option<FileStamp>]) -> bool {
+        let length: u64 = stamps.iter().flatten().map(|stamp| stamp.bytes).sum();
+        let most = self.0.memory.most() / 2;
+        let Some(_share) = usize::try_from(length.min(most)).ok().and_then(|bytes| self.0.memory.take(bytes))
+        else {
+            return false;
+        };
+        let held = folder.read(path, most).map_err(|error| error.to_string());
         self.forget(path);
         match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
             Ok((scenes, held)) => {
                 let file = FileFacts {
                     etag: etag_of(&held.bytes, &held.others),
                     bytes: held.length(),
-                    modified: stamp.map_or(SystemTime::UNIX_EPOCH, |stamp| stamp.modified),
+                    modified: stamps
+                        .first()
+                        .copied()
+                        .flatten()
+                        .map_or(SystemTime::UNIX_EPOCH, |own| own.modified),
                 };
                 for (index, scene) in scenes.iter().enumerate() {
                     // Existing scenes stay: a file replaces neither a demo nor another file's scene.
@@ -271,6 +280,7 @@ impl Library {
             }
             Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
         }
+        true
     }
 
     /// Drops the scenes of a file.
@@ -371,7 +381,7 @@ mod tests {
     #[test]
     fn demos_are_there_before_anybody_can_ask() {
         let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
-        let library = Library::start(None, pool, (&Memory::new(1 << 20), 1 << 20)).unwrap();
+        let library = Library::start(None, pool, (&Memory::new(1 << 24), 1 << 20)).unwrap();
         assert_eq!(library.items().len(), demos::ids().len());
         assert!(library.has("demo-crossing"));
     }
@@ -385,7 +395,7 @@ mod tests {
             std::fs::write(folder.path().join(file), formats::native::write_doc(&doc)).unwrap();
         };
         let pool = Pool::start(&Arc::new(Limits::default())).unwrap();
-        let library = Library::start(None, pool, (&Memory::new(1 << 20), 1 << 20)).unwrap();
+        let library = Library::start(None, pool, (&Memory::new(1 << 24), 1 << 20)).unwrap();
         let (opened, mut seen) = (DataFolder::open(folder.path()).unwrap(), BTreeMap::new());
         let mut look = |at_once: bool| {
             library.look(&opened, &mut seen, at_once);

@@ -22,7 +22,7 @@ use crate::weights::EXPERTS;
 use scene::{AgentId, AgentType};
 
 /// Fewest agents of a type in one network call for which splitting over threads pays.
-const FEWEST_IN_BATCH: usize = 4;
+const FEWEST_IN_BATCH: usize = 2;
 
 /// Actors of one expert that run in one network call.
 pub(super) struct Batch {

@@ -9,7 +9,7 @@ use crate::plan::BatchPlan;
 use crate::row::UnitOutcome;
 use crate::sampling::BatchSampling;
 use crate::unit::UnitList;
-use api::problem::refuse;
+use api::problem::{refuse, unknown_agent};
 use api::{Code, Operations, Problem};
 use experts::Cancel;
 use scene::{ContentHash, Scene};
@@ -56,6 +56,8 @@ impl SceneSearch {
             Problem::new(Code::InvalidField, detail).as_fault(pointer(&path))
         });
         refuse(faults.collect())?;
+        let stranger = body.situation.with.as_ref().filter(|with| scene.agent(with).is_none());
+        refuse(stranger.map(|id| unknown_agent("/situation/with".into(), id)).into_iter().collect())?;
         let entry = CatalogueScene {
             sha256: ContentHash::of(&name).hex(),
             name,
@@ -187,6 +189,13 @@ mod tests {
         let expected = ["/where", "/generate/horizon_s", "/situation/agents/0", "/situation/goal/speed_mps"];
         assert_eq!(at, expected, "{all:?}");
         assert!(all[0].1.contains("did you mean min_ttc_s?"), "{all:?}");
+    }
+
+    #[test]
+    fn the_other_road_user_is_one_of_the_scene() {
+        let with = r#"{"situation": {"agents": ["@all"], "with": "7"}, "where": "pair.gap_m < 1"}"#;
+        let found = faults(with);
+        assert_eq!(found[0].0, "/situation/with", "{found:?}");
     }
 
     #[test]

@@ -4,12 +4,14 @@ use crate::app::App;
 use crate::http::coding;
 use crate::http::extract::{Id, QueryParams, if_none_match};
 use crate::routes::own::OwnCatalog;
+use crate::scenes::store::StoredText;
 use crate::scenes::{length, preview};
 use api::Home;
 use api::home::not_found;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use base::memory::MemoryShare;
 use base::problem::Refusal;
 use formats::native::{self, MapForm};
 use serde::Deserialize;
@@ -59,17 +61,17 @@ pub async fn read(
         }
         let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
         let json = catalog.written(opened.scene, form).await?;
-        return scene_reply(&app, headers, &opened.etag, json).await;
+        return scene_reply(&app, headers, &opened.etag, json, None).await;
     }
-    let (summary, json) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let (summary, text) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
     if !fresh(&headers, &summary.etag) {
         return Ok(not_modified(&summary.etag));
     }
-    let json = match params.map {
-        MapParam::Ref => json,
-        MapParam::Inline => catalog.with_map(json, &summary.map_sha).await?,
+    let StoredText { json, room } = match params.map {
+        MapParam::Ref => text,
+        MapParam::Inline => catalog.with_map(text, &summary.map_sha).await?,
     };
-    scene_reply(&app, headers, &summary.etag, json).await
+    scene_reply(&app, headers, &summary.etag, json, Some(room)).await
 }
 
 /// Whether the client lacks this version.
@@ -78,14 +80,23 @@ fn fresh(headers: &HeaderMap, etag: &str) -> bool {
     !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
 }
 
-async fn scene_reply(app: &App, headers: HeaderMap, etag: &str, json: Vec<u8>) -> Result<Response, Refusal> {
+/// The reply with a scene. `room` is the memory of its text, until the reply takes its own.
+async fn scene_reply(
+    app: &App,
+    headers: HeaderMap,
+    etag: &str,
+    json: Vec<u8>,
+    room: Option<MemoryShare>,
+) -> Result<Response, Refusal> {
     let head = [
         (header::CONTENT_TYPE, native::MEDIA_TYPE.to_owned()),
         (header::VARY, header::ACCEPT_ENCODING.as_str().to_owned()),
     ];
     let bytes = json.len();
     let pack = move || Ok(coding::gzip(&headers, &json).ok_or(json));
-    Ok(match app.pool.document(bytes, pack).await? {
+    let packed = app.pool.document(bytes, pack).await?;
+    drop(room);
+    Ok(match packed {
         Ok(packed) => {
             let coded = [(header::ETAG, coding::marked(etag)), (header::CONTENT_ENCODING, "gzip".to_owned())];
             (head, coded, packed).into_response()
@@ -119,7 +130,7 @@ pub async fn preview_of(
     let (scene, bytes) = (Arc::clone(&opened.scene), length::of_scene(&opened.scene));
     let write = move || Ok(native::write_doc(&preview(&scene)));
     let json = app.pool.document(bytes, write).await?;
-    Ok((kept, scene_reply(&app, headers, &opened.etag, json).await?).into_response())
+    Ok((kept, scene_reply(&app, headers, &opened.etag, json, None).await?).into_response())
 }
 
 fn not_modified(etag: &str) -> Response {

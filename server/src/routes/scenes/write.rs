@@ -14,7 +14,7 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use base::id;
 use base::problem::Refusal;
-use formats::native::{self, SceneDoc};
+use formats::native::SceneDoc;
 use serde::Deserialize;
 
 refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull, IdempotencyKeyReused);
@@ -128,9 +128,9 @@ pub async fn rename(
     writable(&catalog, &id)?;
     let reading = Reading::from_ref(&app);
     let patch: ScenePatch = reading.parse(reading.json(request).await?).await?;
-    let (summary, json) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
-    let bytes = json.len();
-    let mut doc = app.pool.document(bytes, move || Ok(native::read_doc(&json)?)).await?;
+    let (summary, text) = catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let bytes = text.json.len();
+    let mut doc = catalog.parsed(text).await?;
     if let Some(name) = patch.name {
         doc.name = name.unwrap_or_default();
     }

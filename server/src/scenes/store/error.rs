@@ -20,6 +20,9 @@ pub enum StoreError {
     /// Nothing was ever stored in the file.
     #[error("the file is empty")]
     Empty,
+    /// Other requests fill the memory.
+    #[error("other requests fill the memory")]
+    NoMemory,
     /// The system cannot start a thread.
     #[error("no thread for the store: {0}")]
     Thread(std::io::Error),
@@ -86,6 +89,7 @@ impl From<StoreError> for Problem {
                 let detail = format!("The scene belongs to \"{owner}\", who does not share it for this.");
                 Self::new(Code::Forbidden, detail)
             }
+            StoreError::NoMemory => Self::new(Code::Busy, "Other requests fill the memory.").retry_after(1),
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {
                 Self::new(Code::StoreFull, "The disk is full.")

@@ -18,9 +18,12 @@ pub use dump::{DumpedScene, count, each};
 pub use error::StoreError;
 pub use list::{PageQuery, Sort};
 pub use owners::{Ownership, SceneShare, Viewer};
-pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
+pub use records::{
+    Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, StoredText, Written,
+};
 
 use base::limits::Limits;
+use base::memory::Memory;
 use identity::FileIdentity;
 use reserve::Reserve;
 use rusqlite::{Connection, OpenFlags};
@@ -48,6 +51,8 @@ pub struct Store {
     file: Arc<FileIdentity>,
     /// User whose view this is.
     viewer: Viewer,
+    /// Memory of the texts that are read.
+    memory: Arc<Memory>,
 }
 
 impl Store {
@@ -76,7 +81,13 @@ impl Store {
         }
         let reserve = Arc::new(Reserve::beside(path));
         let file = Arc::new(FileIdentity::of(path).map_err(StoreError::File)?);
-        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve, file, viewer: Viewer::default() })
+        let (limits, viewer, memory) = (Arc::clone(limits), Viewer::default(), Memory::new(u64::MAX));
+        Ok(Self { writer, readers, limits, reserve, file, viewer, memory })
+    }
+
+    /// The same whose texts are read into this memory.
+    pub fn within(self, memory: &Arc<Memory>) -> Self {
+        Self { memory: Arc::clone(memory), ..self }
     }
 
     /// The same for a user, who sees scenes of others only as their owners allow.

@@ -3,9 +3,11 @@
 use super::{Ownership, SceneShare, Store, StoreError, Viewer};
 use api::Problem;
 use base::limits::Limits;
+use base::memory::MemoryShare;
 use base::{clock, metrics};
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
+use std::io::Read;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -14,6 +16,33 @@ const UNUSED_MAPS: &str = "DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FRO
 
 /// Compression level of bodies: higher ones hardly reduce the size.
 const LEVEL: i32 = 3;
+
+/// Bytes of a stored text that are decoded at a time.
+const PIECE: usize = 64 << 10;
+
+/// A stored text in memory, with its share of it.
+#[derive(Debug)]
+pub struct StoredText {
+    /// The text.
+    pub json: Vec<u8>,
+    /// Its share of the memory.
+    pub room: MemoryShare,
+}
+
+impl StoredText {
+    /// Decodes a stored text as far as there is memory.
+    fn unpack(packed: &[u8], mut room: MemoryShare) -> Result<Self, StoreError> {
+        let (mut json, mut decoder) = (Vec::new(), zstd::Decoder::new(packed)?);
+        loop {
+            if !room.grow(PIECE) {
+                return Err(StoreError::NoMemory);
+            }
+            if decoder.by_ref().take(PIECE as u64).read_to_end(&mut json)? == 0 {
+                return Ok(Self { json, room });
+            }
+        }
+    }
+}
 
 /// A map to write.
 #[derive(Clone, Debug)]
@@ -175,8 +204,8 @@ fn ownership(row: &Row<'_>, at: usize) -> rusqlite::Result<Ownership> {
 
 impl Store {
     /// A scene's facts and its JSON (map by reference).
-    pub async fn get(&self, id: &str) -> Result<Option<(SceneSummary, Vec<u8>)>, StoreError> {
-        let (id, viewer) = (id.to_owned(), self.viewer.clone());
+    pub async fn get(&self, id: &str) -> Result<Option<(SceneSummary, StoredText)>, StoreError> {
+        let (id, viewer, room) = (id.to_owned(), self.viewer.clone(), self.memory.nothing());
         self.read(move |connection| {
             let sql = format!("SELECT {SUMMARY}, body FROM scenes WHERE id = ?1");
             let mut query = connection.prepare_cached(&sql)?;
@@ -184,7 +213,7 @@ impl Store {
                 query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(12)?))).optional()?;
             let seen = row.filter(|(summary, _)| viewer.sees(&summary.ownership));
             let Some((summary, packed)) = seen else { return Ok(None) };
-            Ok(Some((summary, zstd::decode_all(packed.as_slice())?)))
+            Ok(Some((summary, StoredText::unpack(&packed, room)?)))
         })
         .await
     }
@@ -284,12 +313,12 @@ impl Store {
     }
 
     /// JSON of a map.
-    pub async fn map(&self, sha: &str) -> Result<Option<Vec<u8>>, StoreError> {
-        let sha = sha.to_owned();
+    pub async fn map(&self, sha: &str) -> Result<Option<StoredText>, StoreError> {
+        let (sha, room) = (sha.to_owned(), self.memory.nothing());
         self.read(move |connection| {
             let mut query = connection.prepare_cached("SELECT body FROM maps WHERE sha = ?1")?;
             let packed: Option<Vec<u8>> = query.query_row([sha], |row| row.get(0)).optional()?;
-            Ok(packed.map(|packed| zstd::decode_all(packed.as_slice())).transpose()?)
+            packed.map(|packed| StoredText::unpack(&packed, room)).transpose()
         })
         .await
     }

@@ -2,6 +2,7 @@ use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
 use super::{PageQuery, Sort, Store, StoreError};
 use api::{Code, Problem};
 use base::limits::Limits;
+use base::memory::Memory;
 use std::sync::Arc;
 
 fn record(name: &str) -> PackedScene {
@@ -38,8 +39,10 @@ async fn preconditions_guard_every_change() {
     assert!(matches!(stale, Err(StoreError::Stale { etag, .. }) if etag == second.etag));
     let missing = store.put("b", Expect::Etags(vec!["*".into()]), record("x")).await;
     assert!(matches!(missing, Err(StoreError::MissingScene)));
-    let (summary, json) = store.get("a").await.unwrap().unwrap();
-    assert_eq!((summary.name.as_str(), json), ("two", unpacked("two").json));
+    let (summary, text) = store.get("a").await.unwrap().unwrap();
+    assert_eq!((summary.name.as_str(), text.json), ("two", unpacked("two").json));
+    let poor = store.clone().within(&Memory::new(0));
+    assert!(matches!(poor.get("a").await, Err(StoreError::NoMemory)));
     store.delete("a", Expect::Etags(vec![second.etag])).await.unwrap();
     assert!(store.get("a").await.unwrap().is_none());
 }
@@ -57,7 +60,7 @@ async fn scenes_share_their_map_and_survive_reopening() {
     assert_eq!(store.list(page(None, 10), |_| true).await.unwrap().len(), 2);
     assert_eq!(store.maps().await.unwrap().len(), 1);
     store.drop_unused_maps().await.unwrap();
-    assert_eq!(store.map("aa").await.unwrap().unwrap(), b"{}");
+    assert_eq!(store.map("aa").await.unwrap().unwrap().json, b"{}");
 }
 
 #[tokio::test]

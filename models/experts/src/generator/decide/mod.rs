@@ -3,7 +3,7 @@
 mod conflicts;
 
 use crate::features::agent::AgentPlan;
-use crate::generator::candidates::{CandidateOrigin, MotionCandidate, own, shown};
+use crate::generator::candidates::{CandidateOrigin, Material, MotionCandidate, own, shown};
 use crate::generator::choice::{Choice, FixedMotion, JointOption};
 use crate::generator::costs::{Yardstick, options};
 use crate::generator::decisions::{Decided, Decisions};
@@ -40,10 +40,11 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     let setting = of.setting;
     let judge = window_judge(setting);
     let fixed: Vec<FixedMotion<'_>> = of.others.kept().collect();
-    let candidates = setting.workers().map(&of.indices(), |&i| of.first_material(i).0.candidates());
     let choice = Choice::new(Vec::new(), &fixed, &setting.tuning().choice);
-    let mut table = OptionTable { of, judge, choice, candidates };
-    let options = setting.workers().map(&of.indices(), |&i| table.options(i));
+    let mut table = OptionTable { of, judge, choice, candidates: Vec::new() };
+    let made = setting.workers().map(&of.indices(), |&i| table.options_of(i, of.first_material(i).0));
+    let (candidates, options) = made.into_iter().unzip();
+    table.candidates = candidates;
     table.choice = Choice::new(options, &fixed, &setting.tuning().choice);
     let mut chosen = match setting.request.stages.shown {
         Shown::Chosen => table.solved(),
@@ -332,7 +333,7 @@ impl OptionTable<'_> {
         };
         let added: Vec<usize> = found.into_iter().map(place).collect();
         if self.candidates[i].len() > known {
-            let options = self.options(i);
+            let options = self.options(i, &self.candidates[i], &self.choice.agents[i]);
             self.choice.set_options(i, options);
         }
         added
@@ -484,13 +485,9 @@ impl OptionTable<'_> {
         if short.is_empty() {
             return chosen;
         }
-        let all = of.setting.workers().map(&short, |&i| of.material(i).candidates());
-        for (i, all) in short.iter().zip(all) {
-            self.candidates[*i] = all;
-            self.choice.set_options(*i, Vec::new());
-        }
-        let options = of.setting.workers().map(&short, |&i| self.options(i));
-        for (i, options) in short.into_iter().zip(options) {
+        let all = of.setting.workers().map(&short, |&i| self.options_of(i, of.material(i)));
+        for (i, (candidates, options)) in short.into_iter().zip(all) {
+            self.candidates[i] = candidates;
             self.choice.set_options(i, options);
         }
         self.choice.solve()
@@ -529,10 +526,17 @@ impl OptionTable<'_> {
         *chosen = self.choice.solve();
     }
 
-    /// Options of all candidates of an actor. Candidates are only ever added, so what is known of the first stays.
-    fn options(&self, i: usize) -> Vec<JointOption> {
+    /// The candidates of an actor's material, and their options.
+    fn options_of(&self, i: usize, material: Material<'_>) -> (Vec<MotionCandidate>, Vec<JointOption>) {
+        let candidates = material.candidates();
+        let options = self.options(i, &candidates, &[]);
+        (candidates, options)
+    }
+
+    /// Options of candidates of an actor; `known` are those of the first ones, which stay.
+    fn options(&self, i: usize, candidates: &[MotionCandidate], known: &[JointOption]) -> Vec<JointOption> {
         let JointDrafts { setting, others, sample, .. } = self.of;
-        let (actor, candidates) = (&self.of.actors[i], &self.candidates[i]);
+        let actor = &self.of.actors[i];
         let yardstick = Yardstick {
             around: self.of.material(i).around(sample),
             shown: self.of.shown_last(actor),
@@ -544,7 +548,6 @@ impl OptionTable<'_> {
             start_step: setting.world.step,
             tuning: &setting.tuning().choice,
         };
-        let known = self.choice.agents.get(i).map_or(&[][..], Vec::as_slice);
         let mut options = options(actor, candidates, known, &yardstick);
         let matters = |&o: &usize| others.would_react_to(&options[o].sweep);
         let met: Vec<usize> = (known.len()..candidates.len()).filter(matters).collect();
