@@ -37,6 +37,8 @@ const PIECES: usize = 8;
 const WAITING: usize = 64;
 /// The connection's own messages that may wait for the reader; at this number, nothing more is read.
 const REPLIES: usize = 64;
+/// Time for the reader to take a frame while so many wait: a Close behind unread requests is not heard before.
+const FULL_PATIENCE: Duration = Duration::from_secs(1);
 /// Interval of pings, which keep a silent connection open and detect a vanished peer.
 const PING: Duration = Duration::from_secs(30);
 /// Time after which a refused client may repeat its request, seconds.
@@ -299,7 +301,7 @@ impl Line {
         let mut ping = tokio::time::interval_at(Instant::now() + PING, PING);
         let mut controls = ControlAllowance::new();
         let text = |text| Outgoing::Text(text, true);
-        // Deadline of the reader for the frame that is being sent.
+        // Since when the reader has not taken the frame that is being sent.
         let mut sending = None;
         let parting = loop {
             if sending.is_none()
@@ -311,10 +313,12 @@ impl Line {
                 if sink.feed(frame).await.is_err() {
                     return;
                 }
-                sending = Some(Instant::now() + self.carrier.patience);
+                sending = Some(Instant::now());
             }
             let is_over =
                 questions.closing && questions.tasks.is_empty() && ready.is_empty() && sending.is_none();
+            let patience = if replies.len() < REPLIES { self.carrier.patience } else { FULL_PATIENCE };
+            let deadline = sending.unwrap_or_else(Instant::now) + patience.min(self.carrier.patience);
             let heard = tokio::select! {
                 sent = sink.flush(), if sending.is_some() => {
                     if sent.is_err() {
@@ -323,7 +327,7 @@ impl Line {
                     sending = None;
                     continue;
                 }
-                () = tokio::time::sleep_until(sending.unwrap_or_else(Instant::now)), if sending.is_some() => return,
+                () = tokio::time::sleep_until(deadline), if sending.is_some() => return,
                 Some(piece) = ready.recv(), if sending.is_none() => {
                     if questions.takes(&piece) {
                         replies.push_back(text(piece.text));
@@ -364,7 +368,7 @@ impl Line {
                 }
                 // The pong waits in the socket, and nothing else is sent before the reader has taken it.
                 Some(Ok(Message::Ping(_))) => {
-                    sending.get_or_insert_with(|| Instant::now() + self.carrier.patience);
+                    sending.get_or_insert_with(Instant::now);
                 }
                 Some(Ok(Message::Pong(_))) => {}
                 Some(Ok(Message::Binary(_) | Message::Frame(_))) => {

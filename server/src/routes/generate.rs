@@ -20,6 +20,9 @@ use base::problem::Refusal;
 use std::time::Duration;
 use work::Caller;
 
+/// Bytes of a scene that are prepared for a generation while one is read: it is only copied.
+const PREPARED: usize = 16;
+
 refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK,
     NotAcceptable, Exists, Superseded, StaleRevision, NotAsked, ReplyTooLarge, TooMuchWork, NonFiniteOutput);
 
@@ -57,7 +60,7 @@ pub async fn generate(
         plan.drafts = streams;
         Ok(plan)
     };
-    let plan = app.pool.document(bytes, prepare).await?;
+    let plan = app.pool.document(bytes / PREPARED, prepare).await?;
     let pace = StreamPace {
         heartbeat: Duration::from_secs(app.limits.heartbeat_s.max(1)),
         together: plan.draft_delay(),

@@ -38,6 +38,8 @@ use std::time::{Duration, Instant};
 use sync::atomic::{AtomicBool, Ordering};
 use sync::{Condvar, Mutex, MutexGuard, thread};
 
+/// Expected time of a document that a worker of interactive calls reads too: as much as the shortest calls take.
+const BRIEF: Duration = Duration::from_millis(10);
 /// Shortest time after which a refused call may be repeated, seconds.
 const SOONEST_S: f64 = 0.01;
 
@@ -147,8 +149,9 @@ impl Pool {
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, lane, cost, names, ticket, end, work));
         state.arrived(&job);
-        // A worker reads documents too, if all readers are busy or already woken for others.
-        let reads = lane == PoolLane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
+        // A worker reads short documents too, if all readers are busy or already woken for others.
+        let is_short = lane == PoolLane::Document && job.cost <= BRIEF;
+        let reads = is_short && state.lane(lane).queue.len() > state.idle[lane as usize];
         let wakes = if reads { PoolLane::Quick } else { lane };
         drop(state);
         self.arrived[wakes as usize].notify_one();
@@ -230,11 +233,14 @@ impl Pool {
     /// The next job to run; `None` when the pool has stopped.
     fn take(&self, lanes: &[PoolLane]) -> Option<Arc<Job>> {
         let mut state = lock(&self.state);
+        // Interactive calls wait behind no long document.
+        let reads = lanes.first() == Some(&PoolLane::Document);
+        let fits = |job: &Job| job.lane != PoolLane::Document || reads || job.cost <= BRIEF;
         loop {
             if self.stopped.load(Ordering::Relaxed) {
                 return None;
             }
-            if let Some(job) = lanes.iter().find_map(|lane| state.next(*lane, |_| true)) {
+            if let Some(job) = lanes.iter().find_map(|lane| state.next(*lane, fits)) {
                 return Some(job);
             }
             // Threads wait by the first of their lanes.

@@ -340,6 +340,35 @@ async fn a_full_queue_refuses_the_newest_of_the_greediest() {
 }
 
 #[tokio::test]
+async fn long_documents_leave_the_workers_to_calls() {
+    let limits = Limits { running: 1, ..Limits::default() };
+    let readers = limits.readers();
+    let pool = pool(limits);
+    let release = Arc::new(AtomicBool::new(false));
+    let long: Vec<_> = (0..=readers)
+        .map(|_| {
+            let (pool, release) = (Arc::clone(&pool), Arc::clone(&release));
+            let read = move || {
+                while !release.load(Ordering::Relaxed) {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                Ok(())
+            };
+            tokio::spawn(async move { pool.document(64 << 20, read).await })
+        })
+        .collect();
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    let call = pool.run(small(JobKind::Score), |_| Ok(1));
+    assert_eq!(tokio::time::timeout(Duration::from_secs(20), call).await.unwrap().unwrap(), 1);
+    assert_eq!(pool.document(64 << 10, || Ok(2)).await.unwrap(), 2, "short ones are read meanwhile");
+    release.store(true, Ordering::Relaxed);
+    for document in long {
+        assert!(document.await.unwrap().is_ok());
+    }
+    pool.stop();
+}
+
+#[tokio::test]
 async fn parties_with_equal_names_of_jobs_and_clients_leave_each_other_alone() {
     let pool = pool(Limits { running: 2, ..Limits::default() });
     let party = |name: &str| Party::named(name);
@@ -366,6 +395,8 @@ async fn parties_with_equal_names_of_jobs_and_clients_leave_each_other_alone() {
     assert_eq!(ann.await.unwrap(), Err(Code::Cancelled));
     release.store(true, Ordering::Relaxed);
     assert_eq!(bob.await.unwrap(), Ok(()));
+    // Both have left their threads.
+    tokio::time::sleep(Duration::from_millis(100)).await;
     // A party's own older revision is refused.
     assert_eq!(call("ann", 9).await.unwrap(), Err(Code::StaleRevision));
     assert_eq!(call("bob", 2).await.unwrap(), Ok(()));

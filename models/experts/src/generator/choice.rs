@@ -407,6 +407,8 @@ mod tests {
         }
         // Other options in place of the known ones.
         choice.set_options(1, vec![ride(4.0, 8.0, 1.0), ride(-8.0, 8.0, 2.0)]);
-        assert_eq!(choice.solve(), vec![0, 1, 1]);
+        let anew: Vec<Vec<JointOption>> = choice.agents.iter().map(|own| again(own)).collect();
+        assert_eq!(choice.solve(), Choice::new(anew, &fixed, &SHIPPED.choice).solve());
+        assert_eq!(choice.solve()[1], 0, "the motion that was in its place before overlapped others");
     }
 }

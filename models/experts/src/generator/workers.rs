@@ -118,11 +118,16 @@ mod tests {
     }
 
     #[test]
-    fn threads_have_a_name_and_none_starts_for_one() {
-        let name = |_: &usize| std::thread::current().name().map(str::to_owned);
+    fn the_caller_works_beside_threads_with_a_name_and_none_starts_for_one() {
+        let name = |_: &usize| {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            std::thread::current().name().map(str::to_owned)
+        };
         let names = WorkerPool::new(2).map(&[0; 8], name);
-        assert!(names.iter().all(|n| n.as_ref().is_some_and(|n| n.starts_with("generator-"))), "{names:?}");
         let own = std::thread::current().name().map(str::to_owned);
+        let is_named = |n: &Option<String>| n.as_ref().is_some_and(|n| n.starts_with("generator-"));
+        assert!(names.iter().all(|n| *n == own || is_named(n)), "{names:?}");
+        assert!(names.contains(&own) && names.iter().any(is_named), "{names:?}");
         assert_eq!(WorkerPool::new(1).map(&[0; 2], name), [own.clone(), own]);
     }
 }
