@@ -464,7 +464,7 @@ fn connections_stay_below_the_descriptors_there_are() {
     let server = Server::launch(command).unwrap();
     let most =
         |server: &Server| server.get("/v1/info").unwrap().json()["limits"]["connections"]["value"].as_u64();
-    assert_eq!(most(&server), Some(21));
+    assert_eq!(most(&server), Some(20));
     let idle: Vec<_> = (0..200).map(|_| TcpStream::connect(server.address)).collect();
     assert_eq!(server.get("/healthz").unwrap().status, 200);
     drop(idle);
