@@ -259,6 +259,27 @@ fn where_disks_can_be_mounted_a_store_alone_on_a_full_one_frees_all_of_it_again(
 
 #[cfg(target_os = "linux")]
 #[test]
+fn where_disks_can_be_mounted_a_server_starts_on_a_full_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_disk) = small_disk(folder.path(), "6m") else { return };
+    let db = folder.path().join("scenes.sqlite");
+    let server = Server::start_at(&db, &[]).unwrap();
+    server.wait_ready().unwrap();
+    let etags = fill(&server, 1);
+    drop(server);
+    // Another program takes what is left.
+    let mut other = std::fs::File::create(folder.path().join("other")).unwrap();
+    while std::io::Write::write_all(&mut other, &[0; 4_096]).is_ok() {}
+    let server = Server::start_at(&db, &[]).unwrap();
+    for (k, etag) in etags.iter().enumerate() {
+        let delete = Request::new("DELETE", &format!("/v1/scenes/m{k}")).header("if-match", etag);
+        let gone = server.send(&delete).unwrap();
+        assert_eq!(gone.status, 204, "scene {k} of {}: {}", etags.len(), gone.text());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn a_store_that_is_gone_is_not_written_into() {
     type Fault = fn(&Path) -> std::io::Result<()>;
     let faults: [(&str, Fault); 5] = [

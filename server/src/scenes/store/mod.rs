@@ -63,10 +63,11 @@ impl Store {
     /// version.
     pub fn open(path: &Path, limits: &Arc<Limits>) -> Result<Self, StoreError> {
         reserve::make_private(path).map_err(StoreError::File)?;
-        let mut connection = Connection::open(path)?;
-        migrations::check(&connection)?;
-        prepare(&connection)?;
-        migrations::run(&mut connection, path)?;
+        let mut connection = match open_writer(path) {
+            // On a full disk SQLite cannot recover its log; the reserve has room for it.
+            Err(error) if error.is_disk_full() && reserve::give_up_beside(path) => open_writer(path)?,
+            opened => opened?,
+        };
         let (writer, work) = mpsc::channel::<Work>();
         spawn("store-writer".into(), move || work.into_iter().for_each(|task| task(&mut connection)))?;
         let (readers, queries) = mpsc::channel::<Query>();
@@ -207,6 +208,14 @@ fn prepare(connection: &Connection) -> Result<(), StoreError> {
     connection.pragma_update(None, "foreign_keys", true)?;
     connection.pragma_update(None, "trusted_schema", false)?;
     Ok(())
+}
+
+fn open_writer(path: &Path) -> Result<Connection, StoreError> {
+    let mut connection = Connection::open(path)?;
+    migrations::check(&connection)?;
+    prepare(&connection)?;
+    migrations::run(&mut connection, path)?;
+    Ok(connection)
 }
 
 fn open_reader(path: &Path) -> Result<Connection, StoreError> {

@@ -23,12 +23,8 @@ pub struct Reserve {
 impl Reserve {
     /// The reserve beside a database; created if there is space for it.
     pub fn beside(database: &Path) -> Self {
-        let named = |end: &str| {
-            let mut name = database.file_name().unwrap_or_default().to_owned();
-            name.push(end);
-            database.with_file_name(name)
-        };
-        let reserve = Self { path: named("-reserve"), probe: named("-probe"), full: AtomicBool::new(false) };
+        let (path, probe) = (named(database, RESERVE), named(database, "-probe"));
+        let reserve = Self { path, probe, full: AtomicBool::new(false) };
         reserve.restore();
         reserve
     }
@@ -69,6 +65,21 @@ impl Reserve {
         self.note(full);
         full
     }
+}
+
+/// End of the name of the reserve.
+const RESERVE: &str = "-reserve";
+
+/// A file beside a database.
+fn named(database: &Path, end: &str) -> PathBuf {
+    let mut name = database.file_name().unwrap_or_default().to_owned();
+    name.push(end);
+    database.with_file_name(name)
+}
+
+/// Returns the space of the reserve beside a database to the disk. True if there was some.
+pub fn give_up_beside(database: &Path) -> bool {
+    std::fs::remove_file(named(database, RESERVE)).is_ok()
 }
 
 /// Writes zeros, because holes would reserve no space.
