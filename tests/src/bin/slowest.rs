@@ -100,7 +100,18 @@ const KINDS: &[Kind] = &[
     },
     Kind { name: SEARCH, path: "/v1/search", ranges: &[(2, 128), (1, 1_000), (3, 20)], body: search },
     Kind { name: "begin of a run", path: "/v1/runs", ranges: &[(2, 128), (3, 600)], body: begin },
+    Kind {
+        name: "import of a recording",
+        path: "/v1/import?dry_run=true",
+        ranges: &[(1, 256), (2, 600)],
+        body: long,
+    },
+    Kind { name: "save of winding areas", path: "/v1/scenes", ranges: &[(1, 97), (3, 4_096)], body: winding },
+    Kind { name: PICTURE, path: "/v1/scenes", ranges: &[(1, 97), (3, 4_096)], body: winding },
 ];
+
+/// Name of the kind whose request follows a save: a small picture of the saved scene.
+const PICTURE: &str = "picture of winding areas";
 
 /// Name of the kind with its own bound.
 const SEARCH: &str = "tries of a search";
@@ -225,6 +236,23 @@ fn long(n: &[u64]) -> Value {
     street(n[0] as usize, n[1] as usize)
 }
 
+/// An area with that many holes of that many corners, whose zigzags a simplification cuts one by one.
+fn winding(n: &[u64]) -> Value {
+    let hole = |i: u64| -> Value {
+        let corner = |k: u64| {
+            let height_m = 8.0 - 7.0 * k as f64 / n[1] as f64;
+            let side = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+            [k as f64 * 0.2 - 400.0, i as f64 * 40.0 - 1_200.0 + side * height_m]
+        };
+        json!((0..n[1]).map(corner).collect::<Vec<_>>())
+    };
+    let mut scene = street(1, 20);
+    let corners = [[-9e3, -9e3], [9e3, -9e3], [9e3, 9e3], [-9e3, 9e3]];
+    let holes: Vec<Value> = (0..n[0]).map(hole).collect();
+    scene["map"]["drivable"] = json!([{"id": "a", "polygon_m": corners, "holes_m": holes}]);
+    scene
+}
+
 /// A search with that many tries, road users and seconds, for an event that never happens.
 fn search(n: &[u64]) -> Value {
     let situation = json!({"template": "cut-in", "parameters": {"gap_m": {"uniform": [2, 8]}}});
@@ -317,7 +345,15 @@ fn attempt(server: &Server, kind: usize, numbers: &[u64]) -> anyhow::Result<Trie
     let of_kind = &KINDS[kind];
     let body = serde_json::to_vec(&(of_kind.body)(numbers))?;
     let kilobytes = body.len() / 1_000;
-    let request = Request::new("POST", of_kind.path).header("content-type", "application/json").body(body);
+    let mut request =
+        Request::new("POST", of_kind.path).header("content-type", "application/json").body(body);
+    if of_kind.name == PICTURE {
+        let saved = server.send(&request)?;
+        if saved.status == 201 {
+            let id = saved.json()["id"].as_str().unwrap_or_default().to_owned();
+            request = Request::new("GET", &format!("/v1/scenes/{id}/preview"));
+        }
+    }
     let drag = Request::new("POST", "/v1/generate")
         .json(&json!({"scene_id": "demo-crossing", "agents": ["5"], "score": false, "futures": "compact"}));
     let (address, before, began) = (server.address, server.core_s()?, Instant::now());
