@@ -208,14 +208,16 @@ impl Library {
 
     /// Lists the scenes of the files that are new or have changed since the last look, and drops those of files that are
     /// gone. A file that changes from one look to the next may still be written, and waits for the next one.
-    fn look(&self, folder: &DataFolder, seen: &mut BTreeMap<PathBuf, SeenFile>, at_once: bool) {
-        let mut files = match folder.names() {
-            Ok(names) => names,
-            Err(error) => {
-                tracing::error!(%error, "data folder cannot be read");
-                return;
-            }
-        };
+    ///
+    /// # Errors
+    /// When the folder cannot be read: the list stays as it was.
+    fn look(
+        &self,
+        folder: &DataFolder,
+        seen: &mut BTreeMap<PathBuf, SeenFile>,
+        at_once: bool,
+    ) -> io::Result<()> {
+        let mut files = folder.names()?;
         files.truncate(MOST_FILES);
         let names: Vec<&str> = files.iter().map(|path| path.to_str().unwrap_or_default()).collect();
         // Companion tables are read together with the tracks.
@@ -244,6 +246,7 @@ impl Library {
             let is_read = is_stable && self.add_file(folder, &path, &stamps);
             seen.insert(path, SeenFile { stamps, is_read });
         }
+        Ok(())
     }
 
     /// Lists the scenes of a file in place of those that it had. False if other requests fill the memory; no file gets more
@@ -256,8 +259,9 @@ impl Library {
             return false;
         };
         let held = folder.read(path, most).map_err(|error| error.to_string());
+        let read = held.and_then(|held| Ok((scenes_of(path, &held)?, held)));
         self.forget(path);
-        match held.and_then(|held| Ok((scenes_of(path, &held)?, held))) {
+        match read {
             Ok((scenes, held)) => {
                 let file = FileFacts {
                     etag: etag_of(&held.bytes, &held.others),
@@ -298,10 +302,14 @@ impl Library {
 
 /// Keeps the list of a library equal to its data folder, until the library is gone.
 fn watch(library: &Weak<LibraryState>, folder: &DataFolder) {
-    let (mut seen, mut at_once) = (BTreeMap::new(), true);
+    let (mut seen, mut at_once, mut fails) = (BTreeMap::new(), true, false);
     while let Some(state) = library.upgrade() {
         let began = Instant::now();
-        Library(state).look(folder, &mut seen, std::mem::take(&mut at_once));
+        let looked = Library(state).look(folder, &mut seen, std::mem::take(&mut at_once));
+        if let (Err(error), false) = (&looked, fails) {
+            tracing::error!(%error, "data folder cannot be read");
+        }
+        fails = looked.is_err();
         std::thread::sleep(LOOK_EVERY.max(began.elapsed() * REST));
     }
 }
@@ -398,7 +406,7 @@ mod tests {
         let library = Library::start(None, pool, (&Memory::new(1 << 24), 1 << 20)).unwrap();
         let (opened, mut seen) = (DataFolder::open(folder.path()).unwrap(), BTreeMap::new());
         let mut look = |at_once: bool| {
-            library.look(&opened, &mut seen, at_once);
+            library.look(&opened, &mut seen, at_once).unwrap();
             let own = library.items().into_iter().filter(|item| item.id.starts_with("file-"));
             own.map(|item| (item.id, item.name)).collect::<Vec<_>>()
         };
