@@ -154,7 +154,7 @@ export const HELPS = table('helps', {
   aFileEachThose: 'One file per variant: the kept ones, or all',
   movesTheRightToTheLeft: 'Moves the right variant to the left',
   goesThroughTheDifferences: 'Goes through the listed differences',
-  drawRoundA: 'Draw around an area and preview its traffic before you add it.',
+  drawRoundA: 'Draw around an area and preview its traffic before you add it',
   drawALineRound: 'Draw a line around road users to select them',
   dragALineTo: 'Drag a line to measure its length',
   draggingMoves: 'Drag anywhere to move the view',

@@ -158,7 +158,7 @@ export const german: Said<typeof HELPS> = {
   aFileEachThose: 'Eine Datei je Variante: die behaltenen oder alle',
   movesTheRightToTheLeft: 'Bringt die rechte Variante nach links',
   goesThroughTheDifferences: 'Geht durch die aufgeführten Unterschiede',
-  drawRoundA: 'Eine Fläche umfahren und den Verkehr in der Vorschau sehen, bevor er eingesetzt wird.',
+  drawRoundA: 'Eine Fläche umfahren und den Verkehr in der Vorschau sehen, bevor er eingesetzt wird',
   drawALineRound: 'Verkehrsteilnehmer umfahren, um sie auszuwählen',
   dragALineTo: 'Eine Linie ziehen, um ihre Länge zu messen',
   draggingMoves: 'Ziehen verschiebt die Ansicht überall',
