@@ -7,7 +7,7 @@ use scene::{Agent, STANDING_MPS, STEP_S, Scene, State, Track};
 pub(super) struct Guessed {
     /// First scene step that neither a future nor the log covers.
     pub(super) step: usize,
-    /// The agent goes straight on; otherwise it stands at its last place.
+    /// The agent continues straight on; otherwise it stands at its last place.
     pub(super) moving: bool,
 }
 

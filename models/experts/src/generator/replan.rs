@@ -1,7 +1,7 @@
 //! Replans a motion that still meets another agent, or leaves the road on its way to a goal on it. The same
 //! motion is tried beside its path and earlier or later on it: the cheapest sequence of shifts, one per
-//! instant, by dynamic programming. It starts and meets its goal as before. If that does not help either, it
-//! stops before the obstacle.
+//! instant, by dynamic programming. Start and goal stay the same. Alternatively the motion stops before the
+//! obstacle.
 
 use super::motion::Sweep;
 use super::slot::Slot;
@@ -84,7 +84,7 @@ pub(super) struct ReplanField<'a> {
 struct ReplanMoment<'a> {
     /// Boxes of other agents within reach of the shifts.
     near: Vec<&'a OrientedBox>,
-    /// One for each shift along the path.
+    /// One entry per shift along the path.
     unshifted: Vec<Unshifted>,
 }
 
@@ -122,7 +122,7 @@ struct ShiftSearch<'a> {
     /// The vehicle starts on a lane, so it stays near lanes.
     keeps_to_lanes: bool,
     path: Polyline,
-    /// Metres along it, one a step.
+    /// Metres along it, one value per step.
     along_m: Vec<f64>,
     /// The motions of the field that its shifts may meet.
     near: Vec<&'a Sweep>,
@@ -149,7 +149,7 @@ pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Tra
     let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
-        // A later stop gets farther.
+        // The latest possible stop gets farthest.
         let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
         let along_m = halts
             .map(|from| search.halting(from, share * plan.model.limits.brake_mps2))

@@ -80,7 +80,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
     at_lights(plan, slot, steer_to_vias(plan, slot, out))
 }
 
-/// Progress and offset at the instants, with waits at red lights. A waiting agent keeps the offset that it
+/// Progress and offset at the instants, with waits at red signals. A waiting agent keeps the offset that it
 /// would have had at that progress.
 fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
     let gates = &plan.lights[slot.index()];
@@ -108,7 +108,7 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
         easy_mps2: plan.easy_mps2,
     };
     let held = waiting.obeying(&progress);
-    // One mode may overlook the green light.
+    // Without a goal, all modes but the first leave at the latest when the signal turns green.
     let leaves = plan.is_free() && slot != Slot::FIRST;
     let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
     let Some(held) = left.or(held) else { return wanted };
@@ -157,7 +157,7 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
 }
 
 /// The motion at these progresses and offsets. Ten knots cannot follow every halt: an agent that would roll
-/// over a red light's line halts earlier.
+/// over the stop line of a red signal halts earlier.
 fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let motion = on_the_road(plan, slot, coordinates);
     let anchor = &plan.anchors[slot.index()];
@@ -241,8 +241,9 @@ pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     }
 }
 
-/// The same for an agent that stops at or before its goal because another agent is in the way. The places are
-/// those wished for, or those driven.
+/// The motion past these box centres for an agent that other agents may stop. A missed goal counts as missed
+/// because of traffic. With `gets_there` the motion is projected onto the goal, otherwise only onto the
+/// limits.
 pub(super) fn short_along(
     plan: &AgentPlan,
     centres: &[Vec2; INSTANTS],

@@ -65,8 +65,8 @@ pub(super) struct Ledger {
     pub(super) timings: Timings,
 }
 
-/// The reactions of others if an unshown future of an agent were taken, by agent and future. `None` stands
-/// for an agent that nobody is in the way of.
+/// The reactions of others to each unshown future of an agent, by agent and future. `None` stands for an
+/// agent that keeps its motion.
 pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<AgentFutures>)>>;
 
 impl Ledger {

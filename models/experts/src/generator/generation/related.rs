@@ -125,7 +125,7 @@ fn with_dependent(mut request: Request) -> Request {
     }
 }
 
-/// Whether the call plans this agent anew. An agent that enters later, or cannot move, keeps its motion.
+/// Whether the call regenerates this agent. An agent that enters later, or cannot move, keeps its motion.
 fn is_planned(request: &Request, id: &AgentId) -> bool {
     let agents = &request.scene.agents;
     let there = agents.iter().position(|agent| agent.id == *id).is_some_and(|i| {

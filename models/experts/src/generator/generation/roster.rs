@@ -174,7 +174,7 @@ impl Roster {
         for (i, ahead) in &mut resumed {
             let agent = &self.base.agents[*i];
             let agent_type = world.conditions[*i].kind_of(agent);
-            // An extrapolated motion goes straight on, whatever the road does.
+            // An extrapolated motion continues straight on and ignores the road.
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];

@@ -1,5 +1,5 @@
-//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and onwards
-//! from those.
+//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and from those
+//! to others.
 
 use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
@@ -181,7 +181,7 @@ impl Others<'_> {
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
             match self.way(reactors[at], &others, stays - 1e-9) {
                 Some(way) => ways[at] = Some(way),
-                // Nothing helps now; a change of another agent may.
+                // No option helps; a later change of another agent may.
                 None => decisions[at] = MOST_DECISIONS,
             }
         }

@@ -91,7 +91,7 @@ impl Others<'_> {
     }
 
     /// A paced motion with its cost, and the part of the cost for encounters. `None` for the kept motion
-    /// itself, and for a motion that meets someone and costs `most` or more.
+    /// itself, and for a motion that meets another agent and costs `most` or more.
     fn weighed(
         &self,
         who: ReactingAgent<'_>,

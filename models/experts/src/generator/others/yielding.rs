@@ -1,5 +1,5 @@
-//! A path driven so that others go first: unchanged for as long as possible, then with no harder braking than
-//! needed, and on again once the way is free.
+//! A path driven so that others go first: unchanged for as long as possible, then with the least sufficient
+//! braking, and on once the path is free.
 
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
