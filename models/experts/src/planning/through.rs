@@ -26,7 +26,7 @@ struct Through {
     mean_mps: f64,
 }
 
-/// The six anchors of a road user through its via points, to its goal or on along the lanes.
+/// The six anchors of a road user through its via points, to its goal, or further along the lanes.
 pub(super) fn anchors_through(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -87,7 +87,7 @@ fn timed(
     out
 }
 
-/// Extends each path by the paths that are found from its end; if there are none yet, starts new ones. The
+/// Extends each path by the paths that are found from its end; if there are none yet, starts new paths. The
 /// next leg takes `steps`.
 fn lead_on(
     world: &World<'_>,
@@ -200,7 +200,7 @@ fn ahead(
     let limit_mps = world.tuning.anchors.over_limit * way.limit_mps.max(v0);
     let mut speed_mps = match target.speed_mps {
         Some(speed_mps) => speed_mps,
-        // At least the present speed: a via point is there to be driven through.
+        // At least the present speed: a via point is no reason to slow down.
         None => v0.min(limit_mps) + share * (limit_mps - v0).max(0.0),
     };
     let start = paced(model, way, &dated, None, world.tuning.anchors.setting_off_mps2);
@@ -220,7 +220,7 @@ fn dated(vias: &[Waypoint], found: &Through) -> Vec<(usize, f64)> {
     vias.iter().zip(&found.at_m).filter_map(|(waypoint, at_m)| Some((waypoint.step?, *at_m))).collect()
 }
 
-/// Rising progress through these places at these steps; the speed at each lies between those of its
+/// Monotonic progress through these places at these steps; the speed at each lies between those of its
 /// neighbours.
 fn paced(
     model: &MotionModel,

@@ -1,4 +1,4 @@
-//! Paths to a goal position: along lanes if they lead there in time, off them only if nothing else does.
+//! Paths to a goal position: along lanes if they lead there in time, off the lanes only if no lane does.
 
 use super::around::around;
 use super::coordinates::MODES;
