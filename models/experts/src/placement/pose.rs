@@ -118,7 +118,7 @@ pub(super) fn draw_pose(
             offset - half_lane_m
         }
         CellKind::Lane => {
-            // Drivers start within their lane: the space beside it belongs to others.
+            // Drivers start within their lane: the space beside it belongs to other lanes.
             let room_m = half_lane_m - LANE_SIDE_M;
             let most_rad = ((room_m - 0.5 * size.width_m) / (0.5 * size.length_m).max(STRAIGHT_M))
                 .clamp(0.0, 1.0)

@@ -1,5 +1,5 @@
 //! Room to brake: lowers drawn speeds until comfortable braking suffices for the road user ahead, and for one
-//! whose path crosses or joins. A road user that no speed helps is left out.
+//! whose path crosses or joins. A road user for which no speed suffices is left out.
 
 use crate::planning::world::AgentAtStart;
 use crate::tuning::placing::room::{
@@ -20,7 +20,7 @@ const STEP_M: f64 = 1.0;
 const MOST_WAYS: usize = 8;
 /// Most rounds of lowering speeds; each round lowers at least one.
 const ROUNDS: usize = 40;
-/// A road user that needs room to brake, or that others need room for.
+/// A road user that needs room to brake, or that others have to brake for.
 pub(super) struct DrivenBox {
     pub(super) agent_type: AgentType,
     pub(super) limits: Limits,
@@ -41,7 +41,7 @@ impl DrivenBox {
     }
 }
 
-/// Where a kept road user has to pass, and a little beyond.
+/// Boxes of a kept road user over the ground that it cannot avoid, and slightly beyond.
 pub(super) fn next(graph: &LaneGraph, mover: &DrivenBox) -> impl Iterator<Item = OrientedBox> {
     let walks = mover.lane.is_none().then(|| kept_clear(mover));
     ways(graph, mover).into_iter().filter(move |_| walks.is_none()).flatten().chain(walks)
@@ -290,8 +290,8 @@ fn lower(mover: &mut DrivenBox, most: f64) -> bool {
     mover.speed_mps < before
 }
 
-/// Makes one of two stop before their paths meet, unless they pass that place well apart in time. True if
-/// anything changed.
+/// Makes one of two stop before their paths meet, unless they pass that place well apart in time. True if a
+/// speed or a left-out flag changed.
 fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> bool {
     let WaysMeet { of, into_m, past_m, joins } = crossing;
     if out[of[0]] || out[of[1]] {
@@ -317,7 +317,7 @@ fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> 
     }
     let may = |k: usize| !movers[of[k]].kept && room_m[k] >= 0.0;
     let Some(who) = [later, 1 - later].into_iter().find(|k| may(*k)) else {
-        // Each is in the other's way already.
+        // Each already blocks the path of the other.
         let who = if movers[of[1]].kept { of[0] } else { of[1] };
         out[who] = true;
         return true;
