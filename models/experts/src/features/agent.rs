@@ -33,7 +33,7 @@ pub struct AgentPlan {
     pub vias: Vec<Waypoint>,
     /// Its [`MODES`] anchors.
     pub anchors: Vec<Anchor>,
-    /// Red lights on each anchor's path.
+    /// Red signals on each anchor's path.
     pub lights: [Vec<Gate>; MODES],
     /// Kerb on each anchor's path, where a walker steps onto the lanes.
     pub kerbs: [Option<Kerb>; MODES],
@@ -140,7 +140,7 @@ impl AgentPlan {
         self.target.is_free() && self.vias.is_empty()
     }
 
-    /// Whether the agent stands at a red light that is known to turn green, and has neither a goal nor a via
+    /// Whether the agent stands at a red signal that is known to turn green, and has neither a goal nor a via
     /// point.
     pub fn sets_off(&self) -> bool {
         self.is_free()

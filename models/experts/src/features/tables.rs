@@ -99,7 +99,7 @@ block! {
 }
 
 block! {
-    /// State of a light; all zero without one.
+    /// State of a signal; all zero without one.
     pub struct LightFlags {
         known: (flag) "there is a light",
         stop: (flag) "it shows stop",

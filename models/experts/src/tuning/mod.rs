@@ -261,7 +261,7 @@ tuning! {
         /// 2.7 % at 3, 2.3 % at 4. 2026-11-23.
         switching = 4.0, off 0.0;
         /// The same for a road user of a run that leaves its present motion: less than a close approach, so
-        /// that it changes its mind only for a reason. Set by hand. 2026-11-27.
+        /// that a road user changes its motion only for a reason. Set by hand. 2026-11-27.
         leaving_course = 1.0, off 0.0;
         /// Mean distance from which a motion counts as another one, metres.
         switching_m = 1.0;
