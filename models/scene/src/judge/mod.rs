@@ -88,7 +88,7 @@ impl<'a> Judge<'a> {
         Other { actor, bounds, mover: OnceLock::new() }
     }
 
-    /// Faults of a motion that do not involve another agent: road, lights, brakes, steering, goal. Faults
+    /// Faults of a motion that do not involve another agent: road, signals, braking, steering, goal. Faults
     /// that the recording also shows are left out.
     pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
         let mut found = Vec::new();

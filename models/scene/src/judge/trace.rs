@@ -259,7 +259,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
         if beyond && found.is_some_and(|f| !f.beyond) {
             break;
         }
-        // Far from everything that the other does.
+        // Far from all places of the other motion.
         if other.extent.outside_m(here.center) > reach {
             continue;
         }

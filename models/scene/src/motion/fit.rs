@@ -13,7 +13,7 @@ use nalgebra::{SMatrix, SVector};
 /// One wanted state of the box centre, scene frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    /// 1 ..= [`crate::HORIZON_STEPS`], rising within a list.
+    /// 1 ..= [`crate::HORIZON_STEPS`], ascending within a list.
     pub step: usize,
     /// Metres.
     pub position: Vec2,

@@ -15,7 +15,7 @@ const FINE_STEP_M: f64 = 0.4;
 const BLEND_S: f64 = 3.0;
 /// Longest blend of a small offset, metres.
 const MAX_BLEND_M: f64 = 40.0;
-/// Lateral acceleration of a larger offset, such as a lane change: what drivers mostly keep to, m/s2. The
+/// Lateral acceleration of a larger offset, such as a lane change; most drivers stay below it, m/s2. The
 /// quintic of an offset `d` that fades in a time `T` peaks at 5.77 `d` / `T`².
 const SIDEWAYS_MPS2: f64 = 1.5;
 const QUINTIC_PEAK: f64 = 5.77;

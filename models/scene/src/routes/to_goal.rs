@@ -88,8 +88,8 @@ pub struct GoalRoute {
     pub cost: f64,
 }
 
-/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first. Empty if no sensible route is known, so
-/// that the motion of least effort has to do.
+/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first. Empty if no sensible route is known;
+/// only the motion of least effort remains then.
 ///
 /// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join is better.
 /// Goals more than 3 m off every lane are reached from the nearest lane.

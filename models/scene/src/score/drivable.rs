@@ -130,7 +130,7 @@ impl Drivable {
         self.allowed.is_empty() || !self.allowed.contains(&edge.owner)
     }
 
-    /// Whether a point lies between edges that may be crossed, or right at one.
+    /// Whether a point lies between edges that may be crossed, or directly at one.
     pub fn is_beside_allowed(&self, point: Vec2) -> bool {
         self.is_at_allowed(point, BETWEEN_EDGES_M)
     }

@@ -66,8 +66,8 @@ impl<'a> MeetingSearch<'a> {
     }
 
     /// The pair of a road user with the smallest time to collision or post-encroachment time. If no pair has
-    /// one, the smallest time gap decides, then the smallest gap. `None` if there is no such time and nobody
-    /// is within 30 m.
+    /// one, the smallest time gap decides, then the smallest gap. `None` if there is no such time and no road
+    /// user is within 30 m.
     pub fn hardest(&self, of: usize) -> Option<MeetingPair> {
         let pairs = (0..self.movers.len()).filter(|other| *other != of);
         let pairs = pairs.filter_map(|other| self.between(of, other));

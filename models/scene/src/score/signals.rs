@@ -1,4 +1,4 @@
-//! Red lights: the front crosses the stop line while the signal of its lane says stop.
+//! Red-light violations: the front crosses the stop line while the signal of its lane says stop.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, time_of};
