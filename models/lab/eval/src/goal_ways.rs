@@ -18,7 +18,7 @@ const BEND_M: f64 = 4.0;
 /// How a route along the traffic leads to a goal; the best path counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum InTime {
-    /// No route does in time, or the road has no room there.
+    /// No route leads there in time, or the road has no room there.
     No,
     /// Within the motion limits.
     Pressed,

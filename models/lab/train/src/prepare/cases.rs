@@ -1,4 +1,4 @@
-//! Records of chosen road users of a scene, for sets that others define.
+//! Records of chosen road users of a scene, for sets of cases that are defined elsewhere.
 
 use super::record;
 use crate::polylines::Polylines;
@@ -33,7 +33,7 @@ pub struct CaseRecords {
 }
 
 impl CaseRecords {
-    /// Of these road users, with so many drawn conditions each.
+    /// The records of these road users, each with `draws` drawn conditions.
     pub fn new(scene: &Scene, agents: &[usize], asked: CaseCondition, draws: usize, seed: u64) -> Self {
         let mut provenance = Provenance::default();
         provenance.add(scene);
