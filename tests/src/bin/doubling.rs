@@ -169,7 +169,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether every operation is answered, and the time of none rises too much.
+/// Whether every operation is answered, and no time rises too much.
 fn run() -> anyhow::Result<bool> {
     let server = Server::start(&PATIENCE)?;
     server.wait_ready()?;
