@@ -58,7 +58,7 @@ block! {
 }
 
 block! {
-    /// Another road user, in the frame of the one that looks.
+    /// Another road user, in the frame of the observing road user.
     pub struct Neighbour {
         ahead: (30.0 "m") "position ahead",
         left: (30.0 "m") "position to the left",

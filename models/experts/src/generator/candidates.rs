@@ -138,7 +138,7 @@ impl Material<'_> {
     }
 
     /// The motion that was shown last, if it led close to the present goal. A small move of the goal then
-    /// moves the motion by little, whatever the modes are. If no draft reaches the goal (`missed` holds the
+    /// moves the motion by little, independent of the modes. If no draft reaches the goal (`missed` holds the
     /// reason), this motion may miss it too.
     fn shown_last(&self, missed: Option<Reach>) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;

@@ -370,7 +370,7 @@ impl<'a> ShiftSearch<'a> {
         Some(shifts)
     }
 
-    /// Progress never falls, and wheeled agents move sideways only while they roll.
+    /// Progress never decreases, and wheeled agents move sideways only while they roll.
     fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
         let way_m = way_m + f64::from(ahead) * AHEAD_M;
         let rolls = self.plan.model.kind == MotionKind::Drive;

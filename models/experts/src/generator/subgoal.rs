@@ -155,7 +155,7 @@ fn path_to(
 }
 
 /// Metres along the path and speed after one window, for a path of `length_m` that takes `left` steps.
-/// Progress never falls, and the speed stays below the limit of the agent type.
+/// Progress never decreases, and the speed stays below the limit of the agent type.
 fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left: usize) -> (f64, f64) {
     let seconds = left as f64 * STEP_S;
     let top = model.limits.speed_mps.max(v0);

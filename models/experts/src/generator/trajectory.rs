@@ -68,7 +68,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
             across += f64::from(ACROSS_SCALE * BASIS.across[i][k] * residual[KNOTS + k]);
         }
         across *= plan.aside_share[i];
-        // Progress never falls.
+        // Progress never decreases.
         last = along.max(last);
         *place = (last, across);
     }
@@ -430,7 +430,7 @@ pub(super) fn rest(plan: &AgentPlan) -> Rollout {
     Rollout { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
 }
 
-/// The motion with these states from the first step on, whatever the goal.
+/// The motion with these states from the first step on, regardless of the goal.
 pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
     let states: Trajectory = std::iter::once(&plan.present.start)
         .chain(states)

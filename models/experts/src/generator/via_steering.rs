@@ -25,7 +25,7 @@ pub(super) fn steer_to_vias(
     }
     in_time(plan, &anchor.passes_m, &mut coordinates);
     if let (None, Some(last_m)) = (plan.target.position, anchor.passes_m.last()) {
-        // Adds as much of the base as it takes to get there.
+        // Adds a share of the base so that the progress ends beyond the last via point.
         let end_m = anchor.base[HORIZON_STEPS];
         let short_m = (last_m + PAST_M).min(end_m) - coordinates[INSTANTS - 1].0;
         if short_m > 0.0 && end_m > 0.0 {

@@ -63,7 +63,7 @@ pub enum Amount {
     PerLaneKm(f64),
     /// Total number.
     Count(usize),
-    /// Number of each type, whatever [`PlaceRequest::types`] contains.
+    /// Number of each type, regardless of [`PlaceRequest::types`].
     Each(BTreeMap<AgentType, usize>),
 }
 

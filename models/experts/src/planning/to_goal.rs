@@ -127,8 +127,8 @@ pub(super) fn paths_to_goal(
 }
 
 impl GoalTrip<'_, '_> {
-    /// Paths that drivers and riders usually take, whatever the rules: lane routes, and the smooth path if it
-    /// is as good.
+    /// Paths that drivers and riders usually take, regardless of the rules: lane routes, and the smooth path
+    /// if it is as good.
     fn usual(&self) -> Vec<UntimedPath> {
         let Self { world, who, target, .. } = self;
         let routes =

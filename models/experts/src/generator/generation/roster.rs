@@ -147,8 +147,8 @@ impl Roster {
         self.part(agent) == CallPart::Picked && !self.known_until(agent, step + 1)
     }
 
-    /// Number of scene steps that a picked future covers; `None` for all others, and if nothing comes after
-    /// it.
+    /// First scene step that a picked future does not cover. `None` for all other agents, and if the future
+    /// covers the whole call.
     pub(super) fn pick_ends(&self, agent: usize) -> Option<usize> {
         self.guessed[agent].filter(|_| self.part(agent) == CallPart::Picked).map(|g| g.step)
     }

@@ -163,7 +163,7 @@ impl Others<'_> {
         out: &[Option<&AgentId>],
     ) -> Vec<Option<YieldOption>> {
         let mut ways: Vec<Option<YieldOption>> = vec![None; reactors.len()];
-        // An agent that stays out decides nothing.
+        // An agent that stays out makes no decision.
         let decisions = |who: &ReactingAgent<'_>| if out[who.at].is_some() { MOST_DECISIONS } else { 0 };
         let mut decisions: Vec<usize> = reactors.iter().map(decisions).collect();
         loop {

@@ -53,7 +53,7 @@ pub(in crate::generator) struct OtherAgent {
 
 /// Whether an agent may change its motion.
 pub(super) enum Response {
-    /// It keeps its motion whatever the others do.
+    /// It keeps its motion regardless of the others.
     Keeps,
     /// It may yield.
     Reacts(Box<Reactor>),

@@ -34,8 +34,8 @@ pub(super) struct YieldManner {
     pub(super) headway_s: f64,
     /// Factor of the path's speed at each place.
     pub(super) pace: f64,
-    /// Factor of the first speed of an agent that enters: less than one if it braked before anyone could see
-    /// it.
+    /// Factor of the first speed of an agent that enters: less than one if it braked before it came into
+    /// sight.
     pub(super) entry: f64,
 }
 
