@@ -124,7 +124,7 @@ pub const PATH_POINTS: usize = 8;
 pub const BASE_STEPS: [usize; 6] = [10, 20, 35, 50, 70, 90];
 
 block! {
-    /// An anchor: a path, the base progress along it, and what lies ahead on it. What is not there is far away:
+    /// An anchor: a path, the base progress along it, and what lies ahead on it. Absent items are encoded as far away:
     /// 100 m for places, 12 s for times of arrival.
     pub struct AnchorInputs {
         path: [PathPoint; PATH_POINTS] "the path",

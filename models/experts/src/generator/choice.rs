@@ -1,5 +1,5 @@
-//! Picks one candidate per actor so that the scene is coherent: coordinate descent with pair moves. It costs
-//! microseconds and no accuracy.
+//! Picks one candidate per actor so that the scene is coherent: coordinate descent with pair moves. It takes
+//! microseconds and does not reduce accuracy.
 
 use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;

@@ -140,8 +140,8 @@ fn harsh(actor: &PlannedActor, states: &Trajectory, tuning: &ChoiceTuning) -> f6
     if steps > 2 { tuning.harsh + tuning.harsh_second * steps as f64 * STEP_S } else { 0.0 }
 }
 
-/// Cost of crossing a stop line at red and of harsh braking or steering; for a vehicle also of leaving the road or
-/// driving against the traffic.
+/// Cost of crossing a stop line at red and of harsh braking or steering. For a vehicle, also the cost of leaving the
+/// road or driving against the traffic.
 fn rule_cost_of(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {

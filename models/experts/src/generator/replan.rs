@@ -220,8 +220,8 @@ impl<'a> ShiftSearch<'a> {
         OrientedBox::new(pose.position, 0.5 * size.length_m, 0.5 * size.width_m, pose.heading_rad)
     }
 
-    /// Whether a shift is allowed at an instant: none at the goal's instant; at most one unit each way at the
-    /// two instants around a goal that lies between them.
+    /// Whether a shift is allowed at an instant. At the goal's instant only zero is. If the goal lies between
+    /// two instants, these allow one unit each way.
     fn allows(&self, instant: usize, shift: Shift) -> bool {
         let due = self.plan.target.position.is_some()
             && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;

@@ -209,8 +209,8 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The motion that was driven past these box centres, fitted again in the manner that stays nearest to them:
-/// with hurried or physical limits, and with or without the lane's heading at the goal.
+/// The motion that was driven past these box centres, fitted again with hurried or physical limits, and with
+/// or without the lane's heading at the goal. The fit nearest to the centres is taken.
 pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);

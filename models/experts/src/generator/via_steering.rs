@@ -1,5 +1,5 @@
-//! Via points between a draft and its motion: the draft is steered to them, and after the fit to ten knots
-//! and the limits the motion is projected through them.
+//! Via points between a draft and its motion. The draft is steered to them. After the fit to ten knots and
+//! the limits, the motion is projected through them.
 
 use super::slot::Slot;
 use crate::features::agent::AgentPlan;
@@ -139,7 +139,7 @@ impl Tried {
             let step = waypoint.step.unwrap_or(nearest).clamp(1, last.max(1));
             let state = &motion.trajectory[step];
             let ahead = Vec2::new(state.heading_rad.cos(), state.heading_rad.sin());
-            // A motion that reaches the via point may pass it at any time; any other motion is brought there.
+            // A motion that reaches the via point may pass it at any time; any other motion is moved there.
             let comes = (via.position - passing.place).dot(&ahead).abs() < KEEPS * via.tolerance_m;
             let free = waypoint.step.is_none() && comes;
             let here = if free { passing.place } else { state.position };

@@ -189,8 +189,8 @@ struct ArmLeg {
     at_m: f64,
 }
 
-/// The path from one lane of an arm to its end line: the first junction, or the place where the road leaves
-/// the map or joins another.
+/// The path from one lane of an arm to its end line. That is the first junction, or the place where the road
+/// leaves the map or joins another.
 pub(super) struct ArmPath {
     legs: Vec<ArmLeg>,
     pub(super) path: Polyline,

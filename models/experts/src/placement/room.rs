@@ -47,7 +47,7 @@ pub(super) fn next(graph: &LaneGraph, mover: &DrivenBox) -> impl Iterator<Item =
     ways(graph, mover).into_iter().filter(move |_| walks.is_none()).flatten().chain(walks)
 }
 
-/// The speed from which a driver gets down to `to_mps` within `room_m` by comfortable braking, after a
+/// The speed from which a driver slows down to `to_mps` within `room_m` by comfortable braking, after a
 /// reaction time.
 pub(super) fn brakes_from(limits: &Limits, room_m: f64, to_mps: f64) -> f64 {
     let brake_mps2 = limits.comfortable.brake_mps2;
@@ -417,7 +417,7 @@ mod tests {
         let at = |a_m: f64, b_m: f64| {
             speeds(&graph, vec![car(&graph, 0, 100.0 - a_m, 10.0), car(&graph, 1, 100.0 - b_m, 10.0)])
         };
-        // Box and way begin to overlap some 3 m before the crossing.
+        // Box and path begin to overlap about 3 m before the crossing.
         let slowed = at(20.0, 22.0);
         assert_eq!(slowed[0], Some(10.0), "it comes first");
         assert!(

@@ -1,5 +1,5 @@
-//! Paths through via points: one leg after the other, each planned as a path to a goal, and a progress that
-//! is at each via point at its time.
+//! Paths through via points, planned leg by leg as paths to a goal. Their progress is at each via point at
+//! its time.
 
 use super::coordinates::MODES;
 use super::profile::{Caps, Progress, TimedLeg, cruising_from, going_on, speed_at};

@@ -41,11 +41,11 @@ numbers! {
         WAIT_S: f64 = 6.0;
         /// Gap that an entering agent needs to the one ahead, metres.
         ENTRY_GAP_M: f64 = 3.0;
-        /// Place of a vehicle that enters inside the map, along its way, metres.
+        /// Place of a vehicle that enters inside the map, along its path, metres.
         ENTRY_M: f64 = 0.05;
         /// Margin around the box of an entering vehicle, metres.
         ENTRY_SIDE_M: f64 = 0.1;
-        /// Speed by which the length of a followed way is computed, m/s.
+        /// Speed by which the length of a followed path is computed, m/s.
         REACH_MPS: f64 = 40.0;
         /// Time by which it is computed, at most, seconds.
         REACH_S: f64 = 60.0;

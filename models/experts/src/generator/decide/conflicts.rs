@@ -1,5 +1,5 @@
-//! Resolves the conflicts that remain after the joint choice and involve a driver without a goal, earliest first: one
-//! of the two road users drives behind the other.
+//! Resolves conflicts of drivers without goals that remain after the joint choice, earliest first: one of the two road
+//! users drives behind the other.
 
 use super::{OptionTable, Settled};
 use crate::generator::candidates::MotionCandidate;

@@ -18,7 +18,7 @@ pub(super) enum CallPart {
     /// The call regenerates it.
     Asked,
     /// The call regenerates it, but the user picked its future. It is fixed in the first window and
-    /// background afterwards. At the end of the picked future it is planned again.
+    /// background afterwards. It replans at the end of the picked future.
     Picked,
     /// It may react to the regenerated agents.
     MayReact,
@@ -55,8 +55,8 @@ pub(super) struct Roster {
 }
 
 impl Roster {
-    /// The parts in a call, and the scene that its windows are cut from: the call's own, with kept motions
-    /// extended to the end of the last window.
+    /// The parts in a call, and the scene that its windows are cut from. That is the scene of the call, with
+    /// kept motions extended to the end of the last window.
     ///
     /// # Errors
     /// Unknown ids, ids of agents that cannot move, or more regenerated agents than [`MOST_ACTORS`].

@@ -1,5 +1,5 @@
-//! A path driven so that others go first: unchanged for as long as possible, then with the least sufficient
-//! braking, and on once the path is free.
+//! A path driven so that others go first. The motion is unchanged for as long as possible, then brakes as
+//! little as necessary, and continues once the path is free.
 
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
