@@ -1,6 +1,6 @@
 //! Traces of motions, and the ground that two of them share.
 //!
-//! Boxes are compared at different times: if the box of one at one moment overlaps the box of the other at
+//! Boxes are compared at different times. If the box of one at one moment overlaps that of the other at
 //! another moment, the two share ground. The time shift between the moments gives their order. The
 //! post-encroachment time of the score is similar, but needs paths that cross at an angle; merging counts
 //! here too.

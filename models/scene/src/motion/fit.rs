@@ -52,8 +52,8 @@ pub fn fit(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Kn
     }
 }
 
-/// The same motion up to a step, then past the samples after it. A vehicle that was changed to meet a goal at
-/// that step leaves it with another place, speed and heading than the later knots were made for.
+/// The same motion up to a step, then past the samples after it. A motion that was changed to meet a goal at
+/// that step leaves it with another place, speed and heading than the later knots assume.
 pub fn refit_after(
     model: &MotionModel,
     knots: &Knots,

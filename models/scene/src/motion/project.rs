@@ -666,8 +666,8 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
     explain_turn(model, knots, target)
 }
 
-/// For a target that neither distance nor speed puts out of reach: the turn does, by grip or by steering
-/// lock, unless the knots are at an acceleration bound.
+/// For a target that neither distance nor speed puts out of reach. The turn is the cause, by grip or by
+/// steering lock, unless the knots are at an acceleration bound.
 fn explain_turn(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Option<f64>) {
     let l = &model.limits;
     let (grip, wheels) = curvature_cut(model, knots, target.step);

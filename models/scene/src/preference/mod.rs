@@ -4,7 +4,7 @@
 //!
 //! A wide draw gives [`Candidate`]s. [`Taste`] is the posterior of a Plackett-Luce model over their features,
 //! given the answers so far. [`choose`] takes the next cards from it: the best first, then the best by draws
-//! of the posterior, each dissimilar to the other cards and to judged ones.
+//! of the posterior. Each is dissimilar to the other cards and to judged ones.
 
 mod features;
 mod round;
