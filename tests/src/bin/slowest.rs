@@ -131,7 +131,7 @@ fn tangle(n: &[u64]) -> Value {
 }
 
 /// Lanes back and forth across a square of this side, alternately at right angles, so that each piece of one
-/// crosses all pieces of its neighbours; cars are on and beside them.
+/// crosses all pieces of its neighbours. Cars are on and beside them.
 fn combs(n: &[u64]) -> Value {
     let (lanes, points, side_m, agents) = (n[0], n[1], n[2] as f64, n[3] as usize);
     let at = |i: u64, k: u64| {

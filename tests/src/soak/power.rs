@@ -1,4 +1,4 @@
-//! Power cuts while six writers work, at the start, during copies and while a copy is restored: acknowledged
+//! Power cuts while six writers work, at the start, during copies and while a copy is restored. Acknowledged
 //! writes are on the disk, regardless of the unsynced changes that the disk has kept.
 
 use super::Tell;

@@ -311,8 +311,8 @@ fn repeats(futures: &AgentFutures) -> bool {
     keys.len() < futures.modes.len()
 }
 
-/// A driver before a line that is red at the start: its probability of crossing the line at red without a
-/// goal, and whether the shown future does.
+/// A driver before a line that is red at the start. Holds its probability of crossing the line at red without
+/// a goal, and whether the shown future does.
 struct RedLightCase {
     site: usize,
     runs: f64,

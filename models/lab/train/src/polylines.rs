@@ -1,4 +1,4 @@
-//! Maps as pieces of lines, for networks that read them: lanes, edges, crosswalks and stop signs cut into
+//! Maps as pieces of lines, for networks that read them. Lanes, edges, crosswalks and stop signs are cut into
 //! stretches of at most 20 m, each in its own frame. Only the baselines see them; the anchors of the experts
 //! contain what these need of the map.
 

@@ -1,6 +1,5 @@
-//! The paper's denoiser: its own encoder, and a one-dimensional U-Net over the points of a future that
-//! predicts the noise in them, with cross-attention to the road user's surroundings and the user's condition
-//! at each step.
+//! The paper's denoiser: its own encoder, and a one-dimensional U-Net that predicts the noise in the points
+//! of a future. At each step it has cross-attention to the road user's surroundings and the user's condition.
 
 use candle_core::{Result, Tensor};
 use experts::net::layers::{CrossBlock, Linear, Norm, RELU_GAIN};
@@ -172,7 +171,7 @@ impl Unet {
         self.leave.forward(&self.norm.forward(&fine)?)?.reshape((batch, MODES, NUMBERS))
     }
 
-    /// The leapfrog steps by the paper's update (its section on diffusion refinement): each removes its share
+    /// The leapfrog steps by the paper's update (its section on diffusion refinement). Each removes its share
     /// of the estimated noise and, except for the last, adds new noise with the variance of the step. `fresh`
     /// has one draw per step.
     pub(super) fn leapfrog(&self, seen: &Context, futures: &Tensor, fresh: &[Tensor]) -> Result<Tensor> {

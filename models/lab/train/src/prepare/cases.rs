@@ -19,8 +19,8 @@ const EARLIEST: usize = 20;
 pub enum CaseCondition {
     /// Nothing.
     Nothing,
-    /// Position, speed and heading of the end: in half of the records at this step, in a quarter at the last known
-    /// one, else at any from 2 s on. In half of them some others have their ends fixed too.
+    /// Position, speed and heading of the end. Half of the records use this step, a quarter the last known one, the
+    /// others any step from 2 s on. In half of them the ends of some others are fixed too.
     End(usize),
 }
 
