@@ -48,7 +48,8 @@ pub struct AgentPlan {
     pub aside_share: [f64; INSTANTS],
     /// Ground on which it may drive: [`World::ground`].
     pub drivable: Arc<Drivable>,
-    /// As [`AgentPlan::drivable`]; `None` unless the agent is a vehicle that starts on this ground.
+    /// As [`AgentPlan::drivable`]; `None` unless the map bounds its roads and the agent is a vehicle that starts on
+    /// them.
     pub ground: Option<Arc<Drivable>>,
     /// Inputs of the networks.
     pub features: AgentFeatures,

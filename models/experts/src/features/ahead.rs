@@ -28,7 +28,7 @@ pub(super) struct PathFacts {
     /// The first junction on the path.
     pub(super) junction: Option<JunctionAhead>,
     /// Number of lanes beside the first one: same direction on the left, same direction on the right,
-    /// opposite direction.
+    /// opposite direction on the left.
     pub(super) beside: [usize; 3],
 }
 

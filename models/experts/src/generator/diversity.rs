@@ -27,7 +27,7 @@ pub(super) struct DiverseModes {
     pub(super) offset: Modes,
     /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes that no draw changes: the best guess, and modes with a given order.
+    /// Modes that no draw changes: the best guess, and modes with a given order or wait.
     pub(super) steady: [bool; MODES],
 }
 

@@ -116,7 +116,7 @@ impl Course {
 pub(super) struct FollowingDriver {
     pub(super) course: Course,
     pub(super) length_m: f64,
-    /// Speed in free traffic as a share of the speed limit.
+    /// Speed in free traffic as a share of what the limit and bends allow.
     pub(super) share: f64,
     /// Step of its first place.
     pub(super) first_step: usize,

@@ -55,7 +55,7 @@ pub(super) fn brakes_from(limits: &Limits, room_m: f64, to_mps: f64) -> f64 {
     (moment_mps * moment_mps + to_mps * to_mps + 2.0 * brake_mps2 * room_m.max(0.0)).sqrt() - moment_mps
 }
 
-/// The paths that a driver can take from its place, a little longer than its stopping distance.
+/// The paths that a road user can take from its place, slightly longer than its stopping distance.
 fn ways(graph: &LaneGraph, mover: &DrivenBox) -> Vec<Vec<OrientedBox>> {
     let parked = mover.lane.is_none() && mover.agent_type == AgentType::Vehicle;
     if parked {
@@ -132,7 +132,7 @@ pub(super) fn lines(
     done
 }
 
-/// The highest speed for the bends and limits ahead, on the branch that allows most, m/s.
+/// The highest speed for the bends ahead, on the branch that allows most, m/s.
 pub(super) fn bend_mps(graph: &LaneGraph, mover: &DrivenBox) -> f64 {
     let Some((lane, s_m)) = mover.lane else { return f64::INFINITY };
     let manner = mover.limits.comfortable;

@@ -30,7 +30,7 @@ const NOTICING_STEPS: usize = 5;
 pub struct Kerb {
     /// Progress of the box centre at which its front is at the kerb, metres.
     pub line_m: f64,
-    /// Steps of the window at which lanes crossed on a crosswalk have green.
+    /// Steps of the window at which lanes crossed on a crosswalk have green or yellow.
     go: Steps,
     /// Steps at which all of them are known to be stopped.
     stopped: Steps,

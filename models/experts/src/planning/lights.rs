@@ -14,8 +14,8 @@ use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
-/// A turn at red is checked this many steps and metres after the line. An agent that cannot get there does
-/// not begin the turn.
+/// A turn at red is checked this many steps after the line. An agent that would not be [`TURN_M`] beyond the
+/// line by then does not begin the turn.
 const TURN_STEPS: usize = 45;
 /// Steps after green at which the first agent of a queue leaves, and steps from each agent to the next.
 const FIRST_LEAVES_STEPS: usize = 10;

@@ -132,8 +132,8 @@ impl Through {
     }
 }
 
-/// Steps of each leg: to the via points, then to the goal if there is one. Free times are shared out by
-/// distance.
+/// Steps of each leg: to the via points, then to the goal if there is one. Free times before a fixed one are
+/// in proportion to distance; the others follow from a usual pace.
 fn leg_steps(who: &AgentAtStart, model: &MotionModel, target: &Target, vias: &[Waypoint]) -> Vec<usize> {
     let mut places: Vec<(Vec2, Option<usize>)> = vias.iter().map(|w| (w.via.position, w.step)).collect();
     places.extend(target.position.map(|goal| (goal, Some(target.step))));
@@ -220,8 +220,8 @@ fn dated(vias: &[Waypoint], found: &Through) -> Vec<(usize, f64)> {
     vias.iter().zip(&found.at_m).filter_map(|(waypoint, at_m)| Some((waypoint.step?, *at_m))).collect()
 }
 
-/// Monotonic progress through these places at these steps; the speed at each lies between those of its
-/// neighbours.
+/// Monotonic progress through these places at these steps; the speed at each is the average of the mean
+/// speeds before and after it.
 fn paced(
     model: &MotionModel,
     way: &UntimedPath,

@@ -166,8 +166,8 @@ impl GoalTrip<'_, '_> {
         out
     }
 
-    /// Whether the motion of least effort crosses an edge that this road user may cross, and no other: it was
-    /// permitted for this.
+    /// Whether the motion of least effort crosses an edge that this road user may cross, and no other edge:
+    /// the permission was given for this.
     fn takes_what_is_allowed(&self) -> bool {
         let crosses = |ground: &Drivable| {
             let path = self.least_path.points();

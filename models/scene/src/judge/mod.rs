@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
-                // Boxes that touch have collided, however little.
+                // Boxes that overlap have collided, however little.
                 Meeting::Overlap { time_s, .. } => (FaultKind::Collision, time_s, 0.0),
                 Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };

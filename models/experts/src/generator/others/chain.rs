@@ -11,7 +11,7 @@ use scene::{AgentId, Future, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Number of times that one agent decides in a window.
+/// Limit of decisions of one agent in a window.
 const MOST_DECISIONS: usize = 4;
 
 /// A motion of this answer that other agents may have to yield to.

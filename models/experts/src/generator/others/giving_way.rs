@@ -13,7 +13,7 @@ use crate::tuning::fixed::giving_way::{
 };
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// Rounds in which the order of the agents is recomputed.
+/// Limit of rounds in which the order of the agents is recomputed.
 const MOST_TURNS: usize = 3;
 
 /// A motion that gives way, with its cost.
