@@ -92,7 +92,7 @@ struct ReplanMoment<'a> {
 struct Unshifted {
     position: Vec2,
     left: Vec2,
-    /// `met` is the box itself; `close` is the box with a margin.
+    /// `met` is the box with the margin [`SPARE_M`], `close` with [`CLOSE_M`] in addition.
     met: OrientedBox,
     close: OrientedBox,
 }
@@ -144,7 +144,7 @@ pub(super) fn swerve(
 }
 
 /// The motion on the same path that stops before the agent it would meet; `None` if no braking suffices. It
-/// misses its goal, if it has one.
+/// misses its goal unless it stops there or later.
 pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Trajectory) -> Option<Rollout> {
     let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;

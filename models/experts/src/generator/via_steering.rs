@@ -115,7 +115,7 @@ struct Tried {
     motion: Projection,
     /// All via points are passed well within their tolerance.
     sure: bool,
-    /// Metres beyond tolerances, with a large penalty for a missed goal.
+    /// Distances to missed via points, metres, with a penalty for each of them and a larger one for a missed goal.
     cost: f64,
     passes: Vec<Pass>,
 }

@@ -169,7 +169,7 @@ impl<'a> Cells<'a> {
 
     /// Kilometres of lane for motor vehicles in the region, junctions left out.
     pub(super) fn lane_km(&self, region: &Region) -> f64 {
-        // A map may have kerbs but no lane.
+        // Junction lanes and lanes of other road users do not count.
         let counts = |lane: &GraphLane| lane.carries(AgentType::Vehicle) && !lane.interpolating;
         let counted = self.all.iter().filter(|s| {
             s.kind == CellKind::Lane

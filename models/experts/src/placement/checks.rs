@@ -87,7 +87,8 @@ fn before(driver: &OrientedBox) -> OrientedBox {
     OrientedBox::new(center, half_length_m, half_width_m, driver.heading_rad())
 }
 
-/// Drivers wait at red signals, parked vehicles stay off the lanes, and pedestrians stand on the pavement.
+/// Drivers are not beyond the stop line of a red signal, and parked vehicles are off the lanes. People on pavements
+/// neither stand on a lane nor face one nearby.
 pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     let outline = placed.outline();
     match placed.kind {

@@ -180,8 +180,8 @@ fn in_driveway(
     Some(Pose { position, heading_rad: wrap_angle(axis.y.atan2(axis.x) + turn_rad), s_m: 0.0 })
 }
 
-/// What a pose in a cell teaches: offset (if offsets are learned there) and heading, in the terms in which
-/// [`draw_pose`] draws them.
+/// Offset (if offsets are learned there) and heading of a pose in a cell, in the terms in which [`draw_pose`]
+/// draws them.
 pub(super) fn measure(
     cells: &Cells<'_>,
     cell: &MapCell,
