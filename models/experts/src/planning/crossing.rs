@@ -18,7 +18,7 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
 /// Distance between samples of a path, metres.
 const LOOK_M: f64 = 0.5;
-/// Spacing of a path and radius with which its corners are rounded, metres.
+/// Distance between the points of a path by a crosswalk, metres.
 const SPACING_M: f64 = 0.5;
 /// First identity of paths by crosswalks.
 const IDENTITY: u64 = 1_000;

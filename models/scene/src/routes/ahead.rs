@@ -29,7 +29,7 @@ struct Chain {
     hops: Vec<Hop>,
     length_m: f64,
     terminal: bool,
-    /// Rank: sum of start score, missing length in metres, and turning.
+    /// Rank: weighted sum of start score, missing share of the length, and turning.
     rank: f64,
     trace: Vec<Vec2>,
 }

@@ -98,7 +98,7 @@ impl<'a> MeetingSearch<'a> {
 
     /// How two of them meet, by their indices in the input. `None` if both stay, belong together, are
     /// excluded from the score or are never near each other. Also `None` for two that stay 30 m apart and
-    /// have no time to collision.
+    /// have neither a time to collision nor a post-encroachment time.
     pub fn between(&self, of: usize, other: usize) -> Option<MeetingPair> {
         let (a, b) = (self.movers.get(of)?, self.movers.get(other)?);
         let stays = |mover: &Mover| mover.travel_m < PARKED_M;
