@@ -7,8 +7,8 @@ use std::io::{BufRead, BufReader, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::time::Duration;
 
-/// A connection from the address 127.0.0.N of this machine, so that it counts as its own party. Linux has all
-/// of these.
+/// A connection from the address 127.0.0.N of this machine, so that it counts as its own party. Linux accepts
+/// all of these addresses.
 ///
 /// # Errors
 /// When the connection fails.

@@ -155,7 +155,7 @@ impl DiskModel {
         }
         let file = self.files.len();
         self.files.push(FileModel::default());
-        // The number of a deleted file is used again by the next one.
+        // The number of a deleted file is reused for the next one.
         self.numbers.insert(number, file);
         self.seen.insert(path.to_owned(), file);
         self.unsynced.push(NameChange::Give(path.to_owned(), file));
@@ -229,7 +229,7 @@ impl DiskModel {
     }
 
     /// Checks that the journal has every change: its result must equal the files. SQLite writes the index of
-    /// its log in memory, so that file is left out; the first process that opens a store makes it anew.
+    /// its log in memory, so that file is left out; the first process that opens a store creates it again.
     ///
     /// # Errors
     /// At the first file that differs.

@@ -1,5 +1,5 @@
-//! Writers that remember the replies: each changes its own scenes by PUT, PATCH and DELETE, and knows what
-//! the store must hold afterwards, even if the server or its disk failed.
+//! Writers that remember the replies. Each changes its own scenes by PUT, PATCH and DELETE. It knows what the
+//! store must hold afterwards, even if the server or its disk failed.
 
 use crate::http::Request;
 use crate::program::Server;

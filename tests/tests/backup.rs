@@ -43,7 +43,7 @@ fn a_copy_taken_amid_writes_has_every_write_that_was_answered_before() {
     }
     let kept: Vec<(String, String)> = ids(&server);
     assert!(!kept.is_empty());
-    // These writers go on during the copy.
+    // These writers continue during the copy.
     let mut amid: Vec<Writer> = Writer::crowd(6, 2).into_iter().skip(2).collect();
     let taken =
         writers::work_until(&mut amid, server.address, Duration::from_millis(100), writers::none, || {

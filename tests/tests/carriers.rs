@@ -163,7 +163,7 @@ fn conditions_of_other_road_users_are_refused() {
     let via = json!([{"x_m": -20.0, "y_m": 8.0}]);
     let places = refused(&asked("6", json!({"start": {"speed_mps": 3.0}, "via": via})));
     assert_eq!(places, ["/conditions/6/start", "/conditions/6/via"]);
-    // Without `agents` the goal of 7 chooses 7 alone.
+    // Without `agents` the goal of 7 selects only 7.
     let mut body = asked("6", json!({"start": {"speed_mps": 3.0}}));
     (body["agents"], body["conditions"]["7"]) = (Value::Null, json!({"goal": goal}));
     assert_eq!(refused(&body), ["/conditions/6/start"]);
@@ -178,7 +178,7 @@ fn conditions_of_other_road_users_are_refused() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// A condition without generation is taken where the scene keeps a future of the road user or has the same condition.
+/// A condition without generation is accepted if the scene keeps a future of the road user or has the same condition.
 #[test]
 fn conditions_of_kept_futures_and_of_the_scene_are_taken() {
     let server = Server::start(&[]).unwrap();
@@ -201,7 +201,8 @@ fn conditions_of_kept_futures_and_of_the_scene_are_taken() {
     assert!(own["goal"].is_object() && answered(&body)["samples"][0]["agents"]["7"].is_object());
 }
 
-/// An empty list regenerates no road user; with `react`, motion that ends early goes on. Nothing at all is warned of.
+/// An empty list regenerates no road user; with `react`, motion that ends early is continued. A call that generates
+/// nothing gets a warning.
 #[test]
 fn an_empty_list_of_agents_means_the_same_everywhere() {
     let server = Server::start(&[]).unwrap();
@@ -228,7 +229,7 @@ fn an_empty_list_of_agents_means_the_same_everywhere() {
     assert_eq!(refused.status, 422, "{}", refused.text());
 }
 
-/// Each member of a score stands in it, null where nothing is known: as its schema says.
+/// A score contains every member of its schema, null if the value is unknown.
 #[test]
 fn scores_have_all_members() {
     let server = Server::start(&[]).unwrap();

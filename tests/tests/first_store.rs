@@ -1,4 +1,4 @@
-//! A store of the first version of the program (`stores/first.sql`): it opens, and everything in it is as it was.
+//! A store of the first version of the program (`stores/first.sql`): it opens, and its content is unchanged.
 
 #![allow(clippy::unwrap_used, reason = "a failed test panics")]
 
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;
 
-/// Makes the file as the first version would have left it.
+/// Creates the file as the first version would have left it.
 fn first_store(path: &Path) {
     let connection = Connection::open(path).unwrap();
     connection.pragma_update(None, "journal_mode", "WAL").unwrap();

@@ -1,4 +1,4 @@
-//! Readers and requests with damaged input, the same ones each time: `cargo xtask fuzz` goes on from here.
+//! Readers and requests with damaged input, the same in each run: `cargo xtask fuzz` continues from here.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 const SEED: u64 = 20_261_123;
 /// Inputs of each reader.
 const READ: u64 = 3_000;
-/// Bodies of each sort of request.
+/// Bodies of each kind of request.
 const SENT: u64 = 250;
 
 #[test]

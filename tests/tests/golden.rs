@@ -1,6 +1,6 @@
-//! Golden answers: what the shipped weights say to a few calls, kept in `tests/golden`. A change of the code that
-//! changes an answer shows here first; `cargo xtask golden` prints what changed, `cargo xtask golden --accept`
-//! keeps it.
+//! Golden answers: the answers of the shipped weights to a few calls, stored in `tests/golden`. A code change that
+//! changes an answer fails here first; `cargo xtask golden` prints the differences, `cargo xtask golden --accept`
+//! stores them.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -24,7 +24,7 @@ enum Mode {
     Check,
     /// The difference is reported, with its size.
     Review,
-    /// It is the golden one from now on.
+    /// It becomes the golden answer.
     Accept,
 }
 
@@ -40,7 +40,7 @@ fn file(name: &str) -> PathBuf {
     root().join("tests/golden").join(format!("{name}.json"))
 }
 
-/// Kept to 1e-5, finer than what counts as equal.
+/// Rounds to 1e-5, finer than the tolerance of the comparison.
 fn rounded(value: f64) -> f64 {
     (value * 1e5).round() / 1e5
 }
@@ -50,14 +50,14 @@ fn state(s: &State) -> Value {
     json!([s.x_m, s.y_m, s.heading_rad, s.speed_mps()].map(rounded))
 }
 
-/// Every state of a second, and the last.
+/// The state at each full second, and the last one.
 fn seconds(states: &[State]) -> Value {
     let last = states.len().saturating_sub(1);
     let picked = states.iter().enumerate().filter(|(i, _)| (i + 1) % 10 == 0 || *i == last);
     picked.map(|(_, s)| state(s)).collect()
 }
 
-/// All futures of an answer; of a draft where the shown one ends.
+/// All futures of an answer; for a draft, only the last state of the shown one.
 fn futures(of: &AgentFutures, all: bool) -> Value {
     if !all {
         let last = of.modes.get(of.chosen).and_then(|shown| shown.states.last());
@@ -147,7 +147,7 @@ fn the_shipped_weights_answer_as_they_did() {
     );
 }
 
-/// The page of the networks' inputs is the one that their tables make.
+/// The page of the networks' inputs equals the output of their tables.
 #[test]
 fn the_page_of_inputs_is_up_to_date() {
     let path = root().join("docs/features.md");

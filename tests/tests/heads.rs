@@ -1,4 +1,4 @@
-//! Heads that no handler ever sees, over raw sockets: each refusal looks like all others, and is counted and logged.
+//! Request heads that reach no handler, over raw sockets: each refusal has the common form, and is counted and logged.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 
@@ -18,12 +18,12 @@ fn connect(server: &Server) -> TcpStream {
     stream
 }
 
-/// A request that is fine and keeps the connection.
+/// A valid request that keeps the connection open.
 fn fine(server: &Server) -> String {
     format!("GET /healthz HTTP/1.1\r\nhost: {}\r\n\r\n", server.address)
 }
 
-/// A head in which the line `line` stands where header fields do.
+/// A head with the line `line` in place of a header field.
 fn with_line(server: &Server, line: &str) -> String {
     fine(server).replace("\r\n\r\n", &format!("\r\n{line}\r\n\r\n"))
 }
@@ -129,7 +129,7 @@ fn a_refused_head_on_a_kept_connection_may_come_in_pieces() {
     reader.get_mut().write_all(fine(&server).as_bytes()).unwrap();
     assert_eq!(Reply::read(&mut reader, false).unwrap().status, 200);
     for piece in with_line(&server, "non sense").as_bytes().chunks(7) {
-        // The fault may be seen before all is sent.
+        // The server may detect the fault before everything is sent.
         let _ = reader.get_mut().write_all(piece);
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -158,7 +158,7 @@ fn work_stops_when_a_reader_leaves_who_has_sent_more() {
     (body["steps"], body["samples"], body["score"]) = (json!(100), json!(16), json!(false));
     // One reply as a whole: no write in between could fail and reveal the disconnect.
     let ask = Request::new("POST", "/v1/generate").json(&body).keep().bytes(server.address);
-    // Once so little that the server has read it all, once more than it reads ahead.
+    // Once little enough for the server to have read all of it, once more than it reads ahead.
     for behind in [1, 1_000] {
         let gone = server.metric(CANCELLED).unwrap();
         let mut stream = connect(&server);

@@ -1,4 +1,4 @@
-//! A server that others host: tokens with rights, a proxy before it, probes, configuration.
+//! A hosted server: tokens with rights, a proxy in front of it, probes, configuration.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -46,7 +46,7 @@ fn a_unix_socket_has_its_mode_and_replaces_the_one_of_a_server_that_ended() {
         let mut command = Server::command(&folder.path().join("scenes.sqlite"), &flags);
         command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null()).spawn().unwrap()
     };
-    // What a server leaves that was killed.
+    // The socket file that a killed server leaves behind.
     drop(UnixListener::bind(&socket).unwrap());
     let mut server = start();
     let ask = || -> std::io::Result<String> {
@@ -90,7 +90,7 @@ fn tokens_have_names_and_rights_and_change_without_a_restart() {
     let status = |method: &str, path: &str, token: &str| send(method, path, token).status;
     assert_eq!([&guest, &anna, &boss].map(|token| status("GET", "/v1/scenes", token)), [200; 3]);
     assert_eq!([&guest, &anna, &boss].map(|token| status("GET", "/metrics", token)), [403, 403, 200]);
-    // 404: the right is there, the scene is not.
+    // 404: the token has the right, but the scene does not exist.
     assert_eq!([&guest, &anna, &boss].map(|token| status("DELETE", "/v1/scenes/a", token)), [403, 404, 404]);
     let refused = send("DELETE", "/v1/scenes/a", &guest);
     assert_eq!(refused.code(), "forbidden");
@@ -108,7 +108,7 @@ fn tokens_have_names_and_rights_and_change_without_a_restart() {
         server.send(&request).unwrap().status
     };
     assert_eq!((with("DELETE", "/v1/scenes/a"), with("GET", "/metrics")), (404, 403));
-    // A fault keeps the tokens; a file without fault replaces them.
+    // A faulty file keeps the present tokens; a file without faults replaces them.
     write("anna\n");
     std::thread::sleep(Duration::from_millis(1_500));
     assert_eq!((status("GET", "/v1/scenes", &guest), with("GET", "/v1/scenes")), (200, 200));
@@ -180,7 +180,7 @@ fn options_come_from_the_command_line_the_environment_and_a_file_in_this_order()
     has(&found, "10.0.0.1, unix");
     has(&check(text, &[("DRAGTRAFFIC_PORT", "9002")], &[]), "127.0.0.1:9002/a/");
     has(&check(text, &[("DRAGTRAFFIC_PORT", "9002")], &["--port", "9003"]), "127.0.0.1:9003/a/");
-    // All faults at once, and no server.
+    // All faults are reported at once, and no server starts.
     let faulty = "bind = \"0.0.0.0\"\ndata = \"none\"\nlimit = [\"queue=x\"]\ntrust_proxy = \"proxy\"\n";
     let found = check(faulty, &[], &[]);
     assert_eq!(found.0, Some(2), "{found:?}");
@@ -198,7 +198,7 @@ fn options_come_from_the_command_line_the_environment_and_a_file_in_this_order()
     }
 }
 
-/// The program of this name: on the path, or where Debian has the server's.
+/// The program of this name: on the path, or in Debian's folder of server programs.
 #[cfg(unix)]
 fn installed(name: &str) -> Option<std::path::PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
@@ -316,7 +316,7 @@ fn a_request_sent_again_with_its_key_makes_nothing_twice() {
         server.send(&Request::new("POST", &path).header("idempotency-key", key)).unwrap()
     };
     assert_eq!(copy("c").json(), copy("c").json());
-    // The key of another address, a failure that can be sent again, and no key.
+    // The key of another address, a failure that can be retried, and no key.
     assert_eq!(copy("b").code(), "idempotency-key-reused");
     assert_eq!(send(&serde_json::json!({}), "d").status, 422);
     assert_eq!(send(&scene, "d").status, 201);
@@ -403,7 +403,7 @@ fn each_request_is_logged_with_peer_user_bytes_and_trace_and_drags_are_sampled()
         (Some(bytes as u64), Some(replies[0].body.len() as u64))
     );
     assert!(first["sent_ms"].as_f64() >= first["ms"].as_f64(), "{first}");
-    // What is not logged is counted by the next line, or came after the last one.
+    // Requests without a line are counted by the next line, or came after the last one.
     let (logged, left_out) = of("/v1/generate")
         .fold((0, 0), |(n, left), line| (n + 1, left + line["left_out"].as_u64().unwrap_or(0)));
     assert!(logged < 12 && logged + left_out <= 12, "{logged} lines, {left_out} left out");

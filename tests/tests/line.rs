@@ -15,7 +15,7 @@ use tungstenite::protocol::frame::Frame;
 use tungstenite::protocol::frame::coding::{CloseCode, Data, OpCode};
 use tungstenite::{Error, Message, WebSocket};
 
-/// Longer than any answer takes here.
+/// Longer than the duration of any answer here.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A client of a line.
@@ -44,7 +44,7 @@ impl Line {
         Self::with(server, &[]).unwrap_or_else(|status| panic!("refused with {status}"))
     }
 
-    /// With further headers; the status where it is refused.
+    /// Opens a line with further headers; returns the status if it is refused.
     fn with(server: &Server, headers: &[(&'static str, &str)]) -> Result<Self, u16> {
         let stream = TcpStream::connect(server.address).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// All messages of one request, which is the only one.
+    /// All messages of one request, the only open one.
     fn answer(&mut self, number: u64) -> (Value, Vec<Value>) {
         let ServerMessage { head, mut lines } = self.hear();
         let mut last = head["last"] == json!(true);
@@ -103,7 +103,7 @@ impl Line {
     }
 }
 
-/// Works for a long time.
+/// A request that runs for a long time.
 fn long() -> Value {
     let mut body = generate(24);
     body["agents"] = json!("all");
@@ -112,7 +112,7 @@ fn long() -> Value {
     body
 }
 
-/// Waits until a number that the server counts is as it should be.
+/// Waits until a metric of the server satisfies a condition.
 fn until(server: &Server, metric: &str, fits: impl Fn(f64) -> bool) {
     let began = Instant::now();
     while !fits(server.metric(metric).unwrap()) {
@@ -141,7 +141,7 @@ fn answers_are_those_of_requests() {
         assert_eq!(names(&events), names(&expected));
         assert_eq!(events.last().unwrap()["samples"], expected.last().unwrap()["samples"]);
     }
-    // A reply that a request would get as a whole comes in one message.
+    // A reply that HTTP would send as a whole comes in one message.
     body["draft_delay_ms"] = json!(1000);
     line.ask(4, &body);
     let told = line.hear();
@@ -350,7 +350,7 @@ fn more_pings_than_a_client_needs_end_the_line() {
         match line.0.read() {
             Ok(Message::Pong(_)) => pongs += 1,
             Ok(Message::Close(frame)) => end = frame,
-            // What it still sends has reset the connection, so that the reason is lost.
+            // Data sent after the close have reset the connection, so the reason is lost.
             Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake) | Error::Io(_)) => break,
             other => panic!("{other:?}"),
         }
@@ -409,7 +409,7 @@ fn eight_open_questions_are_given_up_within_a_tenth_of_a_second() {
 
 #[test]
 fn a_close_is_heard_while_its_sender_takes_nothing() {
-    // Only a Close that is heard ends the requests: the patience is longer than the test's.
+    // Only a received Close ends the requests: the patience is longer than the test's.
     let server = Server::start(&["--limit", "stalled_s=600"]).unwrap();
     let mut line = Line::to(&server);
     let mut body = long();

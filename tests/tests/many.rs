@@ -1,5 +1,5 @@
-//! The command line over many files: the documented task, conditions on scores, invalid values, and the
-//! messages meanwhile.
+//! The command line over many files: the documented task, conditions on scores, invalid values, and progress
+//! messages.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
@@ -72,7 +72,7 @@ fn the_documented_task_runs_and_repeats() {
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{told}");
         assert!(told.contains("brake: ") && told.contains("no road user fits"), "{told}");
-        // A line for each scene and template, whatever the seeds.
+        // A line for each scene and template, regardless of the seeds.
         let without = 4 * told.matches("no road user fits").count();
         assert!(part.contains(&format!("In {without} cases no road user fits")), "{told}");
     }

@@ -221,7 +221,7 @@ fn drivers_wait_at_red_lights() {
                 if state == "stop" {
                     let front = x + half_length * heading.cos();
                     fronts.push(front);
-                    // No vehicle is so fast that the light would require emergency braking.
+                    // No vehicle is so fast that the signal would require emergency braking.
                     assert!(speed * speed <= 2.0 * 3.0 * (-front).max(0.0) + 0.1, "{agent}");
                 }
             }

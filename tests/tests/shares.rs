@@ -135,7 +135,7 @@ fn a_token_beyond_its_rate_is_told_when_to_ask_again() {
     if began.elapsed() < Duration::from_millis(400) {
         assert_eq!((statuses, refused.status), (vec![200; 6], 429), "six at once, and no more");
     }
-    // After the initial burst the rate counts, whatever the speed of this machine.
+    // After the initial burst the rate counts, regardless of the speed of this machine.
     let refused = (0..40).map(|_| info(&anna)).find(|reply| reply.status == 429).unwrap();
     assert_eq!((refused.code().as_str(), &refused.json()["limit"]), ("too-many-requests", &json!(2)));
     let wait_ms = refused.json()["retry_after_ms"].as_u64().unwrap();

@@ -485,7 +485,7 @@ fn scenes_are_held_without_what_no_answer_depends_on() {
         let reply = server.post("/v1/generate", &body).unwrap();
         assert_eq!(reply.status, 200, "{}", reply.text());
     }
-    // Held with them, they took 4 MB each.
+    // Held with their useless members, the scenes took 4 MB each.
     let grown = server.memory().unwrap().saturating_sub(before);
     assert!(grown < 80 << 20, "{grown} bytes more");
     assert!(server.peak_memory().unwrap() < 300 << 20, "{:?}", server.peak_memory());

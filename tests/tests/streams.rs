@@ -328,7 +328,7 @@ fn all_work_waits_in_the_same_queue() {
         ("/v1/score", json!({ "scene": scene })),
         ("/v1/export?format=womd", scene.clone()),
         ("/v1/import?dry_run=true", scene.clone()),
-        // Large enough not to be read on the spot.
+        // Large enough not to be read immediately.
         ("/v1/scenes", street(40, 91)),
     ];
     for (path, body) in &calls {
@@ -393,7 +393,7 @@ fn sixty_four_clients_at_once() {
     for client in clients {
         assert_eq!(client.join().unwrap()["samples"], expected);
     }
-    // The last worker puts its job away just after the reply.
+    // The last worker finishes its job just after the reply.
     let began = Instant::now();
     while server.metric("dragtraffic_running").unwrap() > 0.0 {
         assert!(began.elapsed() < Duration::from_secs(5), "still running");

@@ -147,9 +147,9 @@ pub enum Shown {
     /// One future per road user so that the scene is coherent.
     #[default]
     Chosen,
-    /// The most probable one, whatever the others do.
+    /// The most probable one, regardless of the others.
     Likeliest,
-    /// One drawn by its probability, whatever the others do.
+    /// One drawn by its probability, regardless of the others.
     Drawn,
 }
 

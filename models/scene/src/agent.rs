@@ -118,7 +118,7 @@ impl Track {
         self.states.get(step.checked_sub(self.first_step)?)?.as_ref()
     }
 
-    /// Steps at which a state is known, rising.
+    /// Steps at which a state is known, in ascending order.
     pub fn valid_steps(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
         self.states.iter().enumerate().filter(|(_, s)| s.is_some()).map(|(i, _)| i + self.first_step)
     }

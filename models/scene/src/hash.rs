@@ -27,8 +27,8 @@ impl ContentHash {
     /// Hash of a serialisable value.
     pub fn of<T: Serialize + ?Sized>(value: &T) -> Self {
         let mut writer = HashWriter(Sha256::new());
-        // Domain values have string keys and the writer cannot fail, so this cannot fail either;
-        // should a type break that, its hash differs from every other value's.
+        // Domain values have string keys and the writer cannot fail, so this cannot fail either. If a type
+        // breaks that, its hash differs from that of every other value.
         if let Err(error) = serde_json::to_writer(io::BufWriter::new(&mut writer), value) {
             writer.0.update(error.to_string());
         }

@@ -1,5 +1,5 @@
-//! Data model of a traffic scene: lane map, signals, road users with their tracks, the conditions that the
-//! user fixed, and the motions that each of them can make.
+//! Data model of a traffic scene: lane map, signals, road users with their tracks, fixed conditions, and the
+//! motions that each road user can make.
 //!
 //! Units and frame everywhere: metres, seconds, radians; x east, y north, heading counter-clockwise from +x,
 //! wrapped to [-pi, pi); time zero is the first step; one step is [`STEP_S`].

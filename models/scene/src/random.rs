@@ -1,5 +1,5 @@
-//! Random numbers that depend only on their purpose, so that neither the order of road users, nor the batch,
-//! nor the number of threads changes a byte. All random numbers come from here.
+//! Random numbers that depend only on their purpose. Neither the order of road users, nor the batch, nor the
+//! number of threads changes a byte. All random numbers come from here.
 //!
 //! ```
 //! use scene::random::Key;

@@ -5,7 +5,8 @@ use crate::geometry::direction;
 use crate::{Agent, AgentType, Future, Scene, Size, State, Track};
 use std::borrow::Cow;
 
-/// A start fixed farther than this from the log does not continue the log, metres: its history is another's.
+/// A start fixed farther than this from the log does not continue the log, metres: its history belongs to another
+/// motion.
 const SAME_PLACE_M: f64 = 0.5;
 
 /// Type, box and motion of a road user as they are shown.

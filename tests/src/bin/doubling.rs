@@ -1,9 +1,9 @@
 //! `doubling`: core time of every operation on a map, for towns of doubling size. `cargo xtask doubling`
 //! builds and runs it.
 //!
-//! Each operation must be nearly linear in the points of the map: from half of the largest town to all of it,
-//! its time rises by less than [`MOST_RISE`]. Each request has its own map, since the server caches maps.
-//! Core time is measured, so that a busy machine does not change the result.
+//! Each operation must be nearly linear in the points of the map. From half of the largest town to all of it,
+//! its time rises by a factor below [`MOST_RISE`]. Each request has its own map, since the server caches
+//! maps. Core time is measured, so that a busy machine does not change the result.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -169,7 +169,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether every operation is answered, and the time of none rises too much.
+/// Whether every operation is answered, and no time rises too much.
 fn run() -> anyhow::Result<bool> {
     let server = Server::start(&PATIENCE)?;
     server.wait_ready()?;

@@ -104,7 +104,7 @@ fn inside_of(id: &str, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A file of about that many bytes, with a description.
+/// A file of about `bytes` bytes, with a description.
 fn file_of(format: &dyn Format, bytes: f64, folder: &Path) -> anyhow::Result<Option<(PathBuf, String)>> {
     let info = format.info();
     if !info.export {
@@ -152,7 +152,7 @@ fn file_of(format: &dyn Format, bytes: f64, folder: &Path) -> anyhow::Result<Opt
     Ok(Some((path, what)))
 }
 
-/// Copies of the scene side by side, with motion of that many steps: there and back again.
+/// Copies of the scene side by side, with motion of `steps` steps, alternately forwards and backwards.
 fn laid_out(demo: &Value, copies: usize, steps: usize) -> Value {
     let mut scene = demo.clone();
     scene["generated"] = Value::Null;
@@ -207,7 +207,7 @@ fn moved(value: &mut Value, copy: usize, shift: [f64; 2]) {
     }
 }
 
-/// A copy of a road user that is seen all the time, moved and extended; nothing for the others.
+/// A copy of a road user that is seen all the time, moved and extended; `None` for all others.
 fn driven(agent: &Value, copy: usize, shift: [f64; 2], steps: usize) -> Option<Value> {
     let mut agent = agent.clone();
     let count = agent["track"]["x_m"].as_array()?.len();

@@ -2,8 +2,8 @@
 //! drags at the same time. `cargo xtask slowest` builds and runs it.
 //!
 //! Each kind of request is first tried at its limits. Then the slowest ones are changed at random, and a
-//! change that takes longer is kept. A request counts by the core time that the server spends on it, so that
-//! other work on the machine does not matter; a drag counts by the clock.
+//! change that takes longer is kept. The measure of a request is the core time that the server spends on it,
+//! so that other work on the machine does not matter. The measure of a drag is the elapsed time.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it talks to people")]
 
@@ -141,8 +141,8 @@ fn tangle(n: &[u64]) -> Value {
     one(with_lanes(2, lanes.collect()))
 }
 
-/// Lanes to and fro across a square of this side, alternately at right angles, so that each piece of one
-/// crosses all pieces of its neighbours; cars are on and beside them.
+/// Lanes back and forth across a square of this side, alternately at right angles, so that each piece of one
+/// crosses all pieces of its neighbours. Cars are on and beside them.
 fn combs(n: &[u64]) -> Value {
     let (lanes, points, side_m, agents) = (n[0], n[1], n[2] as f64, n[3] as usize);
     let at = |i: u64, k: u64| {
@@ -167,7 +167,7 @@ fn filled_pile(n: &[u64]) -> Value {
     json!({"scene": piled(n), "density": {"count": 100}})
 }
 
-/// Stars with that many corners at one place, under that many cars.
+/// Stars with the given number of corners at one place, under the given number of cars.
 fn areas(n: &[u64]) -> Value {
     let mut scene = street(n[2] as usize, 91);
     let star = |_| {
@@ -253,7 +253,7 @@ fn winding(n: &[u64]) -> Value {
     scene
 }
 
-/// A search with that many tries, road users and seconds, for an event that never happens.
+/// A search with the given numbers of tries, road users and seconds, for an event that never happens.
 fn search(n: &[u64]) -> Value {
     let situation = json!({"template": "cut-in", "parameters": {"gap_m": {"uniform": [2, 8]}}});
     json!({"scene": street(n[0] as usize, 20), "where": "collisions > 1000000", "tries": n[1],

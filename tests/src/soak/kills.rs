@@ -1,4 +1,4 @@
-//! Kills at any moment while six writers work, every other one while the disk fails: acknowledged writes are
+//! Kills at any moment while six writers work, every other one while the disk fails. Acknowledged writes are
 //! stored, and every other write is stored completely or not at all.
 
 use super::Tell;

@@ -1,5 +1,5 @@
-//! Power cuts while six writers work, at the start, during copies and while a copy is restored: acknowledged
-//! writes are on the disk, whatever unsynced changes the disk has kept.
+//! Power cuts while six writers work, at the start, during copies and while a copy is restored. Acknowledged
+//! writes are on the disk, regardless of the unsynced changes that the disk has kept.
 
 use super::Tell;
 use crate::faults::Disk;

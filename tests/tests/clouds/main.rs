@@ -1,4 +1,4 @@
-//! Batches in an object store give the bytes of a local run, whatever requests and replies are lost.
+//! Batches in an object store give the bytes of a local run, regardless of lost requests and replies.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a failed test panics")]
 

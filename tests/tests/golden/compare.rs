@@ -1,11 +1,11 @@
-//! Two answers side by side.
+//! Compares two answers.
 
 use serde_json::Value;
 use std::fmt;
 
-/// Numbers nearer than this are the same: metres, m/s, radians, shares.
+/// Numbers that differ by less are equal: metres, m/s, radians, shares.
 const TOLERANCE: f64 = 1e-4;
-/// Differences that are printed.
+/// Limit of printed differences.
 const SHOWN: usize = 12;
 
 /// Differences between two answers.
@@ -17,14 +17,14 @@ pub struct Differences {
 }
 
 impl Differences {
-    /// Everything in which `after` is not `before`.
+    /// All differences between `before` and `after`.
     pub fn between(before: &Value, after: &Value) -> Self {
         let mut out = Self::default();
         out.compare("", before, after);
         out
     }
 
-    /// Nothing differs by more than the tolerance.
+    /// Whether nothing differs by more than the tolerance.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
@@ -70,7 +70,7 @@ impl fmt::Display for Differences {
     }
 }
 
-/// A value on one line: what it is when it is small, else what it holds.
+/// A value on one line: the value itself if it is small, otherwise a summary of its content.
 fn short(value: &Value) -> String {
     match value {
         Value::Array(list) => format!("a list of {}", list.len()),
@@ -81,7 +81,7 @@ fn short(value: &Value) -> String {
     }
 }
 
-/// As it is kept: one line a state, so that a change reads well.
+/// The stored form: one line per state, so that changes are readable.
 pub fn text(value: &Value) -> String {
     let mut out = String::new();
     write(&mut out, value, 0);

@@ -33,7 +33,7 @@ pub struct AgentPlan {
     pub vias: Vec<Waypoint>,
     /// Its [`MODES`] anchors.
     pub anchors: Vec<Anchor>,
-    /// Red lights on each anchor's path.
+    /// Red signals on each anchor's path.
     pub lights: [Vec<Gate>; MODES],
     /// Kerb on each anchor's path, where a walker steps onto the lanes.
     pub kerbs: [Option<Kerb>; MODES],
@@ -48,7 +48,8 @@ pub struct AgentPlan {
     pub aside_share: [f64; INSTANTS],
     /// Ground on which it may drive: [`World::ground`].
     pub drivable: Arc<Drivable>,
-    /// As [`AgentPlan::drivable`]; `None` unless the agent is a vehicle that starts on this ground.
+    /// As [`AgentPlan::drivable`]; `None` unless the map bounds its roads and the agent is a vehicle that starts on
+    /// them.
     pub ground: Option<Arc<Drivable>>,
     /// Inputs of the networks.
     pub features: AgentFeatures,
@@ -140,7 +141,7 @@ impl AgentPlan {
         self.target.is_free() && self.vias.is_empty()
     }
 
-    /// Whether the agent stands at a red light that is known to turn green, and has neither a goal nor a via
+    /// Whether the agent stands at a red signal that is known to turn green, and has neither a goal nor a via
     /// point.
     pub fn sets_off(&self) -> bool {
         self.is_free()

@@ -19,7 +19,7 @@ pub(super) struct PathFacts {
     pub(super) second: Option<speed::Leader>,
     /// Standing road users on the path within [`QUEUE_M`].
     pub(super) queue: usize,
-    /// The first light on the path.
+    /// The first signal on the path.
     pub(super) light: Option<LightAhead>,
     /// Distance to the first stop sign, metres.
     pub(super) stop_sign_m: Option<f64>,
@@ -28,11 +28,11 @@ pub(super) struct PathFacts {
     /// The first junction on the path.
     pub(super) junction: Option<JunctionAhead>,
     /// Number of lanes beside the first one: same direction on the left, same direction on the right,
-    /// opposite direction.
+    /// opposite direction on the left.
     pub(super) beside: [usize; 3],
 }
 
-/// A light on a path.
+/// A signal on a path.
 pub(super) struct LightAhead {
     pub(super) state: SignalState,
     pub(super) distance_m: f64,

@@ -22,7 +22,7 @@ const HALF_M: f32 = 3.0;
 const GAP_M: [f32; 2] = [-3.0, 6.0];
 const GAP_SCALE_M: f32 = 3.0;
 
-/// Encounters of the drafts of one agent; empty if nobody is near.
+/// Encounters of the drafts of one agent; empty if no agent is near.
 pub type Encounters = [Vec<[f32; ENCOUNTER]>; MODES];
 
 /// The encounters of one draft of a box with these half sizes, nearest first.

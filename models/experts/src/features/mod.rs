@@ -38,7 +38,7 @@ pub fn stays_in_the_world(output: f64) -> f64 {
 pub struct AgentFeatures {
     /// State, size, type, condition values with their masks.
     pub own: [f32; OWN],
-    /// At most [`NEIGHBOURS`], nearest first.
+    /// At most [`NEIGHBOURS`], the most important first.
     pub neighbours: Vec<[f32; NEIGHBOUR]>,
     /// One anchor per mode.
     pub anchors: Box<[[f32; ANCHOR]; MODES]>,

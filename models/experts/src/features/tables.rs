@@ -58,7 +58,7 @@ block! {
 }
 
 block! {
-    /// Another road user, in the frame of the one that looks.
+    /// Another road user, in the frame of the observing road user.
     pub struct Neighbour {
         ahead: (30.0 "m") "position ahead",
         left: (30.0 "m") "position to the left",
@@ -99,7 +99,7 @@ block! {
 }
 
 block! {
-    /// State of a light; all zero without one.
+    /// State of a signal; all zero without one.
     pub struct LightFlags {
         known: (flag) "there is a light",
         stop: (flag) "it shows stop",
@@ -124,7 +124,7 @@ pub const PATH_POINTS: usize = 8;
 pub const BASE_STEPS: [usize; 6] = [10, 20, 35, 50, 70, 90];
 
 block! {
-    /// An anchor: a path, the base progress along it, and what lies ahead on it. What is not there is far away:
+    /// An anchor: a path, the base progress along it, and what lies ahead on it. Absent items are encoded as far away:
     /// 100 m for places, 12 s for times of arrival.
     pub struct AnchorInputs {
         path: [PathPoint; PATH_POINTS] "the path",

@@ -32,8 +32,8 @@ fn north(id: &str, agent_type: AgentType, subtype: Subtype, at: (f64, f64), spee
     Agent::bare(id, agent_type, subtype, vec![Some(state)])
 }
 
-/// A street northwards from y = -50 to a light at y = 40, through a junction 20 m long, and on; a second lane
-/// beside it on its left.
+/// A street northwards from y = -50 to a signal at y = 40, through a junction 20 m long, and beyond. A second
+/// lane is on its left.
 fn street() -> LaneMap {
     let points = |x: f64, from: i32, to: i32| -> Vec<Vec2> {
         (from..=to).map(|y| Vec2::new(x, f64::from(y))).collect()

@@ -23,7 +23,7 @@ pub(super) struct PlannedActor {
     pub(super) modes: Modes,
     /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes in order of falling probability.
+    /// Modes in order of descending probability.
     pub(super) order: [Slot; MODES],
     /// The actor stays where it is.
     pub(super) rests: bool,
@@ -36,7 +36,7 @@ pub(super) struct PlannedActor {
     network_weight: f32,
 }
 
-/// Modes in order of falling probability.
+/// Modes in order of descending probability.
 pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
     let mut order: [Slot; MODES] = std::array::from_fn(Slot::new);
     order.sort_by(|a, b| {
@@ -114,8 +114,8 @@ impl PlannedActor {
         self.order[0]
     }
 
-    /// Whether the actor is a vehicle at rest beside or off every lane. No light and no leader can make it
-    /// go.
+    /// Whether the actor is a vehicle at rest beside or off every lane. Neither a signal nor a leader can
+    /// make it start.
     pub(super) fn is_parked(&self) -> bool {
         let off_lane =
             |anchor: &Anchor| anchor.route.as_ref().is_none_or(|r| r.lateral_m.abs() > BESIDE_LANE_M);

@@ -105,7 +105,7 @@ pub(super) struct Material<'a> {
     pub(super) shown: Option<&'a ShownLast>,
     /// The actor is driving that future.
     pub(super) under_way: bool,
-    /// Number of alternatives that the choice weighs, by falling probability.
+    /// Number of alternatives that the choice weighs, the most probable first.
     pub(super) weighed: usize,
 }
 
@@ -138,7 +138,7 @@ impl Material<'_> {
     }
 
     /// The motion that was shown last, if it led close to the present goal. A small move of the goal then
-    /// moves the motion by little, whatever the modes are. If no draft reaches the goal (`missed` holds the
+    /// moves the motion by little, independent of the modes. If no draft reaches the goal (`missed` holds the
     /// reason), this motion may miss it too.
     fn shown_last(&self, missed: Option<Reach>) -> Option<MotionCandidate> {
         let (slot, places, near) = self.seen()?;
@@ -194,7 +194,7 @@ impl Material<'_> {
         Some((slot, shown.places.get(..INSTANTS)?.try_into().ok()?, near))
     }
 
-    /// Rest if the actor may rest, then modes by falling probability; `count` in all.
+    /// Rest if the actor may rest, then modes by descending probability; at most `count` in all.
     pub(super) fn alternatives(&self, count: usize) -> Vec<MotionCandidate> {
         let actor = self.actor;
         let mut out = Vec::with_capacity(count);
@@ -292,7 +292,7 @@ pub(super) fn own(actor: &PlannedActor, leading: Slot, candidates: &[MotionCandi
     of(CandidateOrigin::Settled(leading)).or_else(|| of(CandidateOrigin::Mode(leading))).unwrap_or(0)
 }
 
-/// The alternatives of an answer by falling probability, at most `count`, and the index of the shown one.
+/// The alternatives of an answer by descending probability, at most `count`, and the index of the shown one.
 /// `None` if the actor keeps a given motion. A chosen candidate that is no alternative replaces the
 /// alternative of its slot. `lawful` is the factor of each candidate's probability for the rules that it
 /// breaks.

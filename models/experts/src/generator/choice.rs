@@ -1,5 +1,5 @@
-//! Picks one candidate per actor so that the scene is coherent: coordinate descent with pair moves. It costs
-//! microseconds and no accuracy.
+//! Picks one candidate per actor so that the scene is coherent: coordinate descent with pair moves. It takes
+//! microseconds and does not reduce accuracy.
 
 use super::motion::Sweep;
 use crate::tuning::ChoiceTuning;
@@ -21,7 +21,7 @@ pub(super) struct JointOption {
     pub(super) rule_cost: f64,
     /// Part of `cost` that the other agents bear.
     pub(super) burden: f64,
-    /// The agent has this motion anyway, so its distance to other kept motions does not change.
+    /// The agent has this motion without the call, so its distance to other kept motions does not change.
     pub(super) kept: bool,
 }
 
@@ -54,7 +54,7 @@ impl FixedMotion<'_> {
     }
 }
 
-/// Steps between the states that two motions are compared at.
+/// Steps between the states at which two motions are compared.
 const EVERY: usize = 5;
 
 /// Mean distance of two motions, metres.
@@ -76,7 +76,7 @@ pub(super) struct Choice<'a> {
     pub(super) agents: Vec<Vec<JointOption>>,
     pub(super) fixed: &'a [FixedMotion<'a>],
     pub(super) tuning: &'a ChoiceTuning,
-    /// What encounters of the options cost, as far as it is known.
+    /// Costs of encounters of the options that are computed so far.
     prices: Prices,
 }
 
@@ -91,7 +91,7 @@ impl<'a> Choice<'a> {
         Self { agents, fixed, tuning, prices }
     }
 
-    /// Replaces the options of a road user. What is known of them stays if others were only added.
+    /// Replaces the options of a road user. Computed costs stay valid if options were only appended.
     pub(super) fn set_options(&mut self, i: usize, options: Vec<JointOption>) {
         let known = &self.agents[i];
         let same =
@@ -214,7 +214,7 @@ impl<'a> Choice<'a> {
     /// For each road user, the others whose options can come near one of its options.
     fn near(&self) -> Vec<Vec<usize>> {
         let n = self.agents.len();
-        // Two motions closer than this cost something.
+        // An encounter of two motions has a cost only below this distance.
         let margin_m = Thresholds::default().gap_m.max(CLOSE_M);
         let bounds: Vec<SweptBounds> = self
             .agents
@@ -237,22 +237,22 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// What is known of the costs of encounters, each of which is computed once.
+/// Costs of encounters; each is computed once.
 #[derive(Default)]
 struct Prices {
-    /// For each road user the cost of its first options against the fixed motions.
+    /// For each road user, the costs of its first options against the fixed motions.
     fixed: Vec<Vec<f64>>,
-    /// For two road users, at `lower * count + higher`: what is known of their options.
+    /// Costs of the options of two road users, at index `lower * count + higher`.
     pairs: Vec<PairPrices>,
 }
 
 impl Prices {
-    /// Nothing, for a number of road users.
+    /// An empty table for `count` road users.
     fn of(count: usize) -> Self {
         Self { fixed: vec![Vec::new(); count], pairs: vec![PairPrices::default(); count * count] }
     }
 
-    /// Forgets what concerns a road user.
+    /// Drops all costs that involve a road user.
     fn forget(&mut self, i: usize) {
         let count = self.fixed.len();
         self.fixed[i].clear();
@@ -262,7 +262,7 @@ impl Prices {
     }
 }
 
-/// Costs of the options of two road users: a row for each of the first. NaN where two have not been compared.
+/// Costs of the options of two road users, one row per option of the first. NaN where a pair has not been compared.
 #[derive(Clone, Default)]
 struct PairPrices {
     columns: usize,
@@ -270,7 +270,7 @@ struct PairPrices {
 }
 
 impl PairPrices {
-    /// The cost of two options of this many.
+    /// The cost of options `a` and `b`, where the road users have `rows` and `columns` options.
     fn cost(&mut self, (rows, columns): (usize, usize), a: usize, b: usize) -> &mut f64 {
         if self.columns < columns {
             let mut costs = Vec::with_capacity(rows * columns);
@@ -405,7 +405,7 @@ mod tests {
             assert_eq!(choice.solve(), chosen);
             assert_eq!(Choice::new(anew, &fixed, &SHIPPED.choice).solve(), chosen);
         }
-        // Other options in place of the known ones.
+        // Other options replace the known ones.
         choice.set_options(1, vec![ride(4.0, 8.0, 1.0), ride(-8.0, 8.0, 2.0)]);
         let anew: Vec<Vec<JointOption>> = choice.agents.iter().map(|own| again(own)).collect();
         assert_eq!(choice.solve(), Choice::new(anew, &fixed, &SHIPPED.choice).solve());

@@ -41,7 +41,7 @@ pub(super) struct Yardstick<'a> {
 }
 
 /// The options of the joint choice: one per candidate, in their order. `known` holds the options of the first
-/// candidates, from before the others were added.
+/// candidates, computed before the others were added.
 pub(super) fn options(
     actor: &PlannedActor,
     candidates: &[MotionCandidate],
@@ -75,11 +75,11 @@ pub(super) fn options(
         let missed = if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
         let goes = actor.plan.target.position.is_some();
         let cost = match c.origin {
-            // Where all others are alike, a swerving motion is far from every one of them.
+            // If all alternatives are similar, a swerving motion is far from each, so its cost is bounded.
             CandidateOrigin::Swerving(_) | CandidateOrigin::Shown(_) | CandidateOrigin::UnderWay(_) => {
                 cost.min(tuning.most_swerving + missed)
             }
-            // A motion that reaches the same goal is no worse for being far from the rest.
+            // With a goal, the cost of the distance from the other modes is bounded too.
             CandidateOrigin::Mode(_) | CandidateOrigin::Guided(_) if goes => {
                 cost.min(tuning.most_central + missed)
             }
@@ -136,12 +136,12 @@ fn harsh(actor: &PlannedActor, states: &Trajectory, tuning: &ChoiceTuning) -> f6
         -change.dot(&ahead) > tuning.harsh_mps2 || cross(ahead, change).abs() > tuning.harsh_mps2
     };
     let steps = states.windows(2).filter(|w| is_harsh(w)).count();
-    // One or two steps are only a jerk of the wheel.
+    // One or two steps are a short steering correction.
     if steps > 2 { tuning.harsh + tuning.harsh_second * steps as f64 * STEP_S } else { 0.0 }
 }
 
-/// Cost of running a red light and of harsh braking or steering; for a vehicle also of leaving the road or
-/// driving against the traffic.
+/// Cost of crossing a stop line at red and of harsh braking or steering. For a vehicle, also the cost of leaving the
+/// road or driving against the traffic.
 fn rule_cost_of(actor: &PlannedActor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
     let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {

@@ -27,7 +27,7 @@ pub(super) struct DiverseModes {
     pub(super) offset: Modes,
     /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes that no draw changes: the best guess, and modes with a given order.
+    /// Modes that no draw changes: the best guess, and modes with a given order or wait.
     pub(super) steady: [bool; MODES],
 }
 
@@ -247,7 +247,7 @@ mod tests {
             car_on_a_street(speed_mps, Goal { position, ..Goal::default() }),
             None,
         );
-        // All modes do what the first does.
+        // All modes are equal to the first.
         let first = actor.plan.anchors[0].clone();
         actor.plan.anchors.iter_mut().for_each(|anchor| *anchor = first.clone());
         actor
@@ -331,7 +331,7 @@ mod tests {
         assert!(found.iter().any(|i| diverse.steady[*i] && *i != 0), "{found:?}");
         assert!(found.iter().all(|i| !shown(&actor, &diverse)[*i].trace().meets(&comes)));
         assert_eq!(diverse.offset[0], [0.0; RESIDUAL], "the best guess stays");
-        // No vehicle comes that would have to brake.
+        // No vehicle approaches that would have to brake.
         let alone = DiverseModes::of(&actor, &[&car(60.0)], 1.0, &SHIPPED.duplicates);
         assert!(!alone.steady[1..].contains(&true));
     }

@@ -12,7 +12,7 @@ pub(super) struct Drafts {
     pub(super) offset: Modes,
     /// Probability of each mode; they sum to one.
     pub(super) probability: [f64; MODES],
-    /// Modes in order of falling probability.
+    /// Modes in order of descending probability.
     pub(super) order: [Slot; MODES],
     /// The mode of this actor that the others see during refinement.
     pub(super) leading: Slot,

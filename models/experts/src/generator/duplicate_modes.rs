@@ -180,7 +180,7 @@ mod tests {
     fn goals_and_futures_of_their_own_are_left_alone() {
         let asked = planned(Goal { speed_mps: Some(10.0), ..Goal::default() });
         let free = planned(Goal::default());
-        // The anchors' own timings are all distinct.
+        // The timings of the anchors are all distinct.
         for (planned, modes) in [(&asked, alike(&asked, 10.0)), (&free, [[0.0; RESIDUAL]; MODES])] {
             let (mut residual, mut probability) = (modes, SHARES);
             replace(planned, &mut residual, &mut probability, &SHIPPED.duplicates);

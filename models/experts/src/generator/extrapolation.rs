@@ -7,13 +7,13 @@ use scene::{Agent, STANDING_MPS, STEP_S, Scene, State, Track};
 pub(super) struct Guessed {
     /// First scene step that neither a future nor the log covers.
     pub(super) step: usize,
-    /// The agent goes straight on; otherwise it stands at its last place.
+    /// The agent continues straight on; otherwise it stands at its last place.
     pub(super) moving: bool,
 }
 
 /// A road user's track as others plan against it, up to scene step `last`. It is the pinned or chosen future
 /// after `start`, else the log, else straight on from the last known state. Also returns the first
-/// extrapolated step, if it comes before `last`. An agent that left before the recording ends stays away.
+/// extrapolated step, if it comes before `last`. An agent that left before the recording ends remains absent.
 pub(super) fn extrapolated(
     scene: &Scene,
     agent: &Agent,

@@ -9,10 +9,10 @@ use super::window_setting::WindowSetting;
 use crate::planning::MODES;
 use crate::request::ShownLast;
 
-/// Alternatives of a road user in a run that are weighed beside the motion it drives: with all six, no
-/// more of them reach their goals without a fault, and a step takes longer by a third.
+/// Number of alternatives that are weighed beside the driven motion of a road user in a run. With all six, no
+/// more road users reach their goals without a fault, and a step takes a third longer.
 const ALTERNATIVES: usize = 3;
-/// So many of these are weighed first, and the others only where the first ones do not do.
+/// Number of these that are weighed first; the others follow only if the first are insufficient.
 const FIRST_ALTERNATIVES: usize = 1;
 
 /// The drafts of one sample, with the agents that they are compared with.
@@ -20,7 +20,7 @@ const FIRST_ALTERNATIVES: usize = 1;
 pub(super) struct JointDrafts<'a> {
     pub(super) setting: &'a WindowSetting<'a>,
     pub(super) actors: &'a [PlannedActor],
-    /// One entry an actor.
+    /// One entry per actor.
     pub(super) drafts: &'a [Drafts],
     pub(super) others: &'a Others<'a>,
     /// The sample, from 0.
@@ -38,7 +38,7 @@ impl<'a> JointDrafts<'a> {
         SceneEnergy { pullback: &self.setting.pullback, tuning: &self.setting.tuning().overlaps }
     }
 
-    /// The future that a person has seen last of an actor: it binds the first sample of the first window.
+    /// The last shown future of an actor. It applies only to the first sample of the first window.
     pub(super) fn shown_last(&self, actor: &PlannedActor) -> Option<&'a ShownLast> {
         let first = self.sample == 0 && self.setting.number == 0;
         self.setting.request.shown.get(&actor.id).filter(|_| first)

@@ -1,4 +1,4 @@
-//! Decides which vehicles at rest on a lane move off, and when. The light and the agent ahead decide first,
+//! Decides which vehicles at rest on a lane move off, and when. The signal and the agent ahead decide first,
 //! then whether the vehicle already rolls, then the learned decision.
 
 use super::actor::PlannedActor;
@@ -11,7 +11,7 @@ use crate::tuning::fixed::moving_off::{AT_LINE_M, IN_QUEUE_M, ROLLS_MPS};
 use scene::routes::speed::leader;
 use scene::{AgentType, STANDING_MPS, State};
 
-/// Steps from the start of the agent ahead to that of the next: two seconds, as drivers at lights take.
+/// Steps from the start of the agent ahead to that of the next: two seconds, as in queues at signals.
 const NEXT_STEPS: usize = 20;
 
 /// Decision for an agent at rest.
@@ -64,7 +64,7 @@ fn departure(
     }
     let actor = &actors[i];
     let learned = if actor.rests { Departure::Stays } else { Departure::Moves(0) };
-    // A circle of agents has no first one: the learned decision stands.
+    // Agents in a ring wait for each other, so the learned decision applies.
     known[i] = Some(learned);
     let decided =
         if may_move_off(actor) { by_the_road(world, actors, i, known).unwrap_or(learned) } else { learned };
@@ -72,7 +72,7 @@ fn departure(
     decided
 }
 
-/// The decision by light, agent ahead and own speed, in this order.
+/// The decision by signal, agent ahead and own speed, in this order.
 fn by_the_road(
     world: &World<'_>,
     actors: &[PlannedActor],
@@ -80,7 +80,7 @@ fn by_the_road(
     known: &mut Vec<Option<Departure>>,
 ) -> Option<Departure> {
     let (actor, plan) = (&actors[i], &actors[i].plan);
-    // A red light that turns green has its own delay for a queue.
+    // The wait at a red signal that turns green already includes the delay of the queue.
     if plan.sets_off() {
         return Some(Departure::Moves(0));
     }

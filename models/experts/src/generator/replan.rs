@@ -1,7 +1,7 @@
 //! Replans a motion that still meets another agent, or leaves the road on its way to a goal on it. The same
 //! motion is tried beside its path and earlier or later on it: the cheapest sequence of shifts, one per
-//! instant, by dynamic programming. It starts and meets its goal as before. If that does not help either, it
-//! stops before the obstacle.
+//! instant, by dynamic programming. Start and goal stay the same. Alternatively the motion stops before the
+//! obstacle.
 
 use super::motion::Sweep;
 use super::slot::Slot;
@@ -84,7 +84,7 @@ pub(super) struct ReplanField<'a> {
 struct ReplanMoment<'a> {
     /// Boxes of other agents within reach of the shifts.
     near: Vec<&'a OrientedBox>,
-    /// One for each shift along the path.
+    /// One entry per shift along the path.
     unshifted: Vec<Unshifted>,
 }
 
@@ -92,7 +92,7 @@ struct ReplanMoment<'a> {
 struct Unshifted {
     position: Vec2,
     left: Vec2,
-    /// `met` is the box itself; `close` is the box with a margin.
+    /// `met` is the box with the margin [`SPARE_M`], `close` with [`CLOSE_M`] in addition.
     met: OrientedBox,
     close: OrientedBox,
 }
@@ -122,7 +122,7 @@ struct ShiftSearch<'a> {
     /// The vehicle starts on a lane, so it stays near lanes.
     keeps_to_lanes: bool,
     path: Polyline,
-    /// Metres along it, one a step.
+    /// Metres along it, one value per step.
     along_m: Vec<f64>,
     /// The motions of the field that its shifts may meet.
     near: Vec<&'a Sweep>,
@@ -144,12 +144,12 @@ pub(super) fn swerve(
 }
 
 /// The motion on the same path that stops before the agent it would meet; `None` if no braking suffices. It
-/// misses its goal, if it has one.
+/// misses its goal unless it stops there or later.
 pub(super) fn stop_before(plan: &AgentPlan, field: ReplanField<'_>, motion: &Trajectory) -> Option<Rollout> {
     let search = ShiftSearch::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
-        // A later stop gets farther.
+        // The latest possible stop gets farthest.
         let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
         let along_m = halts
             .map(|from| search.halting(from, share * plan.model.limits.brake_mps2))
@@ -220,8 +220,8 @@ impl<'a> ShiftSearch<'a> {
         OrientedBox::new(pose.position, 0.5 * size.length_m, 0.5 * size.width_m, pose.heading_rad)
     }
 
-    /// Whether a shift is allowed at an instant: none at the goal's instant; at most one unit each way at the
-    /// two instants around a goal that lies between them.
+    /// Whether a shift is allowed at an instant. At the goal's instant only zero is. If the goal lies between
+    /// two instants, these allow one unit each way.
     fn allows(&self, instant: usize, shift: Shift) -> bool {
         let due = self.plan.target.position.is_some()
             && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;
@@ -370,7 +370,7 @@ impl<'a> ShiftSearch<'a> {
         Some(shifts)
     }
 
-    /// Progress never falls, and wheeled agents move sideways only while they roll.
+    /// Progress never decreases, and wheeled agents move sideways only while they roll.
     fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
         let way_m = way_m + f64::from(ahead) * AHEAD_M;
         let rolls = self.plan.model.kind == MotionKind::Drive;

@@ -199,7 +199,7 @@ fn reason(
         (Limiting::Braking, None) => sentences::goal_too_slow(time_s, need("m/s²")),
         (Limiting::Lateral, _) => sentences::goal_too_tight(need("m/s² sideways")),
         (Limiting::Curvature, _) => sentences::goal_turn_too_tight(kind),
-        // A goal without its relation is free and never gets here.
+        // A goal whose relation fails is free and has no such reason.
         (Limiting::Traffic | Limiting::Relation, _) => {
             let short_m = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
             match blocked_by {

@@ -1,5 +1,5 @@
-//! Diversity by sampling: drafts are drawn with a wider spread of manoeuvres, and those that differ most are
-//! kept.
+//! Diversity by sampling: drafts are drawn with a wider spread of paces and lines, and those that differ most
+//! are kept.
 
 use super::actor::PlannedActor;
 use super::diversity::{DiverseModes, best};
@@ -75,7 +75,7 @@ struct DrawSpread {
 impl DrawSpread {
     fn of(actor: &PlannedActor, share: f64, t: &DiversityTuning) -> Self {
         let goal = actor.plan.target.position.is_some();
-        // A small setting stays near likely motions; the spread grows with its square.
+        // The spread grows with the square of the setting, so small settings stay near likely motions.
         let along = share * share;
         let (along_m, across_m, way_m) = match actor.plan.present.agent_type {
             AgentType::Pedestrian => {

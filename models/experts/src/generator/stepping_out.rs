@@ -1,4 +1,4 @@
-//! Walkers that step out in front of a fast vehicle.
+//! Pedestrians that step out in front of a fast vehicle.
 
 use crate::tuning::fixed::stepping_out::{AFTER_S, FAST_MPS, HARD_MPS2};
 use scene::AgentType;

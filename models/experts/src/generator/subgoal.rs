@@ -12,9 +12,9 @@ const TURN_STEPS: usize = 30;
 const THERE_M: f64 = 0.05;
 
 /// The state at the window's end on the way to a goal that is due `left` steps after the window's start,
-/// later than the window's end. The path follows the lanes if they lead to the goal, else a straight line.
-/// The acceleration along it is constant, or linear in time if the goal also fixes the speed. The path leads
-/// through the via points; their number before that state is returned too.
+/// later than the window's end. The path follows the lanes if they lead to the goal. Otherwise, and on foot,
+/// it is straight. The acceleration along it is constant, or linear in time if the goal also fixes the speed.
+/// The path leads through the via points; their number before that state is returned too.
 pub(super) fn subgoal(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -155,7 +155,8 @@ fn path_to(
 }
 
 /// Metres along the path and speed after one window, for a path of `length_m` that takes `left` steps.
-/// Progress never falls, and the speed stays below the limit of the agent type.
+/// Progress never decreases, and the speed stays within the limit of the agent type, or the present speed if
+/// that is higher.
 fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left: usize) -> (f64, f64) {
     let seconds = left as f64 * STEP_S;
     let top = model.limits.speed_mps.max(v0);

@@ -68,7 +68,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
             across += f64::from(ACROSS_SCALE * BASIS.across[i][k] * residual[KNOTS + k]);
         }
         across *= plan.aside_share[i];
-        // Progress never falls.
+        // Progress never decreases.
         last = along.max(last);
         *place = (last, across);
     }
@@ -80,7 +80,7 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
     at_lights(plan, slot, steer_to_vias(plan, slot, out))
 }
 
-/// Progress and offset at the instants, with waits at red lights. A waiting agent keeps the offset that it
+/// Progress and offset at the instants, with waits at red signals. A waiting agent keeps the offset that it
 /// would have had at that progress.
 fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
     let gates = &plan.lights[slot.index()];
@@ -108,7 +108,7 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
         easy_mps2: plan.easy_mps2,
     };
     let held = waiting.obeying(&progress);
-    // One mode may overlook the green light.
+    // Without a goal, all modes but the first leave at the latest when the signal turns green.
     let leaves = plan.is_free() && slot != Slot::FIRST;
     let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
     let Some(held) = left.or(held) else { return wanted };
@@ -157,7 +157,7 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
 }
 
 /// The motion at these progresses and offsets. Ten knots cannot follow every halt: an agent that would roll
-/// over a red light's line halts earlier.
+/// over the stop line of a red signal halts earlier.
 fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Rollout {
     let motion = on_the_road(plan, slot, coordinates);
     let anchor = &plan.anchors[slot.index()];
@@ -209,8 +209,8 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     through(plan, slot, facing_on(plan, centres))
 }
 
-/// The motion that was driven past these box centres, fitted again in the manner that stays nearest to them:
-/// with hurried or physical limits, and with or without the lane's heading at the goal.
+/// The motion that was driven past these box centres, fitted again with hurried or physical limits, and with
+/// or without the lane's heading at the goal. The fit nearest to the centres is taken.
 pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Rollout {
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
@@ -241,8 +241,9 @@ pub(super) fn driven_again(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     }
 }
 
-/// The same for an agent that stops at or before its goal because another agent is in the way. The places are
-/// those wished for, or those driven.
+/// The motion past these box centres for an agent that other agents may stop. A missed goal counts as missed
+/// because of traffic. With `gets_there` the motion is projected onto the goal, otherwise only onto the
+/// limits.
 pub(super) fn short_along(
     plan: &AgentPlan,
     centres: &[Vec2; INSTANTS],
@@ -429,7 +430,7 @@ pub(super) fn rest(plan: &AgentPlan) -> Rollout {
     Rollout { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
 }
 
-/// The motion with these states from the first step on, whatever the goal.
+/// The motion with these states from the first step on, regardless of the goal.
 pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Rollout {
     let states: Trajectory = std::iter::once(&plan.present.start)
         .chain(states)

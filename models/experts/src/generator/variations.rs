@@ -24,8 +24,7 @@ use std::cell::OnceCell;
 
 /// The end of a window, seconds.
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
-/// Times at which the position of a waiting draft is checked, seconds, and how far it may lean over the kerb,
-/// metres.
+/// Times at which the progress of a waiting draft is prescribed, seconds.
 const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
 
 /// A draft with its progress: the input from which variations are made and measured.

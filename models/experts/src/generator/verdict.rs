@@ -12,7 +12,7 @@ use scene::{Agent, Future, HORIZON_STEPS, State, Vec2};
 /// for a near miss.
 const AWAY_M: f64 = 25.0;
 
-/// The judge of motions in a window, with the default thresholds: a call's own thresholds change no motion.
+/// The judge of motions in a window, with the default thresholds: the thresholds of a call change no motion.
 pub(super) fn window_judge<'a>(setting: &'a WindowSetting<'_>) -> Judge<'a> {
     let world = &setting.world;
     let steps = world.step..world.step + HORIZON_STEPS + 1;

@@ -1,5 +1,5 @@
-//! Via points between a draft and its motion: the draft is steered to them, and after the fit to ten knots
-//! and the limits the motion is projected through them.
+//! Via points between a draft and its motion. The draft is steered to them. After the fit to ten knots and
+//! the limits, the motion is projected through them.
 
 use super::slot::Slot;
 use crate::features::agent::AgentPlan;
@@ -25,7 +25,7 @@ pub(super) fn steer_to_vias(
     }
     in_time(plan, &anchor.passes_m, &mut coordinates);
     if let (None, Some(last_m)) = (plan.target.position, anchor.passes_m.last()) {
-        // Adds as much of the base as it takes to get there.
+        // Adds a share of the base so that the progress ends beyond the last via point.
         let end_m = anchor.base[HORIZON_STEPS];
         let short_m = (last_m + PAST_M).min(end_m) - coordinates[INSTANTS - 1].0;
         if short_m > 0.0 && end_m > 0.0 {
@@ -115,7 +115,7 @@ struct Tried {
     motion: Projection,
     /// All via points are passed well within their tolerance.
     sure: bool,
-    /// Metres beyond tolerances, with a large penalty for a missed goal.
+    /// Distances to missed via points, metres, with a penalty for each of them and a larger one for a missed goal.
     cost: f64,
     passes: Vec<Pass>,
 }
@@ -139,7 +139,7 @@ impl Tried {
             let step = waypoint.step.unwrap_or(nearest).clamp(1, last.max(1));
             let state = &motion.trajectory[step];
             let ahead = Vec2::new(state.heading_rad.cos(), state.heading_rad.sin());
-            // A motion that reaches the via point may pass it at any time; any other motion is brought there.
+            // A motion that reaches the via point may pass it at any time; any other motion is moved there.
             let comes = (via.position - passing.place).dot(&ahead).abs() < KEEPS * via.tolerance_m;
             let free = waypoint.step.is_none() && comes;
             let here = if free { passing.place } else { state.position };

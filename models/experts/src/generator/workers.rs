@@ -33,7 +33,8 @@ impl WorkerPool {
         self.map_many(2, items, f)
     }
 
-    /// The same for small work: fewer than `many` items are done sooner than they are handed over.
+    /// The same for small work: fewer than `many` items are processed by the caller, because handing them over takes
+    /// longer.
     pub(super) fn map_many<T: Sync, R: Send>(
         &self,
         many: usize,
@@ -55,8 +56,8 @@ impl WorkerPool {
     }
 }
 
-/// Applies `f` to each item by the caller's thread and the pool's others. The caller begins at once: a thread that
-/// sleeps wakes some fifty microseconds later, as long as a small item takes.
+/// Applies `f` to each item on the caller's thread and on threads of the pool. The caller begins at once: a sleeping
+/// thread wakes about 50 microseconds later, the duration of a small item.
 fn shared<T: Sync, R: Send>(
     pool: &ThreadPool,
     threads: usize,
@@ -83,8 +84,8 @@ fn shared<T: Sync, R: Send>(
     results.into_iter().filter_map(result).collect()
 }
 
-/// Whether the caller's thread belongs to another pool. While it waited for this pool it would start more
-/// work of its own pool, call within call, until its stack overflows. That pool keeps the cores busy already.
+/// Whether the caller's thread belongs to another pool. While it waits for this pool it would start more work
+/// of its own pool, nested until its stack overflows. Its own pool already occupies the cores.
 fn is_in_another(pool: &ThreadPool) -> bool {
     rayon::current_thread_index().is_some() && pool.current_thread_index().is_none()
 }

@@ -1,5 +1,5 @@
 //! Arms: where roads enter a map, or a drawn region of it. Lanes are grouped by heading and distance, so that
-//! a road is one arm whatever its name in the file.
+//! a road is one arm, independent of names in the file.
 
 use super::driving::{SpeedRange, allowed_mps};
 use super::region::Region;
@@ -180,28 +180,28 @@ fn arm(entries: &[(ArmLane, Pose)], mut group: Vec<usize>) -> Arm {
     Arm { id: String::new(), position, heading_rad: way.y.atan2(way.x), lanes }
 }
 
-/// A stretch of lane that belongs to a way.
+/// A stretch of lane on the path of an arm.
 #[derive(Clone, Copy, Debug)]
 struct ArmLeg {
     lane: usize,
     from_m: f64,
-    /// Arc length of the way at which the stretch begins, metres.
+    /// Arc length of the path at which the stretch begins, metres.
     at_m: f64,
 }
 
-/// The way in by one lane of an arm, up to its end line: the first junction, or the place where the road
+/// The path from one lane of an arm to its end line. That is the first junction, or the place where the road
 /// leaves the map or joins another.
 pub(super) struct ArmPath {
     legs: Vec<ArmLeg>,
     pub(super) path: Polyline,
-    /// Seconds of free travel from the beginning of the way, every [`TIME_STEP_M`].
+    /// Seconds of free travel from the beginning of the path, every [`TIME_STEP_M`].
     times_s: Vec<f64>,
     /// Speeds at these places, m/s.
     speeds_mps: Vec<f64>,
 }
 
 impl ArmPath {
-    /// The way that begins with a lane.
+    /// The path that begins at an entry.
     pub(super) fn of(
         graph: &LaneGraph,
         lights: &ShownLights,
@@ -254,24 +254,24 @@ impl ArmPath {
         self.speeds_mps.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// The lane at a place of the way, and the arc length on it, metres.
+    /// The lane at a place of the path, and the arc length on that lane, metres.
     pub(super) fn lane_at(&self, at_m: f64) -> (usize, f64) {
         let after = self.legs.partition_point(|leg| leg.at_m <= at_m);
         let leg = &self.legs[after.saturating_sub(1)];
         (leg.lane, leg.from_m + (at_m - leg.at_m).max(0.0))
     }
 
-    /// Lanes of the way, each with the way's arc length at which the lane itself would begin, metres.
+    /// Lanes of the path, each with the arc length of the path at which the lane itself would begin, metres.
     pub(super) fn legs(&self) -> impl Iterator<Item = (usize, f64)> {
         self.legs.iter().map(|leg| (leg.lane, leg.at_m - leg.from_m))
     }
 
-    /// Lanes of the way.
+    /// Lanes of the path.
     pub(super) fn lanes(&self) -> impl Iterator<Item = usize> {
         self.legs.iter().map(|leg| leg.lane)
     }
 
-    /// Last lane of the way.
+    /// Last lane of the path.
     pub(super) fn last_lane(&self) -> usize {
         self.legs[self.legs.len() - 1].lane
     }
@@ -301,8 +301,8 @@ impl ArmPath {
     }
 }
 
-/// Whether the road continues from one lane to the next without anything to stop for, and nothing joins it
-/// there.
+/// Whether the road continues from one lane to the next without a junction, a fork, a signal or a merging
+/// lane with priority.
 fn goes_on(graph: &LaneGraph, lights: &ShownLights, at: usize, next: usize) -> bool {
     let (lane, then) = (&graph.lanes()[at], &graph.lanes()[next]);
     let junction = lane.successors.iter().any(|s| graph.lanes()[*s].interpolating || lights.rules(*s));
@@ -387,7 +387,7 @@ mod tests {
         let slow = Some(SpeedRange { min_mps: 0.0, max_mps: 4.0 });
         let way = ArmPath::of(&graph, &lights, ArmLane { lane: 0, s_m: 0.0, at_map_edge: true }, slow);
         assert!((way.seconds() - 20.0).abs() < 1e-6);
-        // A light in the middle of a road is an end line too.
+        // A signal in the middle of a road is an end line too.
         let mut lit = scene.clone();
         lit.signals =
             vec![Signal { lane: "out".into(), stop: None, stop_z_m: None, runs: vec![(0, SignalState::Go)] }];

@@ -4,8 +4,8 @@
 //! Headways on a lane are a minimum headway plus an exponential remainder (Cowan 1975, "Useful headway
 //! models", Transportation Research 9, the model M2). The renewal process begins in its steady state, so the
 //! expected number of vehicles that pass any place of an arm is exactly rate times duration. A vehicle that
-//! entered before the scene begins is placed where free traffic would be by then. A later one has a motion
-//! from the map's edge on.
+//! entered before the scene begins is placed where free traffic would be by then. A later vehicle has a
+//! motion that begins at the edge of the map.
 
 use super::arms::{Arm, ArmLane, ArmPath, arms};
 use super::cells::CellKind;
@@ -173,7 +173,7 @@ impl Sampler<'_> {
         lost.round() as usize
     }
 
-    /// Bars all other drivers from these lanes, so that only arms supply their traffic.
+    /// Excludes all other drivers from these lanes, so that only arms supply their traffic.
     fn keep_off(&mut self, lanes: &HashSet<usize>) {
         if lanes.is_empty() {
             return;
@@ -256,7 +256,7 @@ impl Sampler<'_> {
         );
     }
 
-    /// A vehicle at a place of a way.
+    /// A vehicle at a place on the path of an arm.
     fn on_way(&self, way: &ArmPath, s_m: f64, arrival: &Arrival) -> PlacedAgent {
         let place = way.path.sample(s_m);
         let (lane, lane_m) = way.lane_at(s_m);
@@ -325,7 +325,7 @@ impl Sampler<'_> {
         self.request.scene.time.steps.saturating_sub(1).max(self.request.step)
     }
 
-    /// A vehicle at its first place; `None` if it found no way in or was removed again.
+    /// A vehicle at its first place; `None` if it cannot enter or was removed again.
     fn driver(
         &self,
         stretch: &FreeStretch,
@@ -462,7 +462,7 @@ mod tests {
         assert_eq!(times(1.0 / 1.5, 1.5, (0.0, 60.0), &mut stream).len(), 40);
     }
 
-    /// Two lanes of 200 m from the west to a light, and 60 m beyond it.
+    /// Two lanes of 200 m from the west to a signal, and 60 m beyond it.
     fn road(steps: usize) -> Scene {
         let lane = |id: &str, from_m: f64, to_m: f64, y_m: f64| {
             let at = |i: u32| Vec2::new(from_m + (to_m - from_m) * f64::from(i) / 40.0, y_m);

@@ -169,7 +169,7 @@ impl<'a> Cells<'a> {
 
     /// Kilometres of lane for motor vehicles in the region, junctions left out.
     pub(super) fn lane_km(&self, region: &Region) -> f64 {
-        // A map may have kerbs but no lane.
+        // Junction lanes and lanes of other road users do not count.
         let counts = |lane: &GraphLane| lane.carries(AgentType::Vehicle) && !lane.interpolating;
         let counted = self.all.iter().filter(|s| {
             s.kind == CellKind::Lane
@@ -179,8 +179,8 @@ impl<'a> Cells<'a> {
         counted.map(MapCell::extent).sum::<f64>() / 1000.0
     }
 
-    /// Calls `found` with the cells behind the place at `s_m` of a lane and their distance to it, metres,
-    /// up to [`LEADER_REACH_M`], along all lanes that lead there.
+    /// Calls `found` with the cells behind the place at `s_m` of a lane and their distance to it, metres. It
+    /// follows all lanes that lead there, up to [`LEADER_REACH_M`].
     pub(super) fn behind(&self, lane: usize, s_m: f64, mut found: impl FnMut(usize, f64)) {
         let mut todo = vec![(lane, s_m, 0.0)];
         let mut seen = HashSet::new();

@@ -37,8 +37,8 @@ impl Neighbours {
     }
 
     /// Whether no obstacle is too near. `min_gap_m` is the room along the lane between drivers of the same
-    /// direction. Drivers that pass or cross each other keep a gap, and nobody on foot is right in front of a
-    /// driver.
+    /// direction. Drivers that pass or cross each other keep a gap, and no pedestrian is directly in front of
+    /// a driver.
     pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
         let outline = placed.outline();
         let near = outline.grown(MARGIN_M);
@@ -79,7 +79,7 @@ impl Neighbours {
     }
 }
 
-/// Where nobody may be on foot: a driver's box, the strip beside it, and its next metres.
+/// Zone without pedestrians: the box of a driver, the strip beside it, and the next metres ahead.
 fn before(driver: &OrientedBox) -> OrientedBox {
     let center = driver.center() + driver.forward() * (0.5 * BEFORE_M);
     let (half_length_m, half_width_m) =
@@ -87,7 +87,8 @@ fn before(driver: &OrientedBox) -> OrientedBox {
     OrientedBox::new(center, half_length_m, half_width_m, driver.heading_rad())
 }
 
-/// Drivers wait at red lights, parked vehicles stay off the lanes, and pedestrians stand on the pavement.
+/// Drivers are not beyond the stop line of a red signal, and parked vehicles are off the lanes. People on pavements
+/// neither stand on a lane nor face one nearby.
 pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
     let outline = placed.outline();
     match placed.kind {

@@ -4,26 +4,26 @@
 use crate::tuning::placing::context::{LEADER_WITHIN_M, PACES_MPS};
 use serde::{Deserialize, Serialize};
 
-/// What a driver has to stop for, in the classes by which speeds are learned.
+/// Reason to stop ahead of a driver, in the classes by which speeds are learned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RoadAhead {
     /// Nothing near enough to matter.
     Clear,
-    /// Inside a junction without a lit red light.
+    /// Inside a junction whose signal, if any, is not red.
     Junction,
-    /// Inside a junction while its light is red.
+    /// Inside a junction whose signal is red.
     JunctionOnRed,
-    /// A stop sign or a junction without lights within 12 m.
+    /// A stop sign or a junction without signals within 12 m.
     YieldWithin12M,
     /// The same within 30 m.
     YieldWithin30M,
-    /// A light that is not red within 30 m.
+    /// A signal that is not red within 30 m.
     GoWithin30M,
-    /// A red light within 10 m.
+    /// A red signal within 10 m.
     RedWithin10M,
-    /// A red light within 25 m.
+    /// A red signal within 25 m.
     RedWithin25M,
-    /// A red light within 50 m.
+    /// A red signal within 50 m.
     RedWithin50M,
 }
 

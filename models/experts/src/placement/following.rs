@@ -2,7 +2,7 @@
 //! until it reacts.
 //!
 //! The Intelligent Driver Model (Treiber, Hennecke and Helbing 2000, "Congested traffic states in empirical
-//! observations and microscopic simulations", Physical Review E 62), with red lights as standing leaders.
+//! observations and microscopic simulations", Physical Review E 62), with red signals as standing leaders.
 
 use super::arms::ArmPath;
 use super::driving::{SpeedRange, allowed_mps};
@@ -18,19 +18,20 @@ use std::collections::HashSet;
 /// Spacing of the known speeds along a course, metres.
 const SPEED_STEP_M: f64 = 2.0;
 
-/// The course of one vehicle: in by its arm, then on through the map.
+/// The course of one vehicle: along its arm, then through the map.
 pub(super) struct Course {
     pub(super) path: Polyline,
     lanes: Vec<(usize, f64)>,
     speeds_mps: Vec<f64>,
     /// Stop lines: arc length, and the index of the signal.
     stops: Vec<(f64, usize)>,
-    /// The course ends although the map goes on.
+    /// The course ends before the road does.
     cut: bool,
 }
 
 impl Course {
-    /// Along a way and `reach_m` beyond it; at a fork one branch is drawn.
+    /// Along the path of an arm and onwards, at least `reach_m` in all if the road is long enough. At a fork one branch
+    /// is drawn.
     pub(super) fn of(
         scene: &Scene,
         graph: &LaneGraph,
@@ -115,7 +116,7 @@ impl Course {
 pub(super) struct FollowingDriver {
     pub(super) course: Course,
     pub(super) length_m: f64,
-    /// Speed in free traffic as a share of the speed limit.
+    /// Speed in free traffic as a share of what the limit and bends allow.
     pub(super) share: f64,
     /// Step of its first place.
     pub(super) first_step: usize,

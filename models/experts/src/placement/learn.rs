@@ -59,8 +59,8 @@ struct SeenAgent<'a> {
 
 /// Observes a scene at one step. Only cells and road users within [`SEEN_M`] of the ego count.
 ///
-/// The ego and its cell are left out: windows are cut around road users, so one is always there, and the rest
-/// is distributed as if it were not (Slivnyak's theorem).
+/// The counts leave out the ego and its cell: windows are cut around road users, so one is always there. The
+/// others are distributed as if it were not (Slivnyak's theorem).
 pub fn observe(scene: &Scene, graph: &LaneGraph, step: usize) -> Observation {
     let ego = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego"));
     let center = ego.and_then(|a| a.state_at(scene.time.now_step)).map_or(Vec2::zeros(), |s| s.position());

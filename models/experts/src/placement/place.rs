@@ -29,7 +29,7 @@ const TRIES: usize = 128;
 /// Failed draws of a pose after which a cell counts as full.
 const CELL_TRIES: u8 = 4;
 
-/// Steps of a recording after the start in which nobody is placed in a kept road user's way.
+/// Steps of a recording after the start in which no road user is placed on the path of a kept one.
 const NEXT_STEPS: usize = 30;
 
 /// Draws cells in proportion to rates, which each placed agent changes.

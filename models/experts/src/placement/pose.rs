@@ -118,7 +118,7 @@ pub(super) fn draw_pose(
             offset - half_lane_m
         }
         CellKind::Lane => {
-            // Drivers start within their lane: the space beside it belongs to others.
+            // Drivers start within their lane: the space beside it belongs to other lanes.
             let room_m = half_lane_m - LANE_SIDE_M;
             let most_rad = ((room_m - 0.5 * size.width_m) / (0.5 * size.length_m).max(STRAIGHT_M))
                 .clamp(0.0, 1.0)
@@ -180,8 +180,8 @@ fn in_driveway(
     Some(Pose { position, heading_rad: wrap_angle(axis.y.atan2(axis.x) + turn_rad), s_m: 0.0 })
 }
 
-/// What a pose in a cell teaches: offset (if offsets are learned there) and heading, in the terms in which
-/// [`draw_pose`] draws them.
+/// Offset (if offsets are learned there) and heading of a pose in a cell, in the terms in which [`draw_pose`]
+/// draws them.
 pub(super) fn measure(
     cells: &Cells<'_>,
     cell: &MapCell,

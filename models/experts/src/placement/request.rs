@@ -45,7 +45,7 @@ pub enum Parked {
 pub struct ArmTraffic {
     /// The arm.
     pub arm: Arm,
-    /// Length of its way from the entry to the end line: the first junction, or where the road ends or joins
+    /// Length of its path from the entry to the end line: the first junction, or where the road ends or joins
     /// another, metres.
     pub length_m: f64,
     /// Capacity of its lanes, vehicles per hour.
@@ -63,7 +63,7 @@ pub enum Amount {
     PerLaneKm(f64),
     /// Total number.
     Count(usize),
-    /// Number of each type, whatever [`PlaceRequest::types`] contains.
+    /// Number of each type, regardless of [`PlaceRequest::types`].
     Each(BTreeMap<AgentType, usize>),
 }
 

@@ -1,5 +1,5 @@
 //! Room to brake: lowers drawn speeds until comfortable braking suffices for the road user ahead, and for one
-//! whose path crosses or joins. A road user that no speed helps is left out.
+//! whose path crosses or joins. A road user for which no speed suffices is left out.
 
 use crate::planning::world::AgentAtStart;
 use crate::tuning::placing::room::{
@@ -20,7 +20,7 @@ const STEP_M: f64 = 1.0;
 const MOST_WAYS: usize = 8;
 /// Most rounds of lowering speeds; each round lowers at least one.
 const ROUNDS: usize = 40;
-/// A road user that needs room to brake, or that others need room for.
+/// A road user that needs room to brake, or that others have to brake for.
 pub(super) struct DrivenBox {
     pub(super) agent_type: AgentType,
     pub(super) limits: Limits,
@@ -41,13 +41,13 @@ impl DrivenBox {
     }
 }
 
-/// Where a kept road user has to pass, and a little beyond.
+/// Boxes of a kept road user over the ground that it cannot avoid, and slightly beyond.
 pub(super) fn next(graph: &LaneGraph, mover: &DrivenBox) -> impl Iterator<Item = OrientedBox> {
     let walks = mover.lane.is_none().then(|| kept_clear(mover));
     ways(graph, mover).into_iter().filter(move |_| walks.is_none()).flatten().chain(walks)
 }
 
-/// The speed from which a driver gets down to `to_mps` within `room_m` by comfortable braking, after a
+/// The speed from which a driver slows down to `to_mps` within `room_m` by comfortable braking, after a
 /// reaction time.
 pub(super) fn brakes_from(limits: &Limits, room_m: f64, to_mps: f64) -> f64 {
     let brake_mps2 = limits.comfortable.brake_mps2;
@@ -55,7 +55,7 @@ pub(super) fn brakes_from(limits: &Limits, room_m: f64, to_mps: f64) -> f64 {
     (moment_mps * moment_mps + to_mps * to_mps + 2.0 * brake_mps2 * room_m.max(0.0)).sqrt() - moment_mps
 }
 
-/// The paths that a driver can take from its place, a little longer than its stopping distance.
+/// The paths that a road user can take from its place, slightly longer than its stopping distance.
 fn ways(graph: &LaneGraph, mover: &DrivenBox) -> Vec<Vec<OrientedBox>> {
     let parked = mover.lane.is_none() && mover.agent_type == AgentType::Vehicle;
     if parked {
@@ -132,7 +132,7 @@ pub(super) fn lines(
     done
 }
 
-/// The highest speed for the bends and limits ahead, on the branch that allows most, m/s.
+/// The highest speed for the bends ahead, on the branch that allows most, m/s.
 pub(super) fn bend_mps(graph: &LaneGraph, mover: &DrivenBox) -> f64 {
     let Some((lane, s_m)) = mover.lane else { return f64::INFINITY };
     let manner = mover.limits.comfortable;
@@ -290,8 +290,8 @@ fn lower(mover: &mut DrivenBox, most: f64) -> bool {
     mover.speed_mps < before
 }
 
-/// Makes one of two stop before their paths meet, unless they pass that place well apart in time. True if
-/// anything changed.
+/// Makes one of two stop before their paths meet, unless they pass that place well apart in time. True if a
+/// speed or a left-out flag changed.
 fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> bool {
     let WaysMeet { of, into_m, past_m, joins } = crossing;
     if out[of[0]] || out[of[1]] {
@@ -317,7 +317,7 @@ fn yield_to(crossing: &WaysMeet, movers: &mut [DrivenBox], out: &mut [bool]) -> 
     }
     let may = |k: usize| !movers[of[k]].kept && room_m[k] >= 0.0;
     let Some(who) = [later, 1 - later].into_iter().find(|k| may(*k)) else {
-        // Each is in the other's way already.
+        // Each already blocks the path of the other.
         let who = if movers[of[1]].kept { of[0] } else { of[1] };
         out[who] = true;
         return true;
@@ -417,7 +417,7 @@ mod tests {
         let at = |a_m: f64, b_m: f64| {
             speeds(&graph, vec![car(&graph, 0, 100.0 - a_m, 10.0), car(&graph, 1, 100.0 - b_m, 10.0)])
         };
-        // Box and way begin to overlap some 3 m before the crossing.
+        // Box and path begin to overlap about 3 m before the crossing.
         let slowed = at(20.0, 22.0);
         assert_eq!(slowed[0], Some(10.0), "it comes first");
         assert!(

@@ -110,7 +110,7 @@ impl StartSpeeds<'_> {
         self.obstacles[own].speed_mps = rounded(speed_mps, 1e3);
     }
 
-    /// Whether a speed is allowed: a motor vehicle stands, or its speed is in the range.
+    /// Whether a speed is allowed: a motor vehicle on a lane stands, or is at least as fast as the range demands.
     fn may_start(&self, placed: &PlacedAgent, speed_mps: f64) -> bool {
         let asked = placed.lane.is_some() && placed.agent_type == AgentType::Vehicle;
         let slow = |range: SpeedRange| speed_mps > 0.0 && speed_mps < range.min_mps - ROUNDING_MPS;

@@ -1,4 +1,4 @@
-//! Causes for a driver on a lane to stop: lights, stop signs, junctions.
+//! Causes for a driver on a lane to stop: signals, stop signs, junctions.
 
 use super::context::RoadAhead;
 use crate::tuning::placing::stop_lines::{
@@ -15,13 +15,13 @@ const MAX_HOPS: usize = 12;
 /// What controls the next stop line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StopControl {
-    /// A junction without lights.
+    /// A junction without signals.
     Unsignalled,
     /// A stop sign.
     StopSign,
-    /// Lights with at least one direction that is not red.
+    /// Signals, at least one of which is not red.
     NotRed,
-    /// Lights with all directions red.
+    /// Signals that are all red.
     Red,
 }
 
@@ -32,7 +32,7 @@ pub(super) enum LineAhead {
     Nothing,
     /// A stop line at this distance, metres.
     StopLine(StopControl, f64),
-    /// Inside a junction; if it has a lit light, whether that is red.
+    /// Inside a junction; whether its signal is red, if the state of one is known.
     Inside(Option<bool>),
 }
 
@@ -78,14 +78,14 @@ impl LineAhead {
         }
     }
 
-    /// Whether traffic queues here: a red light or a stop sign is near.
+    /// Whether traffic queues here: a red signal, a stop sign or an unsignalled junction is near.
     pub(super) fn queues(self) -> bool {
         matches!(self, Self::StopLine(StopControl::Red, m) if m < QUEUES_M.0)
             || matches!(self, Self::StopLine(StopControl::StopSign | StopControl::Unsignalled, m) if m < QUEUES_M.1)
     }
 }
 
-/// Lit signals by lane: state and arc length of the stop line, metres.
+/// Signals with a known state by lane: state, and arc length of the stop line, metres.
 pub(super) struct ShownLights(HashMap<usize, (SignalState, f64)>);
 
 impl ShownLights {
@@ -100,7 +100,7 @@ impl ShownLights {
         Self(lit.collect())
     }
 
-    /// Whether a lit signal controls a lane.
+    /// Whether a signal with a known state controls a lane.
     pub(super) fn rules(&self, lane: usize) -> bool {
         self.0.contains_key(&lane)
     }

@@ -1,4 +1,4 @@
-//! Anchors: where an agent may go, before any network runs.
+//! Anchors: the paths that an agent may take, before any network runs.
 //!
 //! With a goal position they are paths to it ([`super::to_goal`]); without one, routes ahead, each with
 //! several timings. Pedestrians get straight lines besides routes.

@@ -129,7 +129,7 @@ fn shortest(
     while at != 0 {
         at = from[at];
         way.push(places[at]);
-        // Corners are identified by their box and their index on it, whatever else is in the way.
+        // Corners are identified by their box and their index on it, independent of the other boxes.
         if let Some(corner) = at.checked_sub(2) {
             identity =
                 identity.wrapping_mul(1_009).wrapping_add((4 * known[corner / 4] + corner % 4) as u64 + 1);

@@ -1,4 +1,4 @@
-//! Walkers and carriageways: where a path steps onto the lanes, the path by a crosswalk, and waiting at the
+//! Walkers and carriageways: where a path steps onto the lanes, the path by a crosswalk, and waits at the
 //! kerb while the crossed lanes have green.
 
 use super::profile::{Caps, Progress, TimedLeg, approaching, speed_at};
@@ -18,7 +18,7 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
 /// Distance between samples of a path, metres.
 const LOOK_M: f64 = 0.5;
-/// Spacing of a path and radius with which its corners are rounded, metres.
+/// Distance between the points of a path by a crosswalk, metres.
 const SPACING_M: f64 = 0.5;
 /// First identity of paths by crosswalks.
 const IDENTITY: u64 = 1_000;
@@ -30,7 +30,7 @@ const NOTICING_STEPS: usize = 5;
 pub struct Kerb {
     /// Progress of the box centre at which its front is at the kerb, metres.
     pub line_m: f64,
-    /// Steps of the window at which lanes crossed on a crosswalk have green.
+    /// Steps of the window at which lanes crossed on a crosswalk have green or yellow.
     go: Steps,
     /// Steps at which all of them are known to be stopped.
     stopped: Steps,
@@ -69,7 +69,7 @@ pub fn kerb(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Option<Ke
 fn crosses(line: &StopLine, path: &Polyline, enters_m: f64, leaves_m: f64) -> bool {
     let (from, to) = line.behind(BEHIND_LINE_M);
     let (a, b) = (path.extrapolate(enters_m - LOOK_M), path.extrapolate(leaves_m + LOOK_M));
-    // Cheaper than testing each piece, and exact enough because people cross straight.
+    // Cheaper than testing each piece, and accurate enough because pedestrians cross straight.
     Segment { from, to, owner: 0, piece: 0 }.crosses(a.position, b.position)
 }
 
@@ -209,7 +209,7 @@ pub fn brisk_mps(v0: f64) -> f64 {
 pub(super) fn walking(v0: f64, length_m: f64, target: &Target) -> Option<Progress> {
     let even = even_pace(v0, length_m, target.step)?;
     let seconds = target.step as f64 * STEP_S;
-    // An agent that has to arrive at a speed changes to it over the whole path.
+    // If the goal fixes the speed, the change of speed is spread over the whole path.
     Some(match target.speed_mps {
         None => even,
         end_mps => {
@@ -234,8 +234,8 @@ fn even_pace(v0: f64, length_m: f64, steps: usize) -> Option<Progress> {
 }
 
 impl Kerb {
-    /// Progress that waits at the kerb until the lanes are known to be stopped, and still meets the goal in
-    /// time. `None` if `wanted` steps onto no lane with green, or the time is too short.
+    /// Progress that waits at the kerb until the signals of the lanes are known to be red, and still meets
+    /// the goal in time. `None` if `wanted` steps onto no lane with green, or the time is too short.
     pub fn waiting(&self, wanted: &Progress, v0: f64, due: usize) -> Option<Progress> {
         let steps_out = (1..=due).find(|i| wanted[*i] > self.line_m + STEPPED_OUT_M)?;
         if self.go >> steps_out & 1 == 0 {

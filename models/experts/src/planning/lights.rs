@@ -1,4 +1,4 @@
-//! Red lights on a path: the stop lines that it crosses, and progress that waits at them.
+//! Red signals on a path: the stop lines that it crosses, and progress that waits at them.
 
 use super::profile::{Caps, Progress, TimedLeg, speed_at};
 use super::stop_line::{Steps, StopLine};
@@ -14,8 +14,8 @@ use scene::routes::Polyline;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
-/// A turn at red is checked this many steps and metres after the line. An agent that cannot get there does
-/// not begin the turn.
+/// A turn at red is checked this many steps after the line. An agent that would not be [`TURN_M`] beyond the
+/// line by then does not begin the turn.
 const TURN_STEPS: usize = 45;
 /// Steps after green at which the first agent of a queue leaves, and steps from each agent to the next.
 const FIRST_LEAVES_STEPS: usize = 10;
@@ -30,9 +30,9 @@ const LATEST_LEAVING: usize = 75;
 pub struct Gate {
     /// Progress of the box centre at which its front is at the line, metres.
     line_m: f64,
-    /// Steps of the window at which an agent on the path must not pass.
+    /// Steps of the window at which the signal forbids passing.
     red: Steps,
-    /// Steps at which the light is known to allow passing.
+    /// Steps at which the signal is known to allow passing.
     open: Steps,
     /// The path turns right after the line, which is allowed at red after a stop.
     right: bool,
@@ -55,7 +55,7 @@ impl Gate {
     /// red for too long.
     fn leaves(&self) -> Option<usize> {
         let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
-        // A signal state after the last recorded one is no reason to leave.
+        // An unknown state after the end of the recording is no reason to leave.
         if self.open >> green & 1 == 0 {
             return None;
         }
@@ -64,7 +64,7 @@ impl Gate {
     }
 }
 
-/// Whether an agent that stands at these lights sets off in the window.
+/// Whether an agent that stands at the first of these stop lines sets off in the window.
 pub fn sets_off(gates: &[Gate]) -> bool {
     gates.first().is_some_and(|gate| gate.leaves().is_some())
 }
@@ -113,7 +113,7 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()
 }
 
-/// An agent that waits at lights on its path.
+/// An agent that waits at signals on its path.
 pub struct Waiting<'a> {
     /// Stop lines on the path, nearest first.
     pub gates: &'a [Gate],
@@ -130,8 +130,8 @@ pub struct Waiting<'a> {
 }
 
 impl Waiting<'_> {
-    /// Progress that waits at red lights; `None` if `wanted` passes none or cannot be changed. An agent that
-    /// cannot stop goes on, and so does one that would miss its goal time.
+    /// Progress that waits at red signals; `None` if `wanted` passes none or cannot be changed. An agent that
+    /// cannot stop, or would miss its goal time, continues.
     pub fn obeying(&self, wanted: &Progress) -> Option<Progress> {
         let mut changed: Option<Progress> = None;
         for gate in self.gates {
@@ -143,7 +143,7 @@ impl Waiting<'_> {
         changed
     }
 
-    /// Progress of an agent that stands at a light and sets off at the latest when it turns green. `None` if
+    /// Progress of an agent that stands at a signal and sets off at the latest when it turns green. `None` if
     /// `wanted` does so already, or if no green is known.
     pub fn setting_off(&self, wanted: &Progress) -> Option<Progress> {
         let gate = self.gates.first().filter(|_| self.v0 < STOPPED_MPS)?;
@@ -182,7 +182,7 @@ impl Waiting<'_> {
         }
         let due = self.target.position.map(|_| self.target.step);
         let passes_red = |p: &Progress| passes(p).filter(|step| is_red(*step) && !turns(p, *step));
-        // A light may turn red again before the agent passes, so several greens are tried.
+        // A signal may turn red again before the agent passes, so several green phases are tried.
         for _ in 0..3 {
             let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
             let held = match due {
@@ -273,7 +273,7 @@ impl Waiting<'_> {
         let mut speed = self.v0;
         for i in 0..HORIZON_STEPS {
             let left = (stop_m - out[i]).max(0.0);
-            // An agent that has to stand in time does not dawdle.
+            // The agent has to stand by `green`, so it keeps at least its start speed until it brakes.
             let open = speed_at(wanted, i + 1).max(self.v0).min((2.0 * brake * left).sqrt());
             let next = open.min(left / STEP_S).min(speed + SET_OFF_MPS2 * STEP_S);
             out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;

@@ -14,7 +14,7 @@ pub struct Caps<'a> {
 }
 
 impl<'a> Caps<'a> {
-    /// Caps at the arc lengths `arc_m` (rising).
+    /// Caps at the arc lengths `arc_m`, in ascending order.
     pub fn new(arc_m: &'a [f64], caps_mps: &'a [f64]) -> Self {
         Self { arc_m, caps_mps }
     }
@@ -169,7 +169,7 @@ impl TimedLeg {
         self.reached((-30.0, 30.0), go)
     }
 
-    /// The parameter within `range` at which the length is covered; progress rises with it.
+    /// The parameter within `range` at which the length is covered; progress increases with it.
     fn reached(&self, (mut low, mut high): (f64, f64), go: impl Fn(f64) -> Progress) -> Progress {
         for _ in 0..26 {
             let middle = 0.5 * (low + high);
@@ -254,7 +254,7 @@ mod tests {
             assert!((p[90] - length).abs() < 0.2, "{} for {length}", p[90]);
             assert!(slowest(&p) < fastest, "{} for {length}", slowest(&p));
         }
-        // Only the hurried manner gets there.
+        // Only the hurried manner covers the distance in time.
         let far = leg(10.0, 120.0, 9.0, None);
         assert_eq!(far.arriving_in_comfort(manners()), far.arriving());
     }

@@ -1,4 +1,4 @@
-//! Tests of paths by the road and of lights on them, on hand-made scenes.
+//! Tests of paths along the road and of signals on them, on hand-made scenes.
 
 use super::anchors::{Anchor, PathKind, anchors};
 use super::coordinates::MODES;
@@ -108,7 +108,7 @@ fn the_way_over_a_median_that_may_be_crossed_comes_first() {
     };
     let (_, broken) = over(&["a0", "a1", "b0", "b1"], false, to(80.0, 12.0, 9.0));
     assert_eq!(broken, [0.0; MODES], "over the median where nothing but that leads there");
-    // Once it may cross the edge, it need not turn round far ahead.
+    // With permission to cross the edge it does not need the U-turn far ahead.
     let (by_the_gap, _) = over(&[], true, to(40.0, 12.0, 9.0));
     let (over_it, broken) = over(&["a0", "a1"], true, to(40.0, 12.0, 9.0));
     assert_eq!(by_the_gap[0].kind, PathKind::Route);
@@ -125,7 +125,7 @@ fn a_way_by_the_road_that_takes_too_long_does_not_serve() {
     assert!(broken[0] > 5.0, "{broken:?}");
 }
 
-/// A street with a light at x = 40 that is red until this many steps have passed.
+/// A street with a signal at x = 40 that is red until this many steps have passed.
 fn lit(agent: Agent, green: usize) -> Scene {
     let lanes = vec![
         lane("in", straight(-50.0, 40.0, 0.0), &["through"]),
@@ -139,8 +139,8 @@ fn lit(agent: Agent, green: usize) -> Scene {
     Scene { signals: vec![signal], ..Scene::bare("light", map, vec![agent]) }
 }
 
-/// Progress of an anchor's base, or of continuing at 10 m/s, that obeys the light; `None` if it obeys it
-/// anyway.
+/// Progress of an anchor's base, or of continuing at 10 m/s, that obeys the signal; `None` if the wanted
+/// progress obeys it already.
 fn waiting(scene: &Scene) -> Option<Progress> {
     let world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     let who = &world.present[0];

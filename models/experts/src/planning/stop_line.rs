@@ -19,11 +19,11 @@ pub struct StopLine {
     half_width_m: f64,
     /// The signal's lane continues behind the line, through the junction; otherwise it ends there.
     goes_on: bool,
-    /// Steps of the window at which it is red.
+    /// Steps of the window at which it is red and not flashing.
     red: Steps,
-    /// Steps at which it is known not to be red.
+    /// Steps at which passing is known to be allowed; flashing red allows it.
     open: Steps,
-    /// Steps at which the lane has green, or had it until a moment ago.
+    /// Steps at which the lane has green or yellow.
     go: Steps,
 }
 
@@ -63,17 +63,17 @@ impl StopLine {
         self.at
     }
 
-    /// Steps of the window at which its lane has green.
+    /// Steps of the window at which its lane has green or yellow.
     pub(super) fn go(&self) -> Steps {
         self.go
     }
 
-    /// Steps of the window at which it is known to be red.
+    /// Steps of the window at which it is known to be red and not flashing.
     pub(crate) fn red(&self) -> Steps {
         self.red
     }
 
-    /// Steps of the window at which it is known not to be red.
+    /// Steps of the window at which passing is known to be allowed.
     pub(super) fn open(&self) -> Steps {
         self.open
     }

@@ -1,5 +1,5 @@
-//! Paths through via points: one leg after the other, each planned as a path to a goal, and a progress that
-//! is at each via point at its time.
+//! Paths through via points, planned leg by leg as paths to a goal. Their progress is at each via point at
+//! its time.
 
 use super::coordinates::MODES;
 use super::profile::{Caps, Progress, TimedLeg, cruising_from, going_on, speed_at};
@@ -26,7 +26,7 @@ struct Through {
     mean_mps: f64,
 }
 
-/// The six anchors of a road user through its via points, to its goal or on along the lanes.
+/// The six anchors of a road user through its via points, to its goal, or further along the lanes.
 pub(super) fn anchors_through(
     world: &World<'_>,
     who: &AgentAtStart,
@@ -87,7 +87,7 @@ fn timed(
     out
 }
 
-/// Extends each path by the paths that are found from its end; if there are none yet, starts new ones. The
+/// Extends each path by the paths that are found from its end; if there are none yet, starts new paths. The
 /// next leg takes `steps`.
 fn lead_on(
     world: &World<'_>,
@@ -132,8 +132,8 @@ impl Through {
     }
 }
 
-/// Steps of each leg: to the via points, then to the goal if there is one. Free times are shared out by
-/// distance.
+/// Steps of each leg: to the via points, then to the goal if there is one. Free times before a fixed one are
+/// in proportion to distance; the others follow from a usual pace.
 fn leg_steps(who: &AgentAtStart, model: &MotionModel, target: &Target, vias: &[Waypoint]) -> Vec<usize> {
     let mut places: Vec<(Vec2, Option<usize>)> = vias.iter().map(|w| (w.via.position, w.step)).collect();
     places.extend(target.position.map(|goal| (goal, Some(target.step))));
@@ -200,7 +200,7 @@ fn ahead(
     let limit_mps = world.tuning.anchors.over_limit * way.limit_mps.max(v0);
     let mut speed_mps = match target.speed_mps {
         Some(speed_mps) => speed_mps,
-        // At least the present speed: a via point is there to be driven through.
+        // At least the present speed: a via point is no reason to slow down.
         None => v0.min(limit_mps) + share * (limit_mps - v0).max(0.0),
     };
     let start = paced(model, way, &dated, None, world.tuning.anchors.setting_off_mps2);
@@ -220,8 +220,8 @@ fn dated(vias: &[Waypoint], found: &Through) -> Vec<(usize, f64)> {
     vias.iter().zip(&found.at_m).filter_map(|(waypoint, at_m)| Some((waypoint.step?, *at_m))).collect()
 }
 
-/// Rising progress through these places at these steps; the speed at each lies between those of its
-/// neighbours.
+/// Monotonic progress through these places at these steps; the speed at each is the average of the mean
+/// speeds before and after it.
 fn paced(
     model: &MotionModel,
     way: &UntimedPath,

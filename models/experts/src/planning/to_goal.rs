@@ -1,4 +1,4 @@
-//! Paths to a goal position: along lanes if they lead there in time, off them only if nothing else does.
+//! Paths to a goal position: along lanes if they lead there in time, off the lanes only if no lane does.
 
 use super::around::around;
 use super::coordinates::MODES;
@@ -127,8 +127,8 @@ pub(super) fn paths_to_goal(
 }
 
 impl GoalTrip<'_, '_> {
-    /// Paths that drivers and riders usually take, whatever the rules: lane routes, and the smooth path if it
-    /// is as good.
+    /// Paths that drivers and riders usually take, regardless of the rules: lane routes, and the smooth path
+    /// if it is as good.
     fn usual(&self) -> Vec<UntimedPath> {
         let Self { world, who, target, .. } = self;
         let routes =
@@ -166,8 +166,8 @@ impl GoalTrip<'_, '_> {
         out
     }
 
-    /// Whether the motion of least effort crosses an edge that this road user may cross, and no other: it was
-    /// permitted for this.
+    /// Whether the motion of least effort crosses an edge that this road user may cross, and no other edge:
+    /// the permission was given for this.
     fn takes_what_is_allowed(&self) -> bool {
         let crosses = |ground: &Drivable| {
             let path = self.least_path.points();

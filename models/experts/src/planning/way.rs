@@ -163,7 +163,7 @@ fn bent(
     )
 }
 
-/// Length of a walker's path, metres: longer than it walks in a window.
+/// Length of a walker's path, metres: longer than the distance walked in a window.
 fn walked_m(v0: f64) -> f64 {
     HORIZON_STEPS as f64 * STEP_S * v0.max(LEAST_MPS) * LONGER.0 + LONGER.1
 }

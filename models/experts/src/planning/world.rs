@@ -91,7 +91,7 @@ impl From<Arc<Scene>> for SceneHandle<'_> {
 }
 
 /// A scene at one step. It contains nothing later than this step, except the user's conditions and later
-/// signal states. The networks do not see those signal states; they only make agents wait at red lights.
+/// signal states. The networks do not see those signal states; they only make agents wait at red signals.
 pub struct World<'a> {
     /// The scene.
     pub scene: SceneHandle<'a>,
@@ -221,7 +221,7 @@ impl AgentAtStart {
         let heading_rad = fixed.heading_rad.or(logged.map(|s| s.heading_rad)).unwrap_or(0.0);
         let velocity = match (fixed.speed_mps, logged) {
             (Some(speed), _) => scene::geometry::direction(heading_rad) * speed,
-            // The speed turns with a turned start.
+            // The velocity turns with the fixed heading.
             (None, Some(s)) if fixed.heading_rad.is_some() => {
                 scene::geometry::direction(heading_rad) * s.speed_mps()
             }

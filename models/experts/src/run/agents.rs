@@ -128,7 +128,7 @@ impl EgoMotion {
         states
     }
 
-    /// The states `even` of a constant speed, slowed down: the ego is expected to go on braking for
+    /// The states `even` of a constant speed, slowed down: the ego is expected to continue braking for
     /// `BRAKES_FOR_S`.
     fn braking(&self, even: &[State]) -> Vec<State> {
         let speed_mps = self.state.speed_mps();

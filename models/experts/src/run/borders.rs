@@ -38,8 +38,8 @@ pub(super) fn departure(
     (outside || off).then_some(DepartureReason::LeftTheMap)
 }
 
-/// Whether a road user can enter with this state among those present. None may be within a gap, or get there
-/// in a moment at their closing speed.
+/// Whether a road user can enter with this state among those present. No other road user may be within a gap,
+/// or reach it in a short time at the closing speed.
 pub(super) fn has_room(state: &State, size: &Size, there: &[(State, Size)]) -> bool {
     let own = OrientedBox::of_state(state, size);
     let ahead = own.forward();

@@ -103,7 +103,7 @@ impl Run {
     }
 }
 
-/// Whether a road user is there when the run begins.
+/// Presence of a road user when the run begins, before egos are assigned.
 fn present_at(scene: &Scene, agent: usize, start_step: usize) -> Presence {
     let own = &scene.agents[agent];
     match AgentAtStart::at(agent, own, &own.conditions, start_step) {

@@ -1,9 +1,9 @@
 //! A run: stepped traffic around road users that the caller drives.
 //!
 //! The caller drives some road users, the *egos*: at each step it gives their states, and it may announce
-//! their plans. The run drives all others. They know what has happened and what egos announce, and nothing
-//! else. Each follows a plan of nine seconds and plans anew at an interval. In between, when a changed motion
-//! of another would meet its own, it reacts at once by changing its pace on its path.
+//! their plans. The run drives all others. They know the past and what egos announce, and nothing else. Each
+//! follows a plan of nine seconds and replans at an interval. In between, when a changed motion of another
+//! would meet its own, it reacts at once by changing its pace on its path.
 //!
 //! A run is a value: it has no thread, clock or file. Its state is a [snapshot](Run::snapshot) of bytes.
 //!

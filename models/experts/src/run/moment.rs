@@ -1,4 +1,4 @@
-//! One moment of a run as a call of the generator: everyone's known motion, and who plans anew.
+//! One moment of a run as a call of the generator: the known motion of each road user, and which of them replan.
 
 use super::agents::{NEVER_PLANNED, PLAN_STEP_MS, Presence};
 use super::state::Run;
@@ -21,7 +21,7 @@ pub(super) struct RunMoment {
 }
 
 impl RunMoment {
-    /// The moment of a run in which every plan reaches far enough. `announced` motions of egos replace the
+    /// The present moment of a run whose plans all cover a window. `announced` motions of egos replace the
     /// expected ones.
     pub(super) fn of(run: &Run, graph: &LaneGraph, announced: &BTreeMap<usize, Vec<State>>) -> Self {
         let step = run.scene_step();
@@ -69,7 +69,7 @@ impl RunMoment {
         Self { scene: Arc::new(scene), others }
     }
 
-    /// The call in which these road users plan anew, and all others react to them and to the egos.
+    /// The call in which these road users replan, and all others react to them and to the egos.
     pub(super) fn request(self, run: &Run, acting: &[usize]) -> Request {
         let ids: BTreeSet<AgentId> = acting.iter().map(|i| run.scene.agents[*i].id.clone()).collect();
         let others = self.others.difference(&ids).cloned().collect();

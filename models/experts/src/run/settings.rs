@@ -11,8 +11,8 @@ pub const PLAN_INTERVAL_MS: (u32, u32) = (200, 5_000);
 pub const MOST_RUN_MS: u64 = 3_600_000;
 /// Most steps of 0.1 s in an ego's announced plan.
 pub const MOST_ANNOUNCED: usize = HORIZON_STEPS;
-/// Default refinement steps of a plan, fewer than in a call: as many road users reach their goals without a
-/// fault as with five.
+/// Default refinement steps of a plan, fewer than in a call: with five, no more road users reach their goals
+/// without a fault.
 const REFINEMENT: usize = 1;
 /// Highest speed of an ego's state, m/s.
 const FASTEST_MPS: u32 = 100;
@@ -24,7 +24,7 @@ pub struct RunSettings {
     pub seed: u64,
     /// Length of a step, milliseconds: [`RUN_STEP_MS`].
     pub step_ms: u32,
-    /// Time after which each of the others plans anew, milliseconds: [`PLAN_INTERVAL_MS`].
+    /// Time after which each of the others replans, milliseconds: [`PLAN_INTERVAL_MS`].
     pub plan_interval_ms: u32,
     /// Scene step at which the run begins.
     pub start_step: usize,

@@ -1,4 +1,4 @@
-//! From one moment of a run to the next: all move, some enter and leave, some plan anew, the others react.
+//! From one moment of a run to the next: all move, some enter and leave, some replan, the others react.
 
 use super::agents::{DrivenPlan, EgoMotion, NEVER_PLANNED, Presence};
 use super::borders::{departure, has_room};
@@ -17,9 +17,9 @@ use scene::routes::LaneGraph;
 use scene::{AgentId, AgentType, STEP_S, Size, State};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most road users that plan in one call when a run begins.
+/// Most road users that plan in one call when a run begins; in a step, at most one more.
 const MOST_AT_ONCE: usize = 64;
-/// A road user that reacted plans anew at once if its last plan is older than this, milliseconds.
+/// A road user that reacted is due to replan in the next step if its last plan is at least this old, milliseconds.
 const SURPRISED_AFTER_MS: i64 = 500;
 
 impl Run {
@@ -108,7 +108,8 @@ impl Run {
         left
     }
 
-    /// Lets road users enter where their recording first shows them from now on, once there is room.
+    /// Lets road users enter at their first recorded place after the start of the run, once its time has come and there
+    /// is room.
     fn let_in(&mut self) -> Vec<AgentId> {
         let (step, now_ms, start) = (self.scene_step(), self.elapsed_ms, self.settings.start_step);
         let size = |i: usize| {
@@ -168,8 +169,8 @@ impl Run {
         all
     }
 
-    /// Road users that plan anew in this step: those with the oldest plan first, at most one step's share of
-    /// all.
+    /// Road users that replan in this step, the oldest plans first: about one step's share of all, and those
+    /// that have never planned.
     fn due(&self) -> Vec<usize> {
         let all = self.planners();
         let planned_ms = |i: usize| match &self.agents[i].presence {
@@ -198,7 +199,7 @@ impl Run {
         }
     }
 
-    /// Plans these road users anew; all others react to them and to the egos.
+    /// Replans these road users; all others react to them and to the egos.
     fn plan(
         &mut self,
         generator: &Generator,

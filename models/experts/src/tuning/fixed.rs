@@ -411,7 +411,7 @@ numbers! {
     }
     /// Of runs that are stepped.
     run {
-        /// Braking above which an ego is expected to go on braking, m/s2.
+        /// Braking above which an ego is expected to continue braking, m/s2.
         BRAKES_MPS2: f64 = 0.5;
         /// Duration of that expected braking, seconds.
         BRAKES_FOR_S: f64 = 1.5;

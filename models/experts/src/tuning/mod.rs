@@ -117,7 +117,7 @@ tuning! {
         along_lane_rad = 1.0, off 0.0;
         /// Time for which learned offsets continue after a goal, seconds. The path follows the lane after the
         /// goal, and few learned cases changed to a lane early. Vehicles on a straight road with a goal in
-        /// the other lane before 6 s: without it 74 % of six futures left the road, with it none does, and
+        /// the other lane before 6 s: without it 74 % of six futures left the road. With it none does, and
         /// they stay in the lane. With goals of recordings 4 s ahead on 30 of the 71 scenes: 8 % left the
         /// road without it, 3 % with it. They are as near to the log (mean of six 10.7 m and 10.6 m).
         /// 2026-11-26.
@@ -174,7 +174,7 @@ tuning! {
         cyclist_rate_mps2 = 1.0;
         /// Speed of a cyclist that starts, where caps allow, m/s.
         cyclist_going_mps = 7.0;
-        /// Mean distance below which two modes are copies, metres, without a goal position: one of them
+        /// Mean distance below which two modes are copies, metres, without a goal position. One of them then
         /// passes before or after another agent, or takes another pace or line. Set by hand. 2026-11-22.
         copy_m = 1.1, off 0.0;
         /// The same with a goal position. Set by hand. 2026-11-22.
@@ -236,8 +236,8 @@ tuning! {
         past_edges = 8.0, off 0.0;
         /// Distance beyond the edge that counts, metres. Set by hand. 2026-11-21.
         past_edge_m = 0.1;
-        /// A vehicle that leaves the road, or drives against every lane, at any time: as bad as a close
-        /// approach, so that vehicles do not pass a queue over the kerb. Set by hand. 2026-11-25.
+        /// A vehicle that leaves the road, or drives against every lane, at any time. It costs as much as a
+        /// close approach, so that vehicles do not pass a queue over the kerb. Set by hand. 2026-11-25.
         leaving_the_road = 1.5, off 0.0;
         /// A missed goal: worse than anything but an overlap. Set by hand. 2026-11-21.
         goal_missed = 3.0, off 0.0;
@@ -260,8 +260,8 @@ tuning! {
         /// the difference between modes. Jumps over 1 m when a goal moves by 5 cm, on drags of the 71 scenes:
         /// 2.7 % at 3, 2.3 % at 4. 2026-11-23.
         switching = 4.0, off 0.0;
-        /// The same for a road user of a run that leaves its present motion: less than a close approach, so
-        /// that it changes its mind only for a reason. Set by hand. 2026-11-27.
+        /// The same for a road user of a run that leaves its present motion. It is less than a close
+        /// approach, so that road users change their motion only for a reason. Set by hand. 2026-11-27.
         leaving_course = 1.0, off 0.0;
         /// Mean distance from which a motion counts as another one, metres.
         switching_m = 1.0;

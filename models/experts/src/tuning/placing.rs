@@ -18,7 +18,7 @@ numbers! {
         BEHIND_M: f64 = 4.0;
         /// Greatest distance between the beginnings of one road's lanes at the map's edge, metres.
         RAGGED_M: f64 = 15.0;
-        /// Shortest lane that is a way in, metres.
+        /// Shortest lane by which vehicles enter, metres.
         SHORTEST_M: f64 = 5.0;
         /// Greatest length of an arm, metres.
         LONGEST_M: f64 = 3_000.0;
@@ -41,11 +41,11 @@ numbers! {
         WAIT_S: f64 = 6.0;
         /// Gap that an entering agent needs to the one ahead, metres.
         ENTRY_GAP_M: f64 = 3.0;
-        /// Place of a vehicle that enters inside the map, along its way, metres.
+        /// Place of a vehicle that enters inside the map, along its path, metres.
         ENTRY_M: f64 = 0.05;
         /// Margin around the box of an entering vehicle, metres.
         ENTRY_SIDE_M: f64 = 0.1;
-        /// Speed by which the length of a followed way is computed, m/s.
+        /// Speed by which the length of a followed path is computed, m/s.
         REACH_MPS: f64 = 40.0;
         /// Time by which it is computed, at most, seconds.
         REACH_S: f64 = 60.0;
@@ -260,19 +260,19 @@ numbers! {
         LOOK_M: f64 = 80.0;
         /// Distance behind within which a stop line still counts as ahead, metres.
         PASSED_M: f64 = 0.5;
-        /// Distance of a driver to a red light's stop line, metres.
+        /// Distance of a driver to the stop line of a red signal, metres.
         STOP_LINE_M: f64 = 0.3;
         /// Upper bounds of the distance classes, metres.
         NEAR_M: [f64; 6] = [4.0, 10.0, 18.0, 30.0, 50.0, LOOK_M];
         /// Upper bounds of the distance classes before a stop sign or an unsignalled junction, metres; the
         /// class names contain them.
         YIELD_WITHIN_M: [f64; 2] = [12.0, 30.0];
-        /// Upper bound of the class before a light that is not red, metres.
+        /// Upper bound of the class before a signal that is not red, metres.
         GO_WITHIN_M: f64 = 30.0;
-        /// Upper bounds of the classes before a red light, metres.
+        /// Upper bounds of the classes before a red signal, metres.
         RED_WITHIN_M: [f64; 3] = [10.0, 25.0, 50.0];
-        /// Distances within which traffic queues before a red light, and before a stop sign or an unsignalled
-        /// junction, metres.
+        /// Distances within which traffic queues before a red signal, and before a stop sign or an
+        /// unsignalled junction, metres.
         QUEUES_M: (f64, f64) = (50.0, 18.0);
     }
     /// Of `placement::cells`.

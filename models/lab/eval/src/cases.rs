@@ -72,8 +72,8 @@ impl Case {
     }
 }
 
-/// Moving road users: present at the first step, with at least 30 valid steps after it, and farther than 2 m
-/// from the start at some time in the window.
+/// Moving road users. They are present at the first step, have at least 30 valid steps after it, and get
+/// farther than 2 m from the start within the window.
 pub fn cases(scene: &Scene) -> Vec<Case> {
     scene.agents.iter().enumerate().filter_map(|(i, agent)| case(i, agent)).collect()
 }

@@ -18,7 +18,7 @@ const BEND_M: f64 = 4.0;
 /// How a route along the traffic leads to a goal; the best path counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum InTime {
-    /// No route does in time, or the road has no room there.
+    /// No route leads there in time, or the road has no room there.
     No,
     /// Within the motion limits.
     Pressed,
@@ -114,8 +114,8 @@ fn limits(site: &Site<'_>, case: &Case) -> Limits {
     Limits::of(case.agent_type, log.subtype, log.size.length_m)
 }
 
-/// Whether no logged road user occupies the goal when it is due. With a free heading, the arrival is along
-/// the lane, otherwise straight from the start.
+/// Whether no logged road user occupies the goal when it is due. A free heading is that of the lane there,
+/// else that of the straight line from the start.
 pub(super) fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;

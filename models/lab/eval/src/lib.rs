@@ -1,9 +1,8 @@
-//! Judging the experts on scenes: nine tables of figures with intervals, and pictures.
+//! Judging the experts on scenes: ten tables of figures with intervals, and pictures.
 //!
 //! [`run`] makes everything that `dragtraffic lab eval` writes. A table is a module; they share the cases, the
-//! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
-//! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
-//! table 6, which stand in files of their own.
+//! metrics ([`measure`]), the rivals of the experts ([`rivals`]) and the bootstrap ([`stats`]). The same scenes,
+//! weights and seed give the same bytes, except for the times of tables 6 and 8, which are in separate files.
 //!
 //! ```
 //! use lab_eval::stats::{Bootstrap, Value};

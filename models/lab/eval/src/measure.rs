@@ -155,7 +155,7 @@ pub fn goal_error(goal: &Goal, state: &State) -> [f64; 3] {
     ]
 }
 
-/// Whether the rest is within 0.05 m, 0.02 rad and 0.05 m/s.
+/// Whether the remaining distance is within 0.05 m, 0.02 rad and 0.05 m/s.
 pub fn is_met([position_m, heading_rad, speed_mps]: [f64; 3]) -> bool {
     position_m < 0.05 && heading_rad < 0.02 && speed_mps < 0.05
 }

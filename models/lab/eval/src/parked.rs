@@ -47,7 +47,7 @@ fn drifts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<f64>>
 /// A vehicle that stands on a lane at the start, with the behaviour of its log.
 struct StandingStart {
     site: usize,
-    /// Whether the log moves farther than [`OFF_M`] within the window; otherwise it stands for all of it.
+    /// Whether the log gets farther than [`OFF_M`] from its start; otherwise it stays within 0.5 m.
     log_moves: bool,
     moves: bool,
 }

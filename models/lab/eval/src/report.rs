@@ -34,7 +34,7 @@ pub struct EvalReport {
     pub crop: Option<CropReport>,
     /// Hash of each expert's weights, by the name of the evaluated weights.
     pub weights: BTreeMap<String, BTreeMap<String, String>>,
-    /// Tables 1 to 5, 7 and 8.
+    /// All tables except table 6 and the times of table 8.
     pub sheets: Vec<Sheet>,
     /// Table 6 and the times of table 8, which differ in each run.
     #[serde(skip)]
@@ -45,7 +45,7 @@ pub struct EvalReport {
 }
 
 impl EvalReport {
-    /// Tables 1 to 5, 7 and 8 as Markdown.
+    /// All tables except table 6 and the times of table 8, as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);
         if let Some(CropReport { crop, scenes_left_out, road_users_outside }) = &self.crop {

@@ -1,6 +1,6 @@
 //! Table 9: dragged goals from the view of a traffic engineer. Faults of the shown future and of all six, by
 //! whether the road leads to the goal; reactions and their causes; near copies; jumps of the shown future;
-//! red lights.
+//! red-light violations.
 
 use super::control;
 use super::goal_ways::{self, InTime};
@@ -311,8 +311,8 @@ fn repeats(futures: &AgentFutures) -> bool {
     keys.len() < futures.modes.len()
 }
 
-/// A driver before a line that is red at the start: its probability of running the light without a goal, and
-/// whether the shown future does.
+/// A driver before a line that is red at the start. Holds its probability of crossing the line at red without
+/// a goal, and whether the shown future does.
 struct RedLightCase {
     site: usize,
     runs: f64,

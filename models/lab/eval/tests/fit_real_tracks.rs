@@ -1,4 +1,4 @@
-//! Ten knots hold what real vehicles do: fit, roll out, compare.
+//! Ten knots represent the motion of recorded vehicles: fit, roll out, compare.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
 
 use lab_eval::measure::{following, mean_distance_m};

@@ -10,7 +10,7 @@
 //!     Agent::bare(id, AgentType::Vehicle, Subtype::Car, vec![Some(state); 91])
 //! };
 //! let scene = Scene::bare("", LaneMap::default(), vec![stands("near", 0.0), stands("far", 70.0)]);
-//! // The paper's square of 120 m holds one of the two, and asks for 32.
+//! // The paper's square of 120 m contains one of the two and requires 32.
 //! assert_eq!(Crop::PAPER.apply(scene), Cropped::TooFew(1));
 //! ```
 

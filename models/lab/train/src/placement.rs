@@ -20,7 +20,7 @@ const SWEEPS: usize = 60;
 /// Number of fictitious road users at the average rate in each class of a feature, so that rare classes stay
 /// near it.
 const PRIOR_COUNT: f64 = 2.0;
-/// The same of a speed context, towards the one without the leader.
+/// The same for a speed context, towards the context without the leader.
 const PRIOR_SPEEDS: f64 = 8.0;
 /// Speeds that a context needs to be kept.
 const LEAST_SPEEDS: f64 = 20.0;
@@ -84,7 +84,7 @@ pub fn run(
     let files = scene_files(&options.inputs)?;
     let (mut sums, mut summary) = (Sums::default(), PlacementSummary::default());
     for chunk in files.chunks(16) {
-        // Sums of whole numbers and of a file's own values in order: threads change no byte.
+        // Results are added in the order of the files, so the number of threads changes no byte.
         let found: Vec<Option<Sums>> = chunk.par_iter().map(|file| of_file(file)).collect();
         for one in found {
             summary.files += 1;
@@ -281,7 +281,7 @@ fn histogram(values: &[f64], (low, step, classes): (f64, f64, usize)) -> Histogr
         }
     }
     if counts.iter().all(|c| *c == 0.0) {
-        // Nothing inside: the class of zero, or the first.
+        // No value lies within the classes: the class of zero, else the first.
         counts[((-low / step) as usize).min(classes - 1)] = 1.0;
     }
     let total: f64 = counts.iter().sum();
@@ -321,7 +321,7 @@ fn speed_rows(counts: &BTreeMap<SpeedContext, Vec<f64>>) -> BTreeMap<SpeedContex
         (context, shares.collect::<Vec<f64>>())
     };
     let mut rows: BTreeMap<SpeedContext, Vec<f64>> = BTreeMap::new();
-    // From the general to the particular, so that what a row leans on is there before it.
+    // General contexts first, because each row is blended with that of its broader context.
     let mut general_first: Vec<_> = counts.iter().collect();
     general_first.sort_by_key(|(context, _)| context.with_broader().count());
     for (context, row) in general_first {

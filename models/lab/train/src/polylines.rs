@@ -1,6 +1,6 @@
-//! Maps as pieces of lines, for networks that read them: lanes, edges, crosswalks and stop signs cut into
-//! stretches of at most 20 m, each in its own frame. The experts do without (anchors say what they need of
-//! the map); the baselines see these.
+//! Maps as pieces of lines, for networks that read them. Lanes, edges, crosswalks and stop signs are cut into
+//! stretches of at most 20 m, each in its own frame. Only the baselines see them; the anchors of the experts
+//! contain what these need of the map.
 
 use experts::planning::world::{AgentAtStart, World};
 use scene::geometry::polyline::Polyline;
@@ -25,7 +25,7 @@ const PER_POINT: usize = 4;
 /// Farthest piece that is seen, metres.
 const SIGHT_M: f64 = 90.0;
 
-/// Pieces of a map with where they lie.
+/// Pieces of a map with their poses.
 #[derive(Clone, Debug, Default)]
 pub struct Polylines {
     /// [`PIECE`] numbers each.

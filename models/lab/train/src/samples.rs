@@ -3,12 +3,12 @@
 use scene::map::Lane;
 use scene::{Agent, AgentType, Future, LaneMap, STEP_S, Scene, State, Subtype, Vec2};
 
-/// A state on the way east.
+/// A state of eastward motion.
 pub fn east(x_m: f64, y_m: f64, speed_mps: f64) -> State {
     State { x_m, y_m, heading_rad: 0.0, vx_mps: speed_mps, vy_mps: 0.0 }
 }
 
-/// A car that drives east from (0, 0) for so many steps.
+/// A car that drives east from (0, 0) for this many steps.
 pub fn log(id: &str, speed_mps: f64, steps: usize) -> Agent {
     let states = (0..steps).map(|i| Some(east(speed_mps * STEP_S * i as f64, 0.0, speed_mps)));
     Agent::bare(id, AgentType::Vehicle, Subtype::Car, states.collect())
@@ -22,7 +22,7 @@ pub fn shifted(mut agent: Agent, x_m: f64, y_m: f64) -> Agent {
     agent
 }
 
-/// A future east from (0, left) at even speed.
+/// A future east from (0, left) at constant speed.
 pub fn straight(probability: f64, speed_mps: f64, left_m: f64) -> Future {
     let states = (1..=90).map(|i| east(speed_mps * STEP_S * f64::from(i), left_m, speed_mps));
     Future::bare(probability, 1, states.collect())

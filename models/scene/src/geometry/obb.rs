@@ -156,9 +156,9 @@ impl OrientedBox {
 
 /// Gap between two boxes and the unit vector along which it is least, from `a` towards `b`.
 ///
-/// Positive: the distance between the nearest points. Negative: the depth, which is how far one box
-/// must move to free them. Zero: they touch. Exact for boxes (separating axes for the depth, corners
-/// against sides for the distance). Constant cost, some 60 flops when overlapping or far apart.
+/// Positive: the distance between the nearest points. Negative: the depth, which is how far one box must move
+/// to separate them. Zero: they touch. Exact for boxes (separating axes for the depth, corners against sides
+/// for the distance). Constant cost, some 60 flops when overlapping or far apart.
 pub fn gap_and_direction(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
     let widest = widest_side(a, b);
     if widest.0 <= 0.0 { widest } else { nearest_corner(a, b) }

@@ -160,7 +160,7 @@ impl Polyline {
         &self.points
     }
 
-    /// Arc length of each point, rising from zero, metres.
+    /// Arc length of each point, ascending from zero, metres.
     pub fn arc_m(&self) -> &[f64] {
         &self.arc
     }
@@ -222,7 +222,7 @@ impl Polyline {
         headings[i] + t * (headings[j] - headings[i])
     }
 
-    /// Pose at arc length `s_m`; before the start and beyond the end the line goes on straight.
+    /// Pose at arc length `s_m`; before the start and beyond the end the line continues straight.
     pub fn extrapolate(&self, s_m: f64) -> Pose {
         let pose = self.sample(s_m);
         let beyond = s_m - s_m.clamp(0.0, self.length_m());

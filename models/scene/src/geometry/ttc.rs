@@ -9,10 +9,10 @@ pub const LOOK_AHEAD_S: f64 = 8.0;
 /// Seconds until two boxes that keep their velocities (m/s) and headings begin to overlap; zero when
 /// they overlap now; `None` when they do not within `horizon_s`.
 ///
-/// Exact: on each of the four side directions the shadows of the boxes overlap during one interval of
-/// time, and the boxes overlap while all four do (swept separating axes). Boxes that only touch or
-/// slide along each other do not collide. Constant cost; boxes whose bounding circles never meet cost
-/// one closest approach.
+/// Exact: on each of the four side directions, the projections of the boxes overlap during one interval of
+/// time. The boxes overlap while all four do (swept separating axes). Boxes that only touch or slide along
+/// each other do not collide. Constant cost; boxes whose bounding circles never meet cost one closest
+/// approach.
 ///
 /// ```
 /// use scene::geometry::{Vec2, obb::OrientedBox, ttc::time_to_collision};

@@ -86,8 +86,8 @@ impl Judge<'_> {
         })
     }
 
-    /// Whether the motion goes straight over the crosswalk on a lane with lights, which decide who goes
-    /// first.
+    /// Whether the motion goes straight over the crosswalk in a scene with signals, which decide the
+    /// priority.
     fn has_right_of_way(&self, actor: &Actor<'_>, at: usize) -> bool {
         let heading = |step: usize| actor.state(step).map(|s| s.heading_rad);
         let from = at.saturating_sub(TURN_STEPS).max(self.input.steps.start);

@@ -88,7 +88,7 @@ impl<'a> Judge<'a> {
         Other { actor, bounds, mover: OnceLock::new() }
     }
 
-    /// Faults of a motion that do not involve another agent: road, lights, brakes, steering, goal. Faults
+    /// Faults of a motion that do not involve another agent: road, signals, braking, steering, goal. Faults
     /// that the recording also shows are left out.
     pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
         let mut found = Vec::new();
@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
-                // Boxes that touch have collided, however little.
+                // Boxes that overlap have collided, however little.
                 Meeting::Overlap { time_s, .. } => (FaultKind::Collision, time_s, 0.0),
                 Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };

@@ -105,7 +105,7 @@ fn gives_way(me: &Trace, ground: &SharedGround) -> bool {
     let drop_mps = if me.agent_type == AgentType::Pedestrian { 0.4 } else { 1.0 };
     let slowed = slowest.speed_mps < SLOWED * before && before - slowest.speed_mps > drop_mps;
     let after = (when..me.moments.len()).filter_map(|k| me.speed_at(k)).fold(0.0, f64::max);
-    // An agent that stands counts as waiting only if it slowed down before or goes on after.
+    // An agent that stands counts as waiting only if it slowed down before or continues afterwards.
     let waits = slowest.speed_mps < STANDING_MPS && (slowed || after > drop_mps);
     slowed || waits
 }

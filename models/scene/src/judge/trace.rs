@@ -1,6 +1,6 @@
 //! Traces of motions, and the ground that two of them share.
 //!
-//! Boxes are compared at different times: if the box of one at one moment overlaps the box of the other at
+//! Boxes are compared at different times. If the box of one at one moment overlaps that of the other at
 //! another moment, the two share ground. The time shift between the moments gives their order. The
 //! post-encroachment time of the score is similar, but needs paths that cross at an angle; merging counts
 //! here too.
@@ -259,7 +259,7 @@ fn ground(me: &Trace, other: &Trace) -> Option<SharedGround> {
         if beyond && found.is_some_and(|f| !f.beyond) {
             break;
         }
-        // Far from everything that the other does.
+        // Far from all places of the other motion.
         if other.extent.outside_m(here.center) > reach {
             continue;
         }

@@ -105,7 +105,7 @@ pub(crate) struct Sensitivity {
     pub(crate) jacobian: [[f64; CONTROLS]; 4],
 }
 
-/// Values and derivatives at the steps `at` (rising, 1 ..= [`HORIZON_STEPS`]); one pass forwards.
+/// Values and derivatives at the steps `at` (ascending, 1 ..= [`HORIZON_STEPS`]); one pass forwards.
 pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) -> Vec<Sensitivity> {
     let knots = legal(model, knots);
     let v0 = model.start_speed_mps();

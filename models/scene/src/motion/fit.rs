@@ -13,7 +13,7 @@ use nalgebra::{SMatrix, SVector};
 /// One wanted state of the box centre, scene frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    /// 1 ..= [`crate::HORIZON_STEPS`], rising within a list.
+    /// 1 ..= [`crate::HORIZON_STEPS`], ascending within a list.
     pub step: usize,
     /// Metres.
     pub position: Vec2,
@@ -52,8 +52,8 @@ pub fn fit(model: &MotionModel, samples: &[Sampled], smoothing: Smoothing) -> Kn
     }
 }
 
-/// The same motion up to a step, then past the samples after it. A vehicle that was changed to meet a goal at
-/// that step leaves it with another place, speed and heading than the later knots were made for.
+/// The same motion up to a step, then past the samples after it. A motion that was changed to meet a goal at
+/// that step leaves it with another place, speed and heading than the later knots assume.
 pub fn refit_after(
     model: &MotionModel,
     knots: &Knots,

@@ -1,5 +1,5 @@
-//! Motion in control space: the motion of a road user is a set of [`Knots`], and every rollout of any knots
-//! obeys the limits of its kind.
+//! Motion in control space: the motion of a road user is a set of [`Knots`]. Every rollout of any knots obeys
+//! the limits of its kind.
 //!
 //! Vehicles and cyclists are controlled by acceleration and curvature of a reference point near the rear axle
 //! ([`drive`]), pedestrians by their velocity ([`walk`]).

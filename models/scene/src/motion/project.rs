@@ -228,8 +228,8 @@ fn judged(model: &MotionModel, knots: Knots, trajectory: Trajectory, target: &Ta
     Projection { knots, trajectory, reach }
 }
 
-/// Limits the goal's effect to the time before it: later knots return to the wanted ones, so that a hurry
-/// ends at the goal. On foot they keep the velocity at the goal.
+/// Limits the goal's effect to the time before it: later knots return to the wanted ones, so that time
+/// pressure ends at the goal. On foot they keep the velocity at the goal.
 fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Target) -> Knots {
     // The motion before the goal depends on the knots up to this one.
     let last = target.step.div_ceil(KNOT_STEPS);
@@ -666,8 +666,8 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
     explain_turn(model, knots, target)
 }
 
-/// For a target that neither distance nor speed puts out of reach: the turn does, by grip or by steering
-/// lock, unless the knots are at an acceleration bound.
+/// For a target that neither distance nor speed puts out of reach. The turn is the cause, by grip or by
+/// steering lock, unless the knots are at an acceleration bound.
 fn explain_turn(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Option<f64>) {
     let l = &model.limits;
     let (grip, wheels) = curvature_cut(model, knots, target.step);

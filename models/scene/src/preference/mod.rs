@@ -4,7 +4,7 @@
 //!
 //! A wide draw gives [`Candidate`]s. [`Taste`] is the posterior of a Plackett-Luce model over their features,
 //! given the answers so far. [`choose`] takes the next cards from it: the best first, then the best by draws
-//! of the posterior, each unlike the other cards and unlike judged ones.
+//! of the posterior. Each is dissimilar to the other cards and to judged ones.
 
 mod features;
 mod round;
@@ -71,7 +71,7 @@ pub struct JudgedCard {
     pub verdict: Verdict,
     /// The trait that was criticized or liked, if any.
     pub why: Option<Wish>,
-    /// Box centres at every half second, by road user, so that no similar card comes again.
+    /// Box centres at every half second, by road user, so that no similar card is shown again.
     pub places: Places,
 }
 

@@ -10,9 +10,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Some place of two different cards is this far apart, metres...
+/// Two cards differ if a road user is this far apart at some time, metres...
 const APART_M: f64 = 1.5;
-/// ...or, for slow motions, as far as they go in this time, seconds.
+/// ...or, for slow motions, by the distance that they cover in this time, seconds.
 const APART_S: f64 = 1.0;
 /// Smallest distance that distinguishes two almost standing motions, metres.
 pub const LEAST_APART_M: f64 = 0.3;

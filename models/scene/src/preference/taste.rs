@@ -17,8 +17,8 @@ const MOST_COMPARED: usize = 24;
 const MOST_STEPS: usize = 30;
 /// Convergence: no weight moves by more than this.
 const FOUND: f64 = 1e-8;
-/// Quantities are measured in standard deviations of the draw, clamped to this, because outliers are no
-/// wishes.
+/// Quantities are measured in standard deviations of the draw, clamped to this, because outliers do not
+/// express wishes.
 const MOST_DEVIATIONS: f64 = 3.0;
 
 /// A preference: a normal distribution over the weights of a utility that is linear in the traits and their
@@ -43,7 +43,7 @@ struct Axis {
     deviation: f64,
 }
 
-/// One motion was taken, others were left.
+/// A choice of one motion over others.
 struct Comparison {
     taken: DVector<f64>,
     left: Vec<DVector<f64>>,

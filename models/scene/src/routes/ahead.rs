@@ -29,13 +29,13 @@ struct Chain {
     hops: Vec<Hop>,
     length_m: f64,
     terminal: bool,
-    /// Rank: sum of start score, missing length in metres, and turning.
+    /// Rank: weighted sum of start score, missing share of the length, and turning.
     rank: f64,
     trace: Vec<Vec2>,
 }
 
 /// Up to [`MAX_ROUTES`] routes of `length_m` (see [`route_length_m`]) along the lane graph, from the lanes
-/// under the road user and those directly beside them; empty where it is on no lane it may use.
+/// under the road user and those directly beside them. Empty if it is on no lane that it may use.
 ///
 /// The first is the best continuation of the best start lane, each further one the farthest from those
 /// before it. Deterministic.

@@ -15,7 +15,7 @@ const FINE_STEP_M: f64 = 0.4;
 const BLEND_S: f64 = 3.0;
 /// Longest blend of a small offset, metres.
 const MAX_BLEND_M: f64 = 40.0;
-/// Lateral acceleration of a larger offset, such as a lane change: what drivers mostly keep to, m/s2. The
+/// Lateral acceleration of a larger offset, such as a lane change; most drivers stay below it, m/s2. The
 /// quintic of an offset `d` that fades in a time `T` peaks at 5.77 `d` / `T`².
 const SIDEWAYS_MPS2: f64 = 1.5;
 const QUINTIC_PEAK: f64 = 5.77;
@@ -99,7 +99,7 @@ impl BlendLimits {
 /// `path` (a route's, or any lane centre) bent so that it begins exactly at `start` and, with a goal, ends
 /// exactly there. Vehicles keep to the inside of bends.
 ///
-/// The road user's offset and heading fade onto the path over about 3 s of travel; an offset of a lane's
+/// The road user's offset and heading fade onto the path over about 3 s of travel. An offset of a lane's
 /// width takes as long as its speed requires. The goal's offset and heading fade in over the last part. Both
 /// are quintics across the path, so that curvature stays continuous. If an offset is too large for that (a
 /// heading far off the path's, a tight bend on the inner side), a cubic leads onto the path or off it. A goal

@@ -28,7 +28,7 @@ pub struct AdjacentLane {
     pub lane: usize,
     /// Arc lengths on the own lane between which the two lie side by side, metres.
     pub own_m: (f64, f64),
-    /// The same on the other lane, metres; falling if it runs in the opposite direction.
+    /// The same on the other lane, metres; descending if it runs in the opposite direction.
     pub other_m: (f64, f64),
     /// Whether both run in the same direction.
     pub same_direction: bool,

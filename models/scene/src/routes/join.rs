@@ -1,4 +1,4 @@
-//! Paths that no lane gives: onto the lanes that lead to a goal, and off them.
+//! Paths beside the lanes: joins onto lanes that lead to a goal, and exits from lanes to a goal beside them.
 
 use super::cubic::{self, Cubic, comfortable_curvature};
 use super::start::errors_at;

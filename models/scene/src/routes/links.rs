@@ -101,7 +101,7 @@ impl NearPoints {
         ((point.x / self.radius_m).floor() as i64, (point.y / self.radius_m).floor() as i64)
     }
 
-    /// Indices of the points within the radius of `point`, by rising x; empty if they are too many to be
+    /// Indices of the points within the radius of `point`, by ascending x; empty if they are too many to be
     /// meaningful.
     pub(super) fn near(&self, point: Vec2) -> Vec<usize> {
         let (column, row) = self.square(point);

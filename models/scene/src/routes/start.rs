@@ -30,7 +30,7 @@ pub(super) struct StartLane {
     pub beside: bool,
 }
 
-/// Start lanes by rising score, nearest and straightest first.
+/// Start lanes by ascending score, nearest and straightest first.
 pub(super) fn start_lanes(graph: &LaneGraph, pose: Pose, agent_type: AgentType) -> Vec<StartLane> {
     let near = graph.nearest_for(pose.position, RELAXED_M, agent_type);
     let turn = |hit: &LaneHit| turn_rad(hit, pose);

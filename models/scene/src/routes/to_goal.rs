@@ -88,11 +88,11 @@ pub struct GoalRoute {
     pub cost: f64,
 }
 
-/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first. Empty if no sensible route is known, so
-/// that the motion of least effort has to do.
+/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first. Empty if no sensible route is known;
+/// only the motion of least effort remains then.
 ///
-/// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join is better.
-/// Goals more than 3 m off every lane are reached from the nearest lane.
+/// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join exists. Goals
+/// more than 3 m off every lane are reached from lanes within 25 m.
 pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);
@@ -127,8 +127,7 @@ pub fn further_routes_to_goal(graph: &LaneGraph, query: &GoalQuery, longest_m: f
     routes
 }
 
-/// Lanes beside the goal, best first. A lane whose end only comes near the goal is skipped if the goal lies
-/// well beyond that end.
+/// Lanes within `radius_m` of the goal whose heading there is about the fixed one, the best first.
 fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64, most: usize) -> Vec<LaneHit> {
     let mut hits = graph.nearest_for(query.goal, radius_m, query.agent_type);
     hits.retain(|hit| query.goal_turn_rad(hit.heading_rad) <= GOAL_TURN_RAD);

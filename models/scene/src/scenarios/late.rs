@@ -1,5 +1,5 @@
 //! Failure to yield: a vehicle that would have to wait at a junction passes without stopping. It passes a red
-//! light or a stop sign, or crosses shortly before or after a vehicle with priority.
+//! signal or a stop sign, or crosses shortly before or after a vehicle with priority.
 
 use super::figure::{FigureDraw, TemplateFigure};
 use super::stage::{BEHIND_M, Driver, Stage};

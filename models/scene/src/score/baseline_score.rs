@@ -74,8 +74,8 @@ impl BaselineScore {
     }
 }
 
-/// For each road user of the input, the index of the unchanged one in the other input. `None` if more than
-/// road users has changed.
+/// For each road user of the input, the index of the unchanged one in the other input. `None` if anything
+/// other than road users has changed.
 fn unchanged(before: &ScoreInput<'_>, input: &ScoreInput<'_>) -> Option<Vec<Option<usize>>> {
     let same_ground = std::ptr::eq(before.map, input.map) || before.map == input.map;
     let rules = |i: &ScoreInput<'_>| -> (Range<usize>, _, _, Thresholds) {

@@ -130,7 +130,7 @@ impl Drivable {
         self.allowed.is_empty() || !self.allowed.contains(&edge.owner)
     }
 
-    /// Whether a point lies between edges that may be crossed, or right at one.
+    /// Whether a point lies between edges that may be crossed, or directly at one.
     pub fn is_beside_allowed(&self, point: Vec2) -> bool {
         self.is_at_allowed(point, BETWEEN_EDGES_M)
     }
@@ -205,8 +205,8 @@ impl Drivable {
         self.centers.nearest(point, reach_m).map(|found| found.2)
     }
 
-    /// Distance of a point from the lanes, metres, beyond the end of the map's roads: no lane, edge or area
-    /// is within `reach_m`, nor would the nearest lane be if it continued straight. `None` elsewhere.
+    /// Distance of a point from the lanes, metres, beyond the end of the map's roads. There, no lane, edge or
+    /// area is within `reach_m`, nor would the nearest lane be if it continued straight. `None` elsewhere.
     pub fn off_map_m(&self, point: Vec2, reach_m: f64) -> Option<f64> {
         let is_near = [&self.centers, &self.edges, &self.area_sides]
             .into_iter()
@@ -333,8 +333,8 @@ impl Drivable {
             && !self.is_at_allowed(middle, AT_EDGE_M)
     }
 
-    /// Whether driving in direction `forward` (a unit vector) is against the traffic: vehicle lanes are at
-    /// `point`, and it is more than 120 degrees off the direction of all of them. `None` off the lanes.
+    /// Whether driving in direction `forward` (a unit vector) is against the traffic. It is if vehicle lanes
+    /// are at `point` and all differ from it by more than 120 degrees. `None` off the lanes.
     pub fn is_wrong_way(&self, point: Vec2, forward: Vec2) -> Option<bool> {
         let mut lanes = self.vehicle_lanes(point).peekable();
         lanes.peek()?;

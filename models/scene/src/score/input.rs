@@ -296,11 +296,11 @@ pub struct ScoreInput<'a> {
     pub drivable: &'a Drivable,
     /// Scene steps that are scored.
     pub steps: Range<usize>,
-    /// Pairs to look at.
+    /// Pairs to score.
     pub pairs: PairChoice,
     /// Pairs to leave out.
     pub exclude: Exclude,
-    /// Numbers that decide what counts.
+    /// Thresholds of the events.
     pub thresholds: Thresholds,
 }
 

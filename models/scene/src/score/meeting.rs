@@ -66,8 +66,8 @@ impl<'a> MeetingSearch<'a> {
     }
 
     /// The pair of a road user with the smallest time to collision or post-encroachment time. If no pair has
-    /// one, the smallest time gap decides, then the smallest gap. `None` if there is no such time and nobody
-    /// is within 30 m.
+    /// one, the smallest time gap decides, then the smallest gap. `None` if there is no such time and no road
+    /// user is within 30 m.
     pub fn hardest(&self, of: usize) -> Option<MeetingPair> {
         let pairs = (0..self.movers.len()).filter(|other| *other != of);
         let pairs = pairs.filter_map(|other| self.between(of, other));
@@ -98,7 +98,7 @@ impl<'a> MeetingSearch<'a> {
 
     /// How two of them meet, by their indices in the input. `None` if both stay, belong together, are
     /// excluded from the score or are never near each other. Also `None` for two that stay 30 m apart and
-    /// have no time to collision.
+    /// have neither a time to collision nor a post-encroachment time.
     pub fn between(&self, of: usize, other: usize) -> Option<MeetingPair> {
         let (a, b) = (self.movers.get(of)?, self.movers.get(other)?);
         let stays = |mover: &Mover| mover.travel_m < PARKED_M;

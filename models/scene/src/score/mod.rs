@@ -1,5 +1,6 @@
 //! Scores of whole scenes: collisions and near misses, distance and time to collision, post-encroachment
-//! time, off-road and wrong-way driving, red lights, kinematic limits, goals met, distance from the log.
+//! time, off-road and wrong-way driving, red-light violations, kinematic limits, goals met, distance from the
+//! log.
 //!
 //! [`score`] takes a [`ScoreInput`] and returns a [`Score`], which serialises to the reply of `POST
 //! /v1/score`. Equal inputs give equal scores, member for member: agents in the given order, pairs by (first,

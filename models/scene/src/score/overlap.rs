@@ -166,8 +166,8 @@ impl<'a> Going<'a> {
         is_fast && gap_and_direction(self.outline, other.outline).0 < brush_m
     }
 
-    /// Whether they pass or cross within the gap of a near miss, or would soon touch if both continued and no
-    /// easy braking of a follower prevents it.
+    /// Whether they pass or cross within the gap of a near miss, or would soon touch if both continued. The
+    /// latter does not count if easy braking of a follower prevents it.
     fn threatens(&self, other: &Self, limits: &Thresholds) -> bool {
         let relative = self.velocity - other.velocity;
         let speed = relative.norm();
@@ -199,8 +199,8 @@ impl<'a> Going<'a> {
     }
 }
 
-/// Moments at which two motions pass or cross too near, or would soon touch at their velocities then: a near
-/// miss in scores, tested on the boxes of the choice.
+/// Moments at which two motions pass or cross too near, or would soon touch at their present velocities. They
+/// are near misses of scores, tested on the boxes of the choice.
 pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Iterator<Item = usize> + 'a {
     let walks =
         |m: &SweptBoxes| m.boxes.iter().flatten().next().is_some_and(|b| b.half_length_m() < WALKER_M);

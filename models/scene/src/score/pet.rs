@@ -36,7 +36,7 @@ pub(super) fn post_encroachment_s(a: &Mover, b: &Mover) -> Option<f64> {
     encroachment(a, b).map(|crossing| crossing.pet_s)
 }
 
-/// As [`post_encroachment_s`], with the place and who is there first.
+/// As [`post_encroachment_s`], with the place and the road user that is there first.
 pub(super) fn encroachment(a: &Mover, b: &Mover) -> Option<Encroachment> {
     let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
     if walkers || a.travel_m < LEAST_TRAVEL_M || b.travel_m < LEAST_TRAVEL_M || !places_meet(a, b) {

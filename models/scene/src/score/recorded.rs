@@ -1,5 +1,5 @@
 //! Marks events of a single road user that the log contains already: off the road, against the traffic, harsh
-//! braking, red lights.
+//! braking, red-light violations.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, Stretch};

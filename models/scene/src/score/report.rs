@@ -352,7 +352,7 @@ pub(super) fn time_of(step: f64) -> f64 {
     (step * crate::STEP_S * 1000.0).round() / 1000.0
 }
 
-/// Groups flagged steps (rising) into stretches; each has its greatest value and its place.
+/// Groups flagged steps (ascending) into stretches; each has its greatest value and its place.
 pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stretch> {
     /// First and last step, the worst step and its value.
     type Found = (usize, usize, (usize, f64));

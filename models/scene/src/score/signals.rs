@@ -1,4 +1,4 @@
-//! Red lights: the front crosses the stop line while the signal of its lane says stop.
+//! Red-light violations: the front crosses the stop line while the signal of its lane says stop.
 
 use super::input::{Actor, ScoreInput};
 use super::report::{RedLight, time_of};
@@ -135,7 +135,7 @@ pub(crate) fn crossed_at_red(
     found
 }
 
-/// State of the signal whose stop line a road user passes first, at that time; for a road user that stands at
+/// State of the signal whose stop line a road user passes first, at that time. For a road user that stands at
 /// a line at its end, the state then. At a fork the lane that it takes decides. `None` without a line.
 pub(crate) fn signal_passed(
     input: &ScoreInput<'_>,

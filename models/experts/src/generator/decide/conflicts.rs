@@ -1,5 +1,5 @@
-//! Conflicts that the joint choice leaves to drivers without goals, resolved in the order of time: one of the two drives
-//! behind the other.
+//! Resolves conflicts of drivers without goals that remain after the joint choice, earliest first: one of the two road
+//! users drives behind the other.
 
 use super::{OptionTable, Settled};
 use crate::generator::candidates::MotionCandidate;
@@ -9,10 +9,10 @@ use crate::tuning::fixed::giving_way::PASSED_ON;
 use scene::motion::MotionKind;
 use std::sync::Arc;
 
-/// How often one driver decides again.
+/// Limit of decisions of one driver.
 const MOST_DECISIONS: usize = 3;
 
-/// The motions of a scene as far as they are decided.
+/// The present choice, with the dangers that remain.
 struct Decision<'a> {
     /// Index of the candidate of each actor.
     chosen: Vec<usize>,
@@ -21,18 +21,18 @@ struct Decision<'a> {
     fixed: Vec<&'a Sweep>,
     /// The first dangerous step of each actor with each other actor, then with each fixed motion.
     dangers: Vec<Vec<Option<usize>>>,
-    /// Decisions that are left to each actor.
+    /// Number of decisions that each actor may still make.
     left: Vec<usize>,
 }
 
 impl Decision<'_> {
-    /// All motions but that of one actor.
+    /// All motions except that of actor `but`.
     fn others(&self, but: usize) -> Vec<&Sweep> {
         let actors = self.sweeps.iter().enumerate().filter(|(j, _)| *j != but).map(|(_, sweep)| &**sweep);
         self.fixed.iter().copied().chain(actors).collect()
     }
 
-    /// Works out the dangers of one actor again.
+    /// Recomputes the dangers of one actor.
     fn update(&mut self, i: usize) {
         let own = &self.sweeps[i];
         let with = |other: &Sweep| own.first_danger(other);
@@ -43,7 +43,8 @@ impl Decision<'_> {
         }
     }
 
-    /// The two of the earliest danger in which one of them may still decide; the second may be a fixed motion.
+    /// The pair with the earliest danger of an actor that may still decide. The second index may be that of a fixed
+    /// motion.
     fn earliest(&self) -> Option<(usize, usize)> {
         let of = |i: usize| {
             self.dangers[i].iter().enumerate().filter_map(move |(j, step)| Some((*step.as_ref()?, i, j)))
@@ -54,7 +55,7 @@ impl Decision<'_> {
 }
 
 impl OptionTable<'_> {
-    /// The choice in which drivers without goals that still meet another one drive behind it, where that costs less.
+    /// Lets drivers without goals that are still in conflict drive behind the other road user, if that lowers the cost.
     pub(super) fn resolve(&mut self, settled: Settled) -> Settled {
         let of = self.of;
         let yields = |i: &usize| {
@@ -87,7 +88,7 @@ impl OptionTable<'_> {
                     best = Some((gain, k, option));
                 }
             }
-            // Where nothing helps now, the change of another one may.
+            // If no option helps, a later change of another actor may.
             for k in best.map_or(deciding, |(_, k, _)| vec![k]) {
                 now.left[k] -= 1;
             }
@@ -102,7 +103,7 @@ impl OptionTable<'_> {
         if worse { settled } else { self.settled(chosen) }
     }
 
-    /// Cost of a choice: that of each option by itself, and of all pairs that meet.
+    /// Cost of a choice: the cost of each option by itself, plus that of all encounters.
     fn joint_cost(&self, chosen: &[usize], fixed: &[&Sweep]) -> f64 {
         let options: Vec<&JointOption> =
             chosen.iter().zip(&self.choice.agents).map(|(option, agent)| &agent[*option]).collect();
@@ -114,7 +115,7 @@ impl OptionTable<'_> {
         options.iter().enumerate().map(one).sum()
     }
 
-    /// The best option of a driver behind those it meets, as what it saves and its index; `None` where none saves anything.
+    /// The cost that the best option behind the others saves, and its index; `None` if no such option saves cost.
     fn yielding(&mut self, i: usize, now: &Decision<'_>) -> Option<(f64, usize)> {
         let all = now.others(i);
         let total = |table: &Self, option: usize| {

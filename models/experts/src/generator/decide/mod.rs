@@ -27,12 +27,12 @@ use scene::{AgentId, Future, STEP_S, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Motions of one actor that are replanned in a round.
+/// Limit of motions of one actor that are replanned in a round.
 const MOST_TRIED: usize = 2;
-/// Futures that are looked at in place of one with a fault, and of those that stop short of the goal.
+/// Limits of futures that are judged to replace one with a fault: those that reach the goal, and those that miss it.
 const MOST_JUDGED: usize = 10;
 const MOST_STOPS: usize = 4;
-/// Rounds of replanning: an agent that swerves for one may meet another.
+/// Limit of replanning rounds: an agent that swerves around one agent may meet another.
 const MOST_ROUNDS: usize = 2;
 
 /// Chooses one candidate for each actor, and the reactions of the others.
@@ -72,8 +72,8 @@ pub(super) fn decide(of: JointDrafts<'_>) -> Decisions {
     table.decisions(settled, &blockers)
 }
 
-/// Replans at most `most` times, until the choice stays. `replan` gives the next choice without its uncaused reactions,
-/// or `None` where it finds no new candidate.
+/// Replans at most `most` times, until the choice no longer changes. `replan` returns the next choice without its
+/// uncaused reactions, or `None` if it finds no new candidate.
 fn replan_rounds<T>(
     most: usize,
     table: &mut T,
@@ -90,18 +90,18 @@ fn replan_rounds<T>(
     settled
 }
 
-/// A choice without uncaused reactions, and what follows from it.
+/// A choice without uncaused reactions, and the reactions of the others to it.
 struct Settled {
     /// Index of the candidate of each actor.
     chosen: Vec<usize>,
     /// The agent that causes the change of each reacting actor.
     causes: Vec<Option<AgentId>>,
-    /// The actors' motions, as the others see them.
+    /// The motions of the actors, as the other agents see them.
     changed: Vec<ChangedMotion>,
     reacted: Vec<Reacted>,
 }
 
-/// The candidates of all actors, and the options that the joint choice weighs: one for each candidate.
+/// The candidates of all actors, and the options of the joint choice: one per candidate.
 struct OptionTable<'a> {
     of: JointDrafts<'a>,
     judge: Judge<'a>,
@@ -125,8 +125,9 @@ impl OptionTable<'_> {
         Settled { chosen, causes, changed, reacted }
     }
 
-    /// The same choice where the future of the only agent that is asked for has no fault; else the least costly one in
-    /// which it has none, where there is one. What reaches the goal comes before what stops short of it.
+    /// Replaces the future of the only regenerated agent, if it has a goal and the future has a fault. The first future
+    /// without a fault is taken, those that reach the goal and cost less first. If all have faults, the mildest one is
+    /// taken.
     fn without_fault(&self, settled: Settled) -> Settled {
         let stages = &self.of.setting.request.stages;
         let free = |i: &usize| self.of.actors[*i].kept.is_none() && !self.of.actors[*i].keeps_still();
@@ -149,12 +150,12 @@ impl OptionTable<'_> {
         let mut best = (worst, settled);
         for (options, most) in [(reaching, MOST_JUDGED), (missing, MOST_STOPS)] {
             for o in options.into_iter().take(most) {
-                // Only a collision is worth a missed goal.
+                // A future that misses the goal is only accepted to avoid a collision.
                 if misses(o) && best.0 != FaultKind::Collision {
                     break;
                 }
                 let alone = self.judged(i, o).alone(&self.judge);
-                // The others can only make it worse.
+                // Other agents can only add faults.
                 let is_no_better = |fault| fault <= best.0 || goes_on && best.0 != FaultKind::Collision;
                 if worst_kind(alone.iter()).is_some_and(is_no_better) {
                     continue;
@@ -162,7 +163,7 @@ impl OptionTable<'_> {
                 let next = self.with_option(i, o, &best.1);
                 let among = self.faults_among(i, &next);
                 let Some(worst) = worst_kind(alone.iter().chain(&among)) else { return next };
-                // Only a collision is worth another motion that has a fault too.
+                // The last shown motion is only left for another faulty one to avoid a collision.
                 if worst > best.0 && (!goes_on || best.0 == FaultKind::Collision) {
                     best = (worst, next);
                 }
@@ -171,8 +172,8 @@ impl OptionTable<'_> {
         best.1
     }
 
-    /// The choice with what a person has seen last, where that reaches the goal and has no worse fault; and the worst
-    /// fault of what is chosen. Slight faults of what was seen last are none.
+    /// The choice with the last shown motion, if that reaches the goal and has no worse fault. Also returns the worst
+    /// fault of the result. Slight faults of the last shown motion are ignored.
     fn as_shown_last(&self, i: usize, settled: Settled) -> (Settled, Option<FaultKind>) {
         let stays = |o: usize| {
             let candidate = &self.candidates[i][o];
@@ -190,12 +191,12 @@ impl OptionTable<'_> {
         let kept = self.with_option(i, shown, &settled);
         let fault = grave(&kept);
         let worst = self.worst_fault(i, &settled);
-        // The worst kind of fault is the least.
+        // Kinds of faults are ordered from worst to mildest.
         let no_worse = fault.is_none_or(|fault| worst.is_some_and(|worst| fault >= worst));
         if no_worse { (kept, fault) } else { (settled, worst) }
     }
 
-    /// The choice with another candidate of an actor.
+    /// The choice with one actor on another candidate.
     fn with_option(&self, i: usize, option: usize, settled: &Settled) -> Settled {
         let mut chosen = settled.chosen.clone();
         chosen[i] = option;
@@ -214,7 +215,7 @@ impl OptionTable<'_> {
         faults
     }
 
-    /// The motion of an option, to be judged.
+    /// The motion of an option, in the form for the judge.
     fn judged(&self, i: usize, option: usize) -> JudgedMotion<'_> {
         let agent = self.of.actors[i].plan.present.index;
         JudgedMotion::new(self.of.setting, agent, &self.candidates[i][option].motion.states)
@@ -305,8 +306,8 @@ impl OptionTable<'_> {
         })
     }
 
-    /// Adds replanned motions of the actors that still meet another agent, leave the road for a goal on it, or break
-    /// rules without any goal. False where it finds none. `blockers` are the agents that are met.
+    /// Adds replanned motions of actors that still meet another agent, leave the road for a goal on it, or break rules
+    /// without a goal. Returns whether it added any. Sets the agents that are met in `blockers`.
     fn replan(&mut self, settled: &Settled, blockers: &mut [Option<AgentId>]) -> bool {
         let others = self.of.others.with(&settled.reacted);
         let found =
@@ -320,7 +321,8 @@ impl OptionTable<'_> {
         changes
     }
 
-    /// Adds candidates of an actor with their options; returns the option of each. One that is known is not added again.
+    /// Adds candidates of an actor and their options, and returns the option index of each. Known candidates are not
+    /// added twice.
     fn add(&mut self, i: usize, found: Vec<MotionCandidate>) -> Vec<usize> {
         let candidates = &mut self.candidates[i];
         let known = candidates.len();
@@ -361,7 +363,7 @@ impl OptionTable<'_> {
             |o: &&Sweep| own.starts_apart(o) && dangerous_moments(own.swept(), o.swept()).next().is_some();
         let collides = met.is_some() || all.iter().any(|o| is_met(o));
         let meets = collides || all.iter().any(endangers);
-        // Without a goal nothing is missed by waiting behind an agent in the lawful way.
+        // Without a goal, waiting behind another agent misses nothing and breaks no rule.
         let free = actor.plan.target.position.is_none();
         let leaves = leaves_the_road(actor, &shown.motion);
         let breaks = free && (leaves || is_against_traffic(actor, &shown.motion));
@@ -376,7 +378,7 @@ impl OptionTable<'_> {
             let sweep = Sweep::of_rollout(&c.motion.states, size);
             !all.iter().any(|o| own.starts_apart(o) && overlap(sweep.swept(), o.swept()).overlaps)
         };
-        // Where no candidate reaches the goal, it is missed for that reason and not for the agent in the way.
+        // If the original motion misses the goal too, its reason applies instead of the agent in the way.
         let missed = |motion: Rollout, o: usize| motion.with_reason_of(candidates[o].motion.reach);
         let mut found: Vec<MotionCandidate> = Vec::new();
         let before = self.of.material(i).shown_stopping().filter(|c| stops && is_clear(c));
@@ -405,8 +407,8 @@ impl OptionTable<'_> {
         (found, met.map(|(id, _)| (*id).clone()))
     }
 
-    /// What was meant, where the choice left it for another motion because of an agent that it meets, driven behind
-    /// that agent.
+    /// The cheapest option by itself, driven behind the agents that it meets, if the choice left it and the actor has
+    /// no goal.
     fn behind_others(&self, i: usize, settled: &Settled, all: &[&Sweep]) -> Vec<MotionCandidate> {
         let options = &self.choice.agents[i];
         let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
@@ -415,7 +417,7 @@ impl OptionTable<'_> {
         meant.and_then(|meant| self.follows(i, meant, all)).into_iter().collect()
     }
 
-    /// The motion of an option, driven behind the agents that it meets with as little braking as that takes.
+    /// The motion of an option, driven behind the agents that it meets, with the least braking that avoids all dangers.
     fn follows(&self, i: usize, option: usize, all: &[&Sweep]) -> Option<MotionCandidate> {
         let size = &self.of.actors[i].plan.present.size;
         let is_met =
@@ -423,7 +425,7 @@ impl OptionTable<'_> {
         self.behind(i, option, all).find(|c| !is_met(&Sweep::of_rollout(&c.motion.states, size)))
     }
 
-    /// The motion of an option, driven behind the agents that it meets, from easy to hard braking.
+    /// The motions of an option behind the agents that it meets, from easy to hard braking.
     fn behind(
         &self,
         i: usize,
@@ -446,8 +448,8 @@ impl OptionTable<'_> {
         })
     }
 
-    /// Gives reacting actors that changed their motion without a cause the kept one back. Returns the cause of each
-    /// other change, one entry an actor.
+    /// Restores the kept motion of reacting actors that changed without a cause. Returns the cause of each other
+    /// change, one entry per actor.
     fn restore_uncaused(&self, chosen: &mut [usize]) -> Vec<Option<AgentId>> {
         let option = |i: usize, option: usize| &*self.choice.agents[i][option].sweep;
         let has_own = |i: usize| self.choice.agents[i].first().is_some_and(|o| o.kept);
@@ -470,7 +472,7 @@ impl OptionTable<'_> {
         causes
     }
 
-    /// The joint choice. An actor of a run for which its first candidates do not do has all of them.
+    /// The joint choice. An actor of a run whose first candidates are insufficient gets all candidates.
     fn solved(&mut self) -> Vec<usize> {
         let chosen = self.choice.solve();
         let of = self.of;
@@ -493,8 +495,8 @@ impl OptionTable<'_> {
         self.choice.solve()
     }
 
-    /// Where the chosen scene still has conflicts, adds drafts that are guided out of them; the choice takes them only
-    /// where that costs less.
+    /// Adds drafts that are guided out of the remaining conflicts of the chosen scene. The choice takes them only if
+    /// they cost less.
     fn guide(&mut self, chosen: &mut Vec<usize>) {
         let JointDrafts { setting, actors, drafts, others, .. } = self.of;
         let mut conflict = self.choice.in_conflict(chosen);
@@ -533,7 +535,7 @@ impl OptionTable<'_> {
         (candidates, options)
     }
 
-    /// Options of candidates of an actor; `known` are those of the first ones, which stay.
+    /// Options of the candidates of an actor. `known` holds those of the first candidates, which do not change.
     fn options(&self, i: usize, candidates: &[MotionCandidate], known: &[JointOption]) -> Vec<JointOption> {
         let JointDrafts { setting, others, sample, .. } = self.of;
         let actor = &self.of.actors[i];
@@ -572,17 +574,17 @@ impl OptionTable<'_> {
     }
 }
 
-/// The worst of these faults; a missed goal or via point is none here.
+/// The kind of the worst of these faults, without missed goals and via points.
 fn worst_kind<'f>(faults: impl Iterator<Item = &'f Fault>) -> Option<FaultKind> {
     faults.map(|fault| fault.kind).filter(|kind| *kind <= FaultKind::NearMiss).min()
 }
 
-/// Too slight to show another future than before.
+/// Whether a fault is too slight to replace the last shown future.
 fn is_slight(fault: &Fault) -> bool {
     let extent = fault.extent.unwrap_or(f64::INFINITY);
     let most = match fault.kind {
         FaultKind::OffRoad | FaultKind::OverMedian => shown_last::PAST_EDGE_M,
-        // One without a length is at the end.
+        // A fault of zero length is at the end of the motion and not slight.
         FaultKind::WrongWay if extent > 0.0 => shown_last::WRONG_WAY_M,
         FaultKind::HarshBraking | FaultKind::HarshSteering => shown_last::HARSH_MPS2,
         FaultKind::ForcesBraking => shown_last::FORCED_MPS2,
@@ -592,7 +594,7 @@ fn is_slight(fault: &Fault) -> bool {
     extent <= most
 }
 
-/// States of a motion, one a step, as the agent can drive them.
+/// Fits states, one per step, to the motion limits of the agent and projects them onto its goal.
 fn driven(plan: &AgentPlan, states: &[State]) -> Rollout {
     let last = states.len().saturating_sub(1);
     let centre = |i: usize| states[((i + 1) * PER_INSTANT).min(last)].position();
@@ -607,7 +609,7 @@ mod tests {
         Settled { chosen, causes: Vec::new(), changed: Vec::new(), reacted: Vec::new() }
     }
 
-    /// Rounds that are run, and the choice after them, where each of them ends in one of these choices.
+    /// Number of rounds that run, and the final choice, if successive rounds return these choices.
     fn rounds(choices: &[Option<&[usize]>]) -> (usize, Vec<usize>) {
         let mut count = 0;
         let next = |count: &mut usize, _: &Settled| {
@@ -620,7 +622,7 @@ mod tests {
 
     #[test]
     fn a_reaction_without_a_cause_starts_no_further_round() {
-        // The new candidates let the second actor react; without a cause it has its kept motion again.
+        // The new candidates let the second actor react; without a cause its kept motion is restored.
         assert_eq!(rounds(&[Some(&[2, 0]), Some(&[2, 0])]), (1, vec![2, 0]));
     }
 

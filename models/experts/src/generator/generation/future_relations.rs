@@ -1,5 +1,5 @@
 //! Relations and manoeuvres of the futures of a finished sample. Relations are to the shown motions of
-//! others, or to their reactions if the future is taken.
+//! others, or to their reactions to the future.
 
 use crate::maps::KnownMap;
 use crate::request::Request;

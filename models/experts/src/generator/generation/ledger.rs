@@ -22,8 +22,8 @@ use std::ops::Range;
 pub(super) struct AgentProgress {
     /// Its futures in the first window that gave it any.
     futures: AgentFutures,
-    /// Executed states up to the start of the next window: from the step after the call's start or, for an
-    /// agent that entered later, after its first step.
+    /// Executed states up to the start of the next window. They begin after the call's start or, for an agent
+    /// that entered later, after its first step.
     pub(super) executed: Vec<State>,
     /// Steps of the call that passed before `executed`.
     absent: usize,
@@ -65,8 +65,8 @@ pub(super) struct Ledger {
     pub(super) timings: Timings,
 }
 
-/// The reactions of others if an unshown future of an agent were taken, by agent and future. `None` stands
-/// for an agent that nobody is in the way of.
+/// The reactions of others to each unshown future of an agent, by agent and future. `None` stands for an
+/// agent that keeps its motion.
 pub(super) type Instead = BTreeMap<(usize, usize), Vec<(usize, Option<AgentFutures>)>>;
 
 impl Ledger {

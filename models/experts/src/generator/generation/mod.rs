@@ -2,8 +2,8 @@
 //! the answer from what was executed.
 //!
 //! A window plans 9 s ahead. Its first seconds, up to the next replanning, are executed. The next window
-//! starts every agent from its state at that time: at the end of the executed future, else on the log, else
-//! extrapolated straight on. Motion of an earlier window is not planned again.
+//! starts every agent from its state at that time. It is the end of the executed future, else the log, else
+//! extrapolated straight on. Motion of an earlier window is not replanned.
 
 mod base_scene;
 mod future_relations;

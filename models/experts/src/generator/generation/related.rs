@@ -125,7 +125,7 @@ fn with_dependent(mut request: Request) -> Request {
     }
 }
 
-/// Whether the call plans this agent anew. An agent that enters later, or cannot move, keeps its motion.
+/// Whether the call regenerates this agent. An agent that enters later, or cannot move, keeps its motion.
 fn is_planned(request: &Request, id: &AgentId) -> bool {
     let agents = &request.scene.agents;
     let there = agents.iter().position(|agent| agent.id == *id).is_some_and(|i| {
@@ -141,7 +141,8 @@ fn has_known_leader(request: &Request, agent: usize) -> bool {
     leader(request, agent).is_none_or(|to| !is_planned(request, to))
 }
 
-/// The agents to plan first: others are relative to them, and they are not relative to an open one.
+/// The agents to plan first: goals of other agents are relative to them, and their own goals are not relative to an
+/// agent in `open`.
 fn leaders(request: &Request, open: &BTreeSet<usize>) -> BTreeSet<AgentId> {
     let is_open = |id: &AgentId| open.iter().any(|i| request.scene.agents[*i].id == *id);
     open.iter().filter_map(|i| leader(request, *i)).filter(|to| !is_open(to)).cloned().collect()

@@ -33,7 +33,7 @@ pub(super) fn by_road(
         let goal = agent.conditions.goal.position?;
         let seconds = due(request, who.index).max(1) as f64 * STEP_S;
         let v0 = who.start.speed_mps();
-        // No route is longer.
+        // Greatest distance that the vehicle covers in this time.
         let longest_m =
             (v0 * seconds + 0.5 * SPEEDING_UP_MPS2 * seconds * seconds).min(PACE_MPS.max(v0) * seconds);
         let nearest_m = v0 * v0 / (2.0 * STOPPING_MPS2);

@@ -18,7 +18,7 @@ pub(super) enum CallPart {
     /// The call regenerates it.
     Asked,
     /// The call regenerates it, but the user picked its future. It is fixed in the first window and
-    /// background afterwards. At the end of the picked future it is planned again.
+    /// background afterwards. It replans at the end of the picked future.
     Picked,
     /// It may react to the regenerated agents.
     MayReact,
@@ -55,8 +55,8 @@ pub(super) struct Roster {
 }
 
 impl Roster {
-    /// The parts in a call, and the scene that its windows are cut from: the call's own, with kept motions
-    /// extended to the end of the last window.
+    /// The parts in a call, and the scene that its windows are cut from. That is the scene of the call, with
+    /// kept motions extended to the end of the last window.
     ///
     /// # Errors
     /// Unknown ids, ids of agents that cannot move, or more regenerated agents than [`MOST_ACTORS`].
@@ -147,8 +147,8 @@ impl Roster {
         self.part(agent) == CallPart::Picked && !self.known_until(agent, step + 1)
     }
 
-    /// Number of scene steps that a picked future covers; `None` for all others, and if nothing comes after
-    /// it.
+    /// First scene step that a picked future does not cover. `None` for all other agents, and if the future
+    /// covers the whole call.
     pub(super) fn pick_ends(&self, agent: usize) -> Option<usize> {
         self.guessed[agent].filter(|_| self.part(agent) == CallPart::Picked).map(|g| g.step)
     }
@@ -174,7 +174,7 @@ impl Roster {
         for (i, ahead) in &mut resumed {
             let agent = &self.base.agents[*i];
             let agent_type = world.conditions[*i].kind_of(agent);
-            // An extrapolated motion goes straight on, whatever the road does.
+            // An extrapolated motion continues straight on and ignores the road.
             let until =
                 self.guessed[*i].map_or(usize::MAX, |g| g.step.saturating_sub(agent.track.first_step));
             let way = &agent.track.states[..agent.track.states.len().min(until)];

@@ -1,4 +1,4 @@
-//! The planning windows of a call: which steps each executes.
+//! The planning windows of a call, with the steps that each executes.
 
 use crate::request::Request;
 use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS};

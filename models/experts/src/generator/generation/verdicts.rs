@@ -13,7 +13,7 @@ use scene::judge::{About, Change, Judge, Other, by_weight};
 use scene::score::Actor;
 use scene::{Agent, AgentFutures, Future, STEP_S, Sample};
 
-/// From this many futures on, several threads judge them: more than one road user has.
+/// From this many futures on, several threads judge them; it exceeds the modes of one road user.
 const MANY: usize = MODES + 1;
 
 /// Sets the faults, relations and manoeuvre of each future of a sample. A future that is not shown is judged

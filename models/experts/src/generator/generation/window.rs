@@ -51,7 +51,7 @@ struct WindowActors {
 struct SampleDrafts {
     /// Number of the sample, from 0.
     sample: usize,
-    /// One entry an actor.
+    /// One entry per actor.
     drafts: Vec<Drafts>,
     /// Relations of the drafts that were shown first.
     relations: Option<DraftRelations>,
@@ -192,7 +192,7 @@ impl WindowActors {
             actor.pinned = setting.request.pinned.get(&actor.id).cloned();
         }
         let tuning = setting.tuning();
-        // In a run all others may react, so being named means nothing.
+        // In a run all others may react, so the names in the request do not restrict them.
         let named = matches!(setting.request.react, React::Only(_)) && !setting.request.under_way;
         let found = replanned(world, workers, &actors, &cast.may_react, named, tuning.reacting.near_m);
         let room = MOST_ACTORS.saturating_sub(actors.len());
@@ -211,7 +211,7 @@ impl WindowActors {
         let (tuning, workers) = (setting.tuning(), setting.workers());
         let leading: Vec<Trace> =
             workers.map(&self.actors, |actor| trace_of_mode(actor, actor.likeliest(), &actor.modes));
-        // Withheld motions must not show in how others avoid them.
+        // Withheld motions must not influence the drafts of others.
         let known = setting.request.stages.background_in_the_way;
         let traces: Vec<&Trace> = others.traces().chain(leading.iter().filter(|_| known)).collect();
         let diverse = workers.map(&self.actors, |actor| {

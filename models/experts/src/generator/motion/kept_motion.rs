@@ -5,7 +5,7 @@ use crate::tuning::fixed::kept_motion::SAME_M;
 use scene::{Agent, Conditions, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, Start, State};
 
 /// The chosen future of an agent, else its recording. An agent whose future has ended, or that has only one
-/// known state, goes straight on.
+/// known state, continues straight on.
 pub(in crate::generator) struct KeptMotion<'a> {
     agent: &'a Agent,
     future: Option<&'a Future>,

@@ -15,7 +15,7 @@ use std::f64::consts::FRAC_PI_6;
 const SPACING_M: f64 = 0.5;
 /// Samples per bounding circle.
 const CHUNK: usize = 8;
-/// Steps between two looks at others after the window.
+/// Steps between the checked positions of others after the window.
 const BEYOND_STRIDE: usize = 3;
 /// An agent that leaves the path for fewer steps than this has not left.
 const FLICKER: usize = 3;
@@ -157,7 +157,7 @@ impl Corridor {
         let nearest = (0..self.outlines.len())
             .min_by(|a, b| distance(&self.outlines[*a]).total_cmp(&distance(&self.outlines[*b])))?;
         let outline = &self.outlines[nearest];
-        // The path only comes near the line and does not pass it.
+        // The path comes near the line but does not pass it.
         if nearest + 1 == self.outlines.len() {
             return None;
         }

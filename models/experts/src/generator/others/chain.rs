@@ -1,5 +1,5 @@
-//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and onwards
-//! from those.
+//! The chain of reactions: from the agents that a call regenerates to the agents in their way, and from those
+//! to others.
 
 use super::giving_way::{SeenMotion, YieldOption};
 use super::other::{KeptFrom, OtherAgent, Others, ReactingAgent, Response};
@@ -11,7 +11,7 @@ use scene::{AgentId, Future, State};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Number of times that one agent decides in a window.
+/// Limit of decisions of one agent in a window.
 const MOST_DECISIONS: usize = 4;
 
 /// A motion of this answer that other agents may have to yield to.
@@ -163,7 +163,7 @@ impl Others<'_> {
         out: &[Option<&AgentId>],
     ) -> Vec<Option<YieldOption>> {
         let mut ways: Vec<Option<YieldOption>> = vec![None; reactors.len()];
-        // An agent that stays out decides nothing.
+        // An agent that stays out makes no decision.
         let decisions = |who: &ReactingAgent<'_>| if out[who.at].is_some() { MOST_DECISIONS } else { 0 };
         let mut decisions: Vec<usize> = reactors.iter().map(decisions).collect();
         loop {
@@ -181,7 +181,7 @@ impl Others<'_> {
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
             match self.way(reactors[at], &others, stays - 1e-9) {
                 Some(way) => ways[at] = Some(way),
-                // Nothing helps now; a change of another agent may.
+                // No option helps; a later change of another agent may.
                 None => decisions[at] = MOST_DECISIONS,
             }
         }

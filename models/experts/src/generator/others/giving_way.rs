@@ -13,7 +13,7 @@ use crate::tuning::fixed::giving_way::{
 };
 use scene::{AgentType, STEP_S, State, wrap_angle};
 
-/// Rounds in which the order of the agents is recomputed.
+/// Limit of rounds in which the order of the agents is recomputed.
 const MOST_TURNS: usize = 3;
 
 /// A motion that gives way, with its cost.
@@ -91,7 +91,7 @@ impl Others<'_> {
     }
 
     /// A paced motion with its cost, and the part of the cost for encounters. `None` for the kept motion
-    /// itself, and for a motion that meets someone and costs `most` or more.
+    /// itself, and for a motion that meets another agent and costs `most` or more.
     fn weighed(
         &self,
         who: ReactingAgent<'_>,

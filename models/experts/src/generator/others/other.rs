@@ -53,7 +53,7 @@ pub(in crate::generator) struct OtherAgent {
 
 /// Whether an agent may change its motion.
 pub(super) enum Response {
-    /// It keeps its motion whatever the others do.
+    /// It keeps its motion regardless of the others.
     Keeps,
     /// It may yield.
     Reacts(Box<Reactor>),
@@ -80,7 +80,7 @@ pub(super) struct ReactorRoad {
     /// Its path, extended along the road.
     pub(super) path: PathProgress,
     pub(super) corridor: Corridor,
-    /// Red lights on its way.
+    /// Red signals on its path.
     pub(super) lights: Vec<PathBlock>,
 }
 
@@ -139,7 +139,7 @@ impl<'g> Others<'g> {
         self.each.iter().map(|other| &other.sweep)
     }
 
-    /// The motions that do not change whatever the actors do.
+    /// The motions that do not depend on the actors.
     pub(in crate::generator) fn kept(&self) -> impl Iterator<Item = FixedMotion<'_>> {
         self.each[self.reacting..].iter().map(OtherAgent::fixed)
     }

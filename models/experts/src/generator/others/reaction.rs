@@ -69,7 +69,7 @@ pub(super) fn stays_out(entry: &State, cause: AgentId, step: usize) -> Reaction 
     .rounded()
 }
 
-/// The reaction to `cause` of an agent that was planned again. `kept` is its motion from the first step after
+/// The reaction to `cause` of an agent that replanned. `kept` is its motion from the first step after
 /// `start_s` on.
 pub(in crate::generator) fn reaction_of(
     kept: &[State],

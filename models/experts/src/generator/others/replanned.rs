@@ -1,4 +1,4 @@
-//! The agents that react by being planned again, like regenerated agents.
+//! The agents that react by replanning, like regenerated agents.
 
 use crate::generator::actor::PlannedActor;
 use crate::generator::motion::KeptMotion;
@@ -10,8 +10,8 @@ use scene::{State, Vec2};
 use std::collections::BTreeSet;
 
 /// The agents of `may_react` with a goal or via point from an earlier call, or whose motion does not continue
-/// from their start. They are planned again and keep their motion unless a changed one is in the way. Unless
-/// the call `named` them, only agents near an actor are included.
+/// from their start. They replan, and keep their motion unless a changed one is in the way. Unless the call
+/// `named` them, only agents near an actor are included.
 pub(in crate::generator) fn replanned(
     world: &World<'_>,
     workers: &WorkerPool,

@@ -1,5 +1,5 @@
-//! A path driven so that others go first: unchanged for as long as possible, then with no harder braking than
-//! needed, and on again once the way is free.
+//! A path driven so that others go first. The motion is unchanged for as long as possible, then brakes as
+//! little as necessary, and continues once the path is free.
 
 use super::blocks::PathBlock;
 use super::path_progress::PathProgress;
@@ -34,8 +34,8 @@ pub(super) struct YieldManner {
     pub(super) headway_s: f64,
     /// Factor of the path's speed at each place.
     pub(super) pace: f64,
-    /// Factor of the first speed of an agent that enters: less than one if it braked before anyone could see
-    /// it.
+    /// Factor of the first speed of an agent that enters: less than one if it braked before it came into
+    /// sight.
     pub(super) entry: f64,
 }
 

@@ -58,8 +58,8 @@ fn largest_difference(a: &Tensor, b: &Tensor) -> f64 {
     (a - b).unwrap().abs().unwrap().flatten_all().unwrap().max(0).unwrap().to_scalar::<f64>().unwrap()
 }
 
-/// Our loops and the stock form, both in f32, must equal the stock form in f64 in value and gradient, and
-/// its gradient must equal central differences in f64.
+/// Our loops and the stock form, both in f32, must equal the stock form in f64 in value and gradient. Its
+/// gradient must equal central differences in f64.
 pub(crate) fn compare(inputs: &[Tensor], run: impl Fn(&[Tensor]) -> Result<Tensor>) {
     let (stock, stock_grads) = gradients(inputs, DType::F64, &run);
     let own = gradients(inputs, DType::F32, &run);

@@ -107,7 +107,7 @@ impl Cells<'_> {
     }
 
     /// Strips between lanes and kerbs. Junctions and freeways have none. Maps without road edges have none
-    /// either, because nothing in them tells where the road ends.
+    /// either, because they do not define where the road ends.
     pub(super) fn kerbs(&mut self, region: &Region) {
         if self.edges.is_empty() {
             return;

@@ -44,7 +44,7 @@ pub enum AnswerSource {
     Initializer(usize),
     /// The learned rival of this index.
     Learned(usize),
-    /// No learning.
+    /// A formula without learning.
     Formula(Rival),
 }
 
@@ -55,7 +55,7 @@ impl AnswerSource {
         ours.chain(Self::rivals(entrants)).collect()
     }
 
-    /// All methods of others.
+    /// All rivals.
     pub fn rivals(entrants: Entrants<'_>) -> Vec<Self> {
         let learned = (0..entrants.baselines.len()).map(Self::Learned);
         learned.chain(Rival::ALL.map(Self::Formula)).collect()

@@ -22,7 +22,7 @@ const fn number(name: &'static str, low: f64, high: f64, bins: usize, weight: f6
     Feature { name, bins: Some((low, high, bins)), weight }
 }
 
-/// The features of the challenge in its order, without traffic lights. Its bound is 3.14, not pi.
+/// The features of the challenge in its order, without traffic-light violations. Its bound is 3.14, not pi.
 #[allow(clippy::approx_constant, reason = "a published number")]
 pub(super) const FEATURES: [Feature; 9] = [
     number("speed", 0.0, 25.0, 10, 0.05),

@@ -114,8 +114,8 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<RolloutMeasur
     Ok(RolloutMeasures { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
 }
 
-/// Likeness of rollouts of a scene to the log: the composite likelihood, and the share of moving road users
-/// that come within `soon_s` of a collision, summed over rollouts, with their number.
+/// Likeness of rollouts of a scene to the log: the composite likelihood, and the near collisions. The latter
+/// are summed over rollouts: moving road users within `soon_s` of a collision, and the number of all.
 pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (Option<f64>, (f64, f64)) {
     let edges = RoadEdges::new(&site.scene.map);
     let cases: Vec<usize> = site.cases.iter().map(|c| c.agent).collect();

@@ -1,5 +1,5 @@
 //! Intelligent driver model (Treiber, Hennecke and Helbing 2000) along the lane route: speed limit and bends,
-//! a leader that keeps its present speed, and a red light that stays red.
+//! a leader that keeps its present speed, and a red signal that stays red.
 
 use super::state;
 use experts::planning::profile::Caps;
@@ -17,7 +17,7 @@ const TIME_GAP_S: f64 = 1.5;
 const STANDING_GAP_M: f64 = 2.0;
 /// Greatest deceleration, m/s2.
 const HARDEST: f64 = 8.0;
-/// A light that requires a greater deceleration is ignored, m/s2.
+/// A red signal that requires a greater deceleration is ignored, m/s2.
 const TOO_LATE: f64 = 5.0;
 
 /// Obstacle ahead: gap between the own front and its bumper now, metres, and its speed, m/s.

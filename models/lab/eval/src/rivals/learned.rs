@@ -146,7 +146,7 @@ mod tests {
             assert_eq!((once.len(), often.len()), (90, 90));
             assert_eq!(once[..30], often[..30]);
             assert!(once[30..] != often[30..], "{i}");
-            // Motion goes on from the state reached.
+            // Motion continues from the reached state.
             assert!((often[30].position() - often[29].position()).norm() < 5.0);
         }
         assert_eq!(often, of(30));

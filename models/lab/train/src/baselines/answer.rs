@@ -36,7 +36,7 @@ impl Baseline {
     /// Reads a weights file, or all `.safetensors` files of a folder: one for each type.
     ///
     /// # Errors
-    /// When a file cannot be read or is no baseline's, when files are of different methods, or when two
+    /// When a file cannot be read or holds no baseline, when files are of different methods, or when two
     /// answer for the same type.
     pub fn load(name: &str, path: &Path) -> Result<Self> {
         let mut networks: Vec<Networks> = Vec::new();
@@ -57,8 +57,8 @@ impl Baseline {
         Ok(Self { name: name.into(), kind, networks, for_all: false, seed: 0 })
     }
 
-    /// Answers for all types, whatever its one network learned from: what the paper's Table I asks of plain
-    /// TrafficGen.
+    /// Answers for all types, regardless of those that its network learned from, as plain TrafficGen does in
+    /// the paper's Table I.
     #[must_use]
     pub fn for_all_types(mut self) -> Self {
         self.for_all = true;
@@ -82,7 +82,7 @@ impl Baseline {
         Ok(Self { name: name.into(), kind, networks, for_all: false, seed: 0 })
     }
 
-    /// It sees goals; otherwise it answers only where there is none.
+    /// Whether it sees goals; otherwise it only answers requests without a goal.
     pub fn has_condition(&self) -> bool {
         self.kind.has_condition()
     }

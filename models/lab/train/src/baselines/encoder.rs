@@ -28,8 +28,8 @@ pub(super) struct Sight {
 }
 
 impl Sight {
-    /// Stacks features of road users, which map pieces each sees, and the pieces. Where `plan` has a condition, the
-    /// goal's values are taken out of the road user's state and stand by themselves.
+    /// Stacks the features of road users, the map pieces that each sees, and the pieces. If `plan` has a condition, the
+    /// goal values are moved from the state of the road user to a separate input.
     pub(super) fn stack(
         plan: &Plan,
         map: &[[f32; PIECE]],
@@ -58,7 +58,7 @@ impl Sight {
     }
 }
 
-/// The condition of a road user. A speed without a heading counts ahead.
+/// The condition of a road user. A speed without a heading is taken along the present heading.
 fn condition(agent: &AgentFeatures) -> [f32; CONDITION] {
     let [ahead, left, cos, sin, speed, length, width] = OWN_CONDITION.map(|i| agent.own[i]);
     let way = if cos == 0.0 && sin == 0.0 { 1.0 } else { cos };
@@ -73,7 +73,7 @@ pub(super) struct EncodedBatch {
     pub(super) tokens: Tensor,
     /// Additive mask of the tokens.
     pub(super) mask: Tensor,
-    /// The encoded condition, [batch, condition width], where there is one.
+    /// The encoded condition, [batch, condition width], if there is one.
     pub(super) condition: Option<Tensor>,
 }
 

@@ -5,9 +5,9 @@ use experts::planning::{INSTANTS, MODES};
 use super::sight::{Points, Truth};
 use crate::training::least;
 
-/// Distances are counted in this unit, metres: squared errors then weigh about as much as the likelihood.
+/// Unit of distances, metres: squared errors then weigh about as much as the likelihood.
 pub(super) const UNIT_M: f32 = 5.0;
-/// Weight of the modes that did not win, all together, so that none dies.
+/// Total weight of all modes except the best, so that none stops learning.
 const LOSERS: f32 = 0.01;
 /// Mean square above which a losing mode is not pulled, units squared.
 const FAR: f32 = 100.0;
@@ -16,10 +16,10 @@ const FAR: f32 = 100.0;
 pub(super) struct Fared {
     /// Mean distances, metres.
     pub(super) ade: [f32; MODES],
-    /// The one of least mean square.
+    /// Index of the future with the least mean square error.
     pub(super) best: usize,
     pub(super) loss: f32,
-    /// By point, per metre.
+    /// Gradient by point, per metre.
     pub(super) gradient: [Points; MODES],
 }
 

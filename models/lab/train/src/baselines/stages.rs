@@ -141,8 +141,8 @@ impl Networks {
     }
 }
 
-/// The paper's L_MSE of the future nearest to the recording and L_NLL of its index. `names` are the names of
-/// the least distance and of that of the most probable future.
+/// The paper's L_MSE of the future nearest to the recording and L_NLL of its index. `least` and `first` name
+/// the metrics of the least distance and of the distance of the most probable future.
 fn pulled(
     futures: &Regressed,
     truths: &[Truth],

@@ -173,7 +173,7 @@ fn losses_fall_and_runs_repeat() {
     };
     let refined = train(&joint, &mut |_| ()).unwrap();
     assert!(mean(&refined, "refined") < 1.5 * mean(&refined, "min"), "{refined}");
-    // Going on from half of the way gives the same as one run.
+    // Continuing a half-completed run gives the same as a single run.
     let expected = std::fs::read(&joint.out).unwrap();
     let mut half = None;
     let stopped = TrainOptions {

@@ -1,6 +1,5 @@
-//! The paper's denoiser: its own encoder, and a one-dimensional U-Net over the points of a future that
-//! predicts the noise in them, with cross-attention to the road user's surroundings and the user's condition
-//! at each step.
+//! The paper's denoiser: its own encoder, and a one-dimensional U-Net that predicts the noise in the points
+//! of a future. At each step it has cross-attention to the road user's surroundings and the user's condition.
 
 use candle_core::{Result, Tensor};
 use experts::net::layers::{CrossBlock, Linear, Norm, RELU_GAIN};
@@ -19,7 +18,7 @@ pub(super) const STEPS: usize = 5;
 /// Points that become one on the way down: 18 points, then 9, then 3.
 const POOLED: [usize; 2] = [2, 3];
 
-/// Level pairs of refinement, one level a step.
+/// Level pairs of refinement, one level per step.
 pub(super) fn steps() -> Vec<(usize, usize)> {
     schedule::ddim(START, STEPS)
 }
@@ -172,7 +171,7 @@ impl Unet {
         self.leave.forward(&self.norm.forward(&fine)?)?.reshape((batch, MODES, NUMBERS))
     }
 
-    /// The leapfrog steps by the paper's update (its section on diffusion refinement): each removes its share
+    /// The leapfrog steps by the paper's update (its section on diffusion refinement). Each removes its share
     /// of the estimated noise and, except for the last, adds new noise with the variance of the step. `fresh`
     /// has one draw per step.
     pub(super) fn leapfrog(&self, seen: &Context, futures: &Tensor, fresh: &[Tensor]) -> Result<Tensor> {
@@ -199,7 +198,7 @@ struct Update {
 }
 
 impl Update {
-    /// Between neighbouring levels, with `alpha` the share of signal power that is left from one to the next.
+    /// Between neighbouring levels, with `alpha` the share of signal power that remains from one to the next.
     fn between(from: usize, to: usize) -> Self {
         let (signal, alpha) = (schedule::signal(from), schedule::signal(from) / schedule::signal(to));
         Self {
@@ -216,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_step_with_the_true_noise_leads_to_the_mean_of_the_level_below() {
-        // x = sqrt(a) x0 + sqrt(1 - a) e: what is left of e is what the reverse chain's mean has.
+        // x = sqrt(a) x0 + sqrt(1 - a) e: the remaining share of e is that of the mean of the reverse chain.
         let (x0, e) = (2.0, -0.7);
         for (from, to) in steps() {
             let (a, b) = (schedule::signal(from), schedule::signal(to));

@@ -1,4 +1,4 @@
-//! Records of chosen road users of a scene, for sets that others define.
+//! Records of chosen road users of a scene, for sets of cases that are defined elsewhere.
 
 use super::record;
 use crate::polylines::Polylines;
@@ -19,8 +19,8 @@ const EARLIEST: usize = 20;
 pub enum CaseCondition {
     /// Nothing.
     Nothing,
-    /// Position, speed and heading of the end: in half of the records at this step, in a quarter at the last known
-    /// one, else at any from 2 s on. In half of them some others have their ends fixed too.
+    /// Position, speed and heading of the end. Half of the records use this step, a quarter the last known one, the
+    /// others any step from 2 s on. In half of them the ends of some others are fixed too.
     End(usize),
 }
 
@@ -33,7 +33,7 @@ pub struct CaseRecords {
 }
 
 impl CaseRecords {
-    /// Of these road users, with so many drawn conditions each.
+    /// The records of these road users, each with `draws` drawn conditions.
     pub fn new(scene: &Scene, agents: &[usize], asked: CaseCondition, draws: usize, seed: u64) -> Self {
         let mut provenance = Provenance::default();
         provenance.add(scene);

@@ -33,7 +33,7 @@ impl Draws {
         self.0.chance(share)
     }
 
-    /// A goal from what the road user did, some fields left free.
+    /// A goal from the recorded motion, with some fields left free.
     pub(super) fn goal(&mut self, agent: &Agent, standing: bool) -> Goal {
         let subset = self.0.weighted(SUBSETS);
         if subset == (false, false, false) || (standing && self.0.chance(0.7)) {

@@ -1,5 +1,5 @@
-//! Training records from scenes: each road user of a kind, under a drawn choice of conditions, with
-//! what it really did in the coordinates of its anchors.
+//! Training records from scenes: each road user of a kind, under a drawn choice of conditions, with its
+//! recorded motion in the coordinates of its anchors.
 
 mod cases;
 mod conditions;
@@ -40,11 +40,11 @@ pub struct PrepareOptions {
     pub per_scene: usize,
     /// Choices of conditions for each road user.
     pub draws: usize,
-    /// Stop after so many records.
+    /// Number of records after which the preparation stops.
     pub most_records: u64,
-    /// Which road users count, and how many a scene must have.
+    /// Selection of the road users, and the least number of a scene.
     pub crop: Crop,
-    /// Each scene's mirror image is a scene too.
+    /// Whether the mirror image of each scene is added.
     pub mirror: bool,
 }
 

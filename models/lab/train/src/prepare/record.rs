@@ -13,7 +13,7 @@ use scene::{Agent, HORIZON_STEPS};
 /// Steps between two instants.
 const PER_INSTANT: usize = HORIZON_STEPS / INSTANTS;
 
-/// `None` when the road user is not there at the start.
+/// `None` if the road user is absent at the start.
 pub(super) fn record(world: &World<'_>, polylines: &Polylines, index: usize) -> Option<Record> {
     let who = world.present.iter().find(|p| p.index == index)?;
     let planned = plan(world, who);
@@ -70,7 +70,7 @@ fn stays(agent: &Agent, start_step: usize) -> bool {
     steps.map(far).fold(0.0, f64::max) < STAYS_WITHIN_M
 }
 
-/// The path, one point a metre, in the road user's frame.
+/// The path, one point per metre, in the road user's frame.
 fn path(anchor: &Anchor, who: &AgentAtStart) -> AnchorPath {
     let count = (anchor.path.length_m().ceil() as usize + 8).clamp(2, PATH_POINTS);
     let local = |i: usize| {

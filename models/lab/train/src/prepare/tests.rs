@@ -28,7 +28,7 @@ fn write(folder: &Path, scenes: Vec<Vec<Agent>>) {
     }
 }
 
-/// A mover and one of each that is left out.
+/// A moving road user, and one for each reason of exclusion.
 fn mixed() -> Vec<Agent> {
     let mut walker = shifted(log("walker", 1.0, 91), 0.0, 9.0);
     walker.agent_type = AgentType::Pedestrian;

@@ -82,7 +82,7 @@ mod tests {
             shifted(log("corner", 5.0, 91), 159.0, 59.0),
             ego,
         ];
-        // A road user that comes later is absent at the first step.
+        // A road user that enters later is absent at the first step.
         agents.push(log("late", 5.0, 91));
         agents[4].track.first_step = 5;
         let whole = scene(agents);
@@ -94,7 +94,7 @@ mod tests {
             state.heading_rad = std::f64::consts::FRAC_PI_4;
         }
         assert_eq!(ids(crop.apply(turned)), (vec!["first".into(), "near".into(), "ego".into()], 2));
-        // Without an ego it is about the first there.
+        // Without an ego the square is about the first present road user.
         let mut strangers = whole.clone();
         strangers.agents[3].role = None;
         assert_eq!(ids(crop.apply(strangers)).0, ["first"]);

@@ -51,9 +51,9 @@ pub fn place_key(scene: &Scene) -> u64 {
     hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
-/// A copy of a scene without information after its first step: one state for each road user, the lights in
-/// their present state and unknown later, no conditions, no futures. Neither features nor choices can look
-/// ahead in it.
+/// A copy of a scene without information after its first step. It has one state for each road user, signals
+/// that are unknown after their present state, no conditions and no futures. Neither features nor choices can
+/// look ahead in it.
 pub fn blind(scene: &Scene) -> Scene {
     let mut out = scene.clone();
     out.generated = None;

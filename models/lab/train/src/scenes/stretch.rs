@@ -50,7 +50,7 @@ mod tests {
         let expected = vec![(0, SignalState::Go), (10, SignalState::Caution), (40, SignalState::Stop)];
         assert_eq!(cut.signals[0].runs, expected);
         assert!(cut.checked().is_ok());
-        // Beyond its end a recording has nothing.
+        // A stretch ends with its recording.
         assert_eq!(stretch(&whole, 180, 60).time.steps, 20);
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct CheckpointState<A> {
     pub(super) stage: Stage,
     pub(super) seed: u64,
     pub(super) batch: usize,
-    /// Total number of steps, over which the rate falls.
+    /// Total number of steps, over which the rate decays.
     pub(super) steps: u64,
     /// Top learning rate.
     pub(super) rate: f64,

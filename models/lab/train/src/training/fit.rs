@@ -119,8 +119,8 @@ mod tests {
         let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
         let good = fit.of(&record).unwrap();
         assert!(good < 0.2, "{good}");
-        // One knot per second cannot represent a metre to and fro each half second; all other anchors are as
-        // bad, so the unchanged one counts.
+        // One knot per second cannot represent an oscillation of a metre each half second. All other anchors
+        // have it, so the unchanged one counts.
         let zigzag = |record: &mut Record, mode: usize| {
             for (i, across) in record.target.across[mode].iter_mut().enumerate() {
                 *across += if i % 2 == 0 { 1.0 } else { -1.0 };

@@ -4,7 +4,7 @@
 //! Records -> Split -> batch of a step -> shards on threads -> gradients -> AdamW -> weights, checkpoint
 //! ```
 //!
-//! A run is a function of its records, options and seed: every draw comes from a stream keyed by seed and
+//! A run is a function of its records, options and seed. Every draw comes from a stream keyed by seed and
 //! step, and sums are taken in a fixed order. On a graphics card the same holds except for the last bits.
 
 mod checkpoint;

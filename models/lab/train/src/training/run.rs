@@ -63,7 +63,7 @@ pub struct TrainOptions<A = Architecture> {
     pub resume: bool,
     /// Seed of the weights, the batches and the noise.
     pub seed: u64,
-    /// Ends the run after this time, with the rate falling accordingly; the result then depends on the speed
+    /// Ends the run after this time, with the rate decaying accordingly; the result then depends on the speed
     /// of the machine.
     pub minutes: Option<f64>,
     /// Steps between two validations, each followed by a save.

@@ -366,7 +366,7 @@ fn drawn(output: &AgentOutput, rng: &mut Stream) -> usize {
     mode_at(&loss::softmax(&output.score).map(f64::from), rng.unit())
 }
 
-/// In half of the records, one mode gets a speed change that the initializer would not give: the generator
+/// In half of the records, one mode gets a speed change that the initializer would not give. The generator
 /// makes such futures if two coincide, and refinement must keep them different.
 fn take_by_surprise(route: &ResidualBasis, record: &Record, draft: &mut Modes, rng: &mut Stream) {
     let [takes, mode, rate, until] = std::array::from_fn(|_| rng.unit());

@@ -1,5 +1,5 @@
-//! Shards of a batch on several threads. A batch is cut into shards of a fixed size and their results
-//! are summed in order, so the sums do not depend on the number of threads.
+//! Shards of a batch on several threads. A batch is cut into shards of a fixed size. Their results are summed
+//! in order, so the sums do not depend on the number of threads.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

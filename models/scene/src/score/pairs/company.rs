@@ -20,8 +20,8 @@ const HITCH_PLAY_M: f64 = 1.0;
 /// Shortest distance that they drive together, metres: cars of a standing queue are no trailers.
 const HITCH_TRAVEL_M: f64 = 2.0;
 
-/// Whether two walkers keep together around this step: near each other and equally fast, side by side, behind
-/// each other or standing, for most of two seconds before and after.
+/// Whether two walkers keep together around this step. They are near each other and equally fast, walking or
+/// standing, for most of two seconds before and after.
 pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
     if a.agent_type != AgentType::Pedestrian || b.agent_type != AgentType::Pedestrian {
         return false;

@@ -56,7 +56,7 @@ impl Nearest {
         }
     }
 
-    /// Whether the near miss lasts longer than a moment of a turn.
+    /// Whether one crosses close to the other, or the collision course lasts for [`LEAST_COURSE`] steps.
     pub(super) fn lasts(&self) -> bool {
         self.crosses || self.steps >= LEAST_COURSE
     }
