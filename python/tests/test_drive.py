@@ -34,7 +34,7 @@ def standing(scene: Scene, ego: str) -> _drive.Planner:
 
 
 def test_a_film_has_what_was_driven(scene: Scene) -> None:
-    driven = dragtraffic.drive(scene, _drive.found(IDM), "4", seconds=4.0, seed=3)
+    driven = dragtraffic.drive(scene, _drive.found(IDM), "4", seconds=4.0, seed=1)
     assert driven.egos == ["4"] and len(driven.steps) == 41
     document = driven.film.document
     assert document["time"]["steps"] == 41 and not document.get("generated")
@@ -47,7 +47,7 @@ def test_a_film_has_what_was_driven(scene: Scene) -> None:
     moved = numpy.hypot(tracks["4"]["x_m"][-1] - tracks["4"]["x_m"][0], tracks["4"]["y_m"][-1] - tracks["4"]["y_m"][0])
     assert 10 < moved < 40, "it drives along its lane"
     assert not [fault for fault in driven.faults if fault["agent"] == "4"]
-    again = dragtraffic.drive(scene, _drive.found(IDM), 4, seconds=4.0, seed=3)
+    again = dragtraffic.drive(scene, _drive.found(IDM), 4, seconds=4.0, seed=1)
     assert again.film.document == document, "equal planners and seeds give equal films"
 
 
