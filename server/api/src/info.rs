@@ -88,7 +88,7 @@ impl ProgramInfo {
         }
     }
 
-    /// The same of a program that keeps scenes in a file of this version.
+    /// Adds the version of the file of saved scenes.
     #[must_use]
     pub fn with_store(mut self, version: u64) -> Self {
         self.versions.store = Some(version);

@@ -1,6 +1,6 @@
 //! File descriptors of the process: each connection takes one.
 
-/// Descriptors for everything except these connections: the store, its readers, written files, libraries, and the
+/// Descriptors for everything except client connections: the store, its readers, written files, libraries, and the
 /// connections of probes.
 #[cfg(target_os = "linux")]
 const OTHERS: u64 = 96;

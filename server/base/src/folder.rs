@@ -40,7 +40,7 @@ impl HeldFile {
     }
 }
 
-/// By which a change of a file is recognised.
+/// Length and time of a file, by which changes are detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileStamp {
     /// Its length.

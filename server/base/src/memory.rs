@@ -1,12 +1,18 @@
 //! One memory budget for bodies, WebSockets, imports, exports, replies, runs and caches. Requests that do not
 //! fit are refused, so that the system does not kill the process.
 
+use api::{Code, Problem};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Memory of the program itself: code, weights, threads, the store's cache, and the work of the pool.
 /// Measured: 92 MB at rest, 190 MB with calls of the largest kinds.
 pub const OWN_BYTES: u64 = 256 << 20;
+
+/// The refusal of a request that does not fit.
+pub fn full() -> Problem {
+    Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1)
+}
 
 /// A cache of values that can be recomputed, such as open scenes; it makes room for data that cannot.
 pub trait Lender: Send + Sync {

@@ -298,7 +298,7 @@ fn open_browser(url: &str) {
     }
 }
 
-/// Connections of the address of probes.
+/// Maximum number of connections to `--ops-address`.
 const PROBES: u64 = 16;
 
 /// Answers `/healthz`, `/readyz` and `/metrics` on a separate address, without token.

@@ -11,7 +11,7 @@ use axum::extract::{FromRef, FromRequest, Request};
 use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Response};
 use base::limits::Limits;
-use base::memory::{Memory, MemoryShare};
+use base::memory::{self, Memory, MemoryShare};
 use base::party::Party;
 use base::places::{SharedPlaces, TakenPlace};
 use base::problem::{ENCODINGS, Refusal};
@@ -117,8 +117,7 @@ impl Room {
         if (held.bytes() + bytes) as u64 > most {
             return Err(too_large(most));
         }
-        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
-        held.grow(bytes).then_some(()).ok_or_else(full)
+        held.grow(bytes).then_some(()).ok_or_else(memory::full)
     }
 
     /// Takes memory for work that needs up to `bytes` beyond its body, for as long as the result is kept.
@@ -126,8 +125,7 @@ impl Room {
     /// # Errors
     /// `busy` if they do not fit now.
     pub fn work(&self, bytes: u64) -> Result<MemoryShare, Problem> {
-        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
-        usize::try_from(bytes).ok().and_then(|bytes| self.memory.take(bytes)).ok_or_else(full)
+        usize::try_from(bytes).ok().and_then(|bytes| self.memory.take(bytes)).ok_or_else(memory::full)
     }
 }
 

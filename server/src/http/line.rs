@@ -12,7 +12,7 @@ use axum::http::{HeaderMap, HeaderValue, Method, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use base::base_path;
 use base::limits::Limits;
-use base::memory::MemoryShare;
+use base::memory::{self, MemoryShare};
 use base::problem::{ProblemDoc, Refusal};
 use futures_util::{FutureExt, SinkExt, StreamExt};
 use http_body_util::BodyExt;
@@ -420,11 +420,11 @@ impl Line {
                             None
                         }
                         refused => {
-                            let detail = match refused {
-                                None => "Too many questions wait on this line.",
-                                Some(_) => "Other requests fill the memory.",
+                            let detail = "Too many questions wait on this line.";
+                            let problem = match refused {
+                                None => Problem::new(Code::Busy, detail).retry_after(RETRY_AFTER_S),
+                                Some(_) => memory::full(),
                             };
-                            let problem = Problem::new(Code::Busy, detail).retry_after(RETRY_AFTER_S);
                             Some(ServerMessage::failed(number, problem))
                         }
                     }

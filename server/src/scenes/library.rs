@@ -13,7 +13,7 @@ use base::cache::Cache;
 use base::clock;
 use base::folder::{DataFolder, FileStamp, HeldFile};
 use base::id;
-use base::memory::Memory;
+use base::memory::{self, Memory};
 use base::netconvert::companions;
 use base::party::Party;
 use formats::table;
@@ -27,8 +27,9 @@ use work::Pool;
 
 /// Limit of files from the data folder.
 const MOST_FILES: usize = 5_000;
-/// Time between two looks at the data folder; at least this multiple of the time of a look.
+/// Shortest time between two looks at the data folder.
 const LOOK_EVERY: Duration = Duration::from_secs(2);
+/// The time between two looks is at least this multiple of the duration of a look.
 const REST: u32 = 50;
 
 #[derive(Clone, Debug)]
@@ -132,8 +133,7 @@ impl Library {
             return Ok(Some(known));
         }
         let bytes = usize::try_from(entry.item.bytes).unwrap_or(usize::MAX);
-        let full = || Problem::new(Code::Busy, "Other requests fill the memory.").retry_after(1);
-        let held = self.0.memory.take(bytes).ok_or_else(full)?;
+        let held = self.0.memory.take(bytes).ok_or_else(memory::full)?;
         let file = match (&entry.place, &self.0.folder) {
             // A file that has grown since is another one.
             (ScenePlace::File(name, _), Some(folder)) => {

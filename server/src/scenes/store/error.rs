@@ -2,6 +2,7 @@
 
 use super::migrations;
 use api::{Code, Problem};
+use base::memory;
 use base::problem::Refusal;
 use rusqlite::ErrorCode;
 
@@ -89,7 +90,7 @@ impl From<StoreError> for Problem {
                 let detail = format!("The scene belongs to \"{owner}\", who does not share it for this.");
                 Self::new(Code::Forbidden, detail)
             }
-            StoreError::NoMemory => Self::new(Code::Busy, "Other requests fill the memory.").retry_after(1),
+            StoreError::NoMemory => memory::full(),
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
             StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {
                 Self::new(Code::StoreFull, "The disk is full.")
