@@ -1,52 +1,49 @@
 //! Writes XML: elements close in reverse order, and text is always escaped.
 
-use crate::written::FileBounds;
-use std::fmt::{Display, Write};
-use std::io;
+use crate::written::{BoundedFile, FileBounds};
+use std::fmt::{Display, Write as _};
+use std::io::{self, Write as _};
 
-/// Bytes of a part of a document: a single text would take three times its size while it grows.
-const PART_BYTES: usize = 1 << 20;
+/// Bytes of text that are given to the file at once.
+const TEXT_BYTES: usize = 1 << 16;
 
 /// A document that is being written.
 pub(crate) struct Markup {
-    /// Finished parts.
-    parts: Vec<String>,
-    /// The current part.
+    /// The document so far, without the text below. Text beyond its limits is dropped.
+    file: BoundedFile,
     text: String,
     open: Vec<&'static str>,
-    /// Limits of the document. Text beyond them is dropped, and the document is refused at its end.
-    bounds: FileBounds,
-    bytes: u64,
+    /// Refusal of a document that is beyond its limits.
+    refused: Option<io::Error>,
 }
 
 impl Markup {
     /// An empty document within bounds.
     pub fn new(bounds: FileBounds) -> Self {
         let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-        Self { parts: Vec::new(), text, open: Vec::new(), bounds, bytes: 0 }
+        Self { file: BoundedFile::new(bounds), text, open: Vec::new(), refused: None }
     }
 
-    /// Finishes the current part if it is long enough.
-    fn part(&mut self) {
-        if self.text.len() >= PART_BYTES {
-            self.bytes += self.text.len() as u64;
-            let part = std::mem::take(&mut self.text);
-            if self.check().is_ok() {
-                self.parts.push(part);
-            }
+    /// Gives the text to the file.
+    fn give(&mut self) {
+        if self.refused.is_none() {
+            self.refused = self.file.write_all(self.text.as_bytes()).err();
         }
+        self.text.clear();
     }
 
     /// Refuses a document that would be refused at its end, so that no more of it is written.
     ///
     /// # Errors
     /// Those of [`FileBounds::check`].
-    pub fn check(&self) -> io::Result<()> {
-        self.bounds.check(self.bytes)
+    pub fn check(&mut self) -> io::Result<()> {
+        self.refused.take().map_or_else(|| self.file.check(), Err)
     }
 
     fn start(&mut self, name: &'static str, attributes: &[(&str, &str)]) {
-        self.part();
+        if self.text.len() >= TEXT_BYTES {
+            self.give();
+        }
         let _ = write!(self.text, "{:1$}<{name}", "", 2 * self.open.len());
         for (attribute, value) in attributes {
             let _ = write!(self.text, " {attribute}=\"{}\"", escaped(value));
@@ -83,16 +80,13 @@ impl Markup {
     ///
     /// # Errors
     /// Those of [`FileBounds::check`].
-    pub fn finish(mut self) -> io::Result<Vec<u8>> {
+    pub fn finish(mut self) -> io::Result<BoundedFile> {
         while !self.open.is_empty() {
             self.close();
         }
-        let bytes = self.bytes + self.text.len() as u64;
-        self.bounds.check(bytes)?;
-        let mut whole = Vec::with_capacity(bytes as usize);
-        self.parts.push(self.text);
-        self.parts.into_iter().for_each(|part| whole.extend(part.into_bytes()));
-        Ok(whole)
+        self.give();
+        self.check()?;
+        Ok(self.file)
     }
 }
 
@@ -134,7 +128,7 @@ mod tests {
         markup.open("a", &[("x", "1\"><b/>")]);
         markup.leaf("c", "</c>&\u{0}\n");
         markup.empty("d", &[]);
-        let text = String::from_utf8(markup.finish().unwrap()).unwrap();
+        let text = String::from_utf8(markup.finish().and_then(BoundedFile::whole).unwrap()).unwrap();
         let expected = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<a x=\"1&quot;&gt;&lt;b/&gt;\">\n  \
                         <c>&lt;/c&gt;&amp; </c>\n  <d/>\n</a>\n";
         assert_eq!(text, expected);
@@ -142,21 +136,17 @@ mod tests {
     }
 
     #[test]
-    fn a_document_in_parts_is_whole_and_one_beyond_its_bound_is_not_kept() {
+    fn a_long_document_is_whole_and_one_beyond_its_bound_is_refused() {
         let long = "x".repeat(1_000);
         let written = |most: u64| {
             let mut markup = Markup::new(FileBounds::new(most, Cancel::default()));
             (0..5_000).for_each(|_| markup.empty("a", &[("x", &long)]));
-            let kept: usize = markup.parts.iter().map(String::len).sum();
-            (kept, markup.finish())
+            markup.finish().and_then(BoundedFile::whole)
         };
-        let (_, whole) = written(u64::MAX);
-        let whole = whole.unwrap();
+        let whole = written(u64::MAX).unwrap();
         assert_eq!(whole.len(), 39 + 5_000 * 1_010);
         assert!(whole.ends_with(b"x\"/>\n"));
-        let (kept, refused) = written(2_500_000);
-        assert_eq!(refused.unwrap_err().kind(), io::ErrorKind::FileTooLarge);
-        assert!(kept <= 2_500_000, "{kept}");
+        assert_eq!(written(2_500_000).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
         let cancel = Cancel::default();
         let mut left = Markup::new(FileBounds::new(u64::MAX, cancel.clone()));
         left.open("a", &[]);

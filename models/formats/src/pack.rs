@@ -1,7 +1,8 @@
 //! Packs several files of one scene as a zip.
 
+use crate::written::BoundedFile;
 use scene::Scene;
-use std::io::{self, Cursor, Read, Write};
+use std::io::{self, Cursor, Read};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
@@ -37,14 +38,14 @@ pub fn unzipped(bytes: &[u8]) -> io::Result<Vec<(String, Vec<u8>)>> {
 }
 
 /// Packs files by name. Equal files give equal bytes, whenever they are packed.
-pub(crate) fn zip(files: &[(String, Vec<u8>)]) -> io::Result<Vec<u8>> {
+pub(crate) fn zip(files: Vec<(String, BoundedFile)>) -> io::Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let how = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default());
-    for (name, bytes) in files {
+    for (name, file) in files {
         zip.start_file(name.as_str(), how)?;
-        zip.write_all(bytes)?;
+        file.write_to(&mut zip)?;
     }
     Ok(zip.finish()?.into_inner())
 }

@@ -1,8 +1,11 @@
 //! Exported files, limited in bytes, for as long as a caller waits for them.
 
 use crate::refusals;
+use flate2::Compression;
+use flate2::read::DeflateDecoder;
+use flate2::write::DeflateEncoder;
 use scene::Cancel;
-use std::io;
+use std::io::{self, Write as _};
 
 /// Refusal of a file of more than `most` bytes.
 fn too_long(bytes: u64, most: u64) -> io::Error {
@@ -46,24 +49,93 @@ impl Default for FileBounds {
     }
 }
 
+/// Bytes of a part of a file.
+const PART_BYTES: usize = 1 << 20;
+/// Parts that stay as they are. Further ones are packed until the file is complete, because a long file may
+/// turn out to be too long.
+const PLAIN_PARTS: usize = 8;
+
+/// A part of a file.
+enum FilePiece {
+    Plain(Vec<u8>),
+    /// Deflated.
+    Packed(Vec<u8>),
+}
+
 /// A file in memory within limits.
 pub(crate) struct BoundedFile {
-    /// Its bytes so far.
-    pub bytes: Vec<u8>,
+    pieces: Vec<FilePiece>,
+    /// The current part.
+    part: Vec<u8>,
+    /// Bytes of the finished parts.
+    bytes: u64,
     bounds: FileBounds,
 }
 
 impl BoundedFile {
     /// An empty file.
     pub fn new(bounds: FileBounds) -> Self {
-        Self { bytes: Vec::new(), bounds }
+        Self { pieces: Vec::new(), part: Vec::new(), bytes: 0, bounds }
+    }
+
+    /// Refuses a file that is already too long, or for which nobody waits any more.
+    ///
+    /// # Errors
+    /// Those of [`FileBounds::check`].
+    pub fn check(&self) -> io::Result<()> {
+        self.bounds.check(self.bytes + self.part.len() as u64)
+    }
+
+    /// Finishes the current part.
+    fn end_part(&mut self) -> io::Result<()> {
+        self.bytes += self.part.len() as u64;
+        let piece = if self.pieces.len() < PLAIN_PARTS {
+            FilePiece::Plain(self.part.clone())
+        } else {
+            let mut packed = DeflateEncoder::new(Vec::new(), Compression::fast());
+            packed.write_all(&self.part)?;
+            FilePiece::Packed(packed.finish()?)
+        };
+        self.pieces.push(piece);
+        self.part.clear();
+        Ok(())
+    }
+
+    /// The file in one piece.
+    ///
+    /// # Errors
+    /// Those of [`FileBounds::check`].
+    pub fn whole(self) -> io::Result<Vec<u8>> {
+        self.check()?;
+        let mut whole = Vec::with_capacity(self.bytes as usize + self.part.len());
+        self.write_to(&mut whole)?;
+        Ok(whole)
+    }
+
+    /// Writes the file, part by part.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_to(self, out: &mut impl io::Write) -> io::Result<()> {
+        for piece in self.pieces {
+            match piece {
+                FilePiece::Plain(bytes) => out.write_all(&bytes)?,
+                FilePiece::Packed(packed) => {
+                    io::copy(&mut DeflateDecoder::new(packed.as_slice()), out)?;
+                }
+            }
+        }
+        out.write_all(&self.part)
     }
 }
 
 impl io::Write for BoundedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.bounds.check((self.bytes.len() + bytes.len()) as u64)?;
-        self.bytes.extend_from_slice(bytes);
+        self.bounds.check(self.bytes + (self.part.len() + bytes.len()) as u64)?;
+        self.part.extend_from_slice(bytes);
+        if self.part.len() >= PART_BYTES {
+            self.end_part()?;
+        }
         Ok(bytes.len())
     }
 
@@ -74,7 +146,7 @@ impl io::Write for BoundedFile {
 
 #[cfg(test)]
 mod tests {
-    use super::{BoundedFile, FileBounds};
+    use super::{BoundedFile, FileBounds, FilePiece};
     use scene::Cancel;
     use std::io::{self, Write};
 
@@ -85,10 +157,23 @@ mod tests {
         file.write_all(b"abc").unwrap();
         assert_eq!(file.write_all(b"def").unwrap_err().kind(), io::ErrorKind::FileTooLarge);
         file.write_all(b"de").unwrap();
-        assert_eq!(file.bytes, b"abcde");
+        assert_eq!(file.whole().unwrap(), b"abcde");
         let mut left = BoundedFile::new(FileBounds::new(5, cancel.clone()));
         left.write_all(b"abc").unwrap();
         cancel.cancel();
         assert_eq!(left.write_all(b"d").unwrap_err().kind(), io::ErrorKind::ConnectionAborted);
+    }
+
+    #[test]
+    fn a_long_file_is_packed_until_it_is_complete() {
+        let mut file = BoundedFile::new(FileBounds::default());
+        let lines: Vec<String> = (0..2_000_000).map(|i| format!("{i:9}\n")).collect();
+        lines.iter().for_each(|line| file.write_all(line.as_bytes()).unwrap());
+        let kept = |piece: &FilePiece| match piece {
+            FilePiece::Plain(bytes) | FilePiece::Packed(bytes) => bytes.len(),
+        };
+        let kept: usize = file.pieces.iter().map(kept).sum();
+        assert!(kept < 12 << 20, "{kept} of 20 MB");
+        assert_eq!(file.whole().unwrap(), lines.concat().into_bytes());
     }
 }

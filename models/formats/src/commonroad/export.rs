@@ -79,7 +79,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         losses.insert(Loss::new(code::NO_NOTES, detail));
     }
     losses.extend(unwritten::futures(scene, options.motion));
-    Ok(Exported { bytes: out.finish()?, losses: losses.into_iter().collect() })
+    Ok(Exported { bytes: out.finish()?.whole()?, losses: losses.into_iter().collect() })
 }
 
 /// The day on which the futures were made, if it is known.

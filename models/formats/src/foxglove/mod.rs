@@ -11,6 +11,7 @@ use crate::loss::{Loss, code};
 use crate::source::Source;
 use mcap::McapWriter;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io;
@@ -69,9 +70,9 @@ fn log(scene: &Scene, options: &ExportOptions) -> io::Result<Vec<u8>> {
     let map = file.channel("/map", update);
     let signals = file.channel("/signals", update);
     let users = file.channel("/road_users", update);
-    let put = |file: &mut McapWriter, channel: u16, step: usize, message: &Value| {
-        file.message(channel, step as u64 * STEP_NS, message.to_string().as_bytes())
-    };
+    fn put(file: &mut McapWriter, channel: u16, step: usize, message: &impl Serialize) -> io::Result<()> {
+        file.message(channel, step as u64 * STEP_NS, &serde_json::to_vec(message)?)
+    }
     put(&mut file, frames, 0, &scene_update::transform(scene))?;
     put(&mut file, map, 0, &scene_update::map(&scene.map))?;
     let bounds = options.bounds();

@@ -3,6 +3,7 @@
 use super::time;
 use scene::map::{Area, LaneMap};
 use scene::{Agent, AgentType, Scene, Shown, Size, State, Subtype, Vec2};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 /// The frame of all entities.
@@ -40,46 +41,103 @@ fn colour([r, g, b]: [u8; 3], a: f64) -> Value {
     json!({"r": part(r), "g": part(g), "b": part(b), "a": a})
 }
 
-/// An entity with only these primitives.
-fn entity(id: &str, step: usize, primitives: &[(&str, Vec<Value>)], metadata: Vec<Value>) -> Value {
-    let mut entity = json!({
-        "timestamp": time(step),
-        "frame_id": FRAME,
-        "id": id,
-        "lifetime": {"sec": 0, "nsec": 0},
-        "frame_locked": false,
-        "metadata": metadata,
-    });
-    for kind in ["arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"] {
-        let list = primitives.iter().find(|(name, _)| *name == kind);
-        entity[kind] = json!(list.map(|(_, list)| list.as_slice()).unwrap_or_default());
+/// Message of a topic: what it shows from a step on.
+#[derive(Serialize)]
+pub(super) struct SceneUpdate<'a> {
+    deletions: [Value; 1],
+    entities: Vec<Entity<'a>>,
+}
+
+/// An object with its primitives.
+#[derive(Serialize)]
+struct Entity<'a> {
+    timestamp: Value,
+    frame_id: &'static str,
+    id: String,
+    lifetime: Value,
+    frame_locked: bool,
+    metadata: Vec<Value>,
+    #[serde(flatten)]
+    primitives: Primitives<'a>,
+}
+
+/// Primitives by kind; those of a kind that is not used are empty.
+#[derive(Default, Serialize)]
+struct Primitives<'a> {
+    arrows: [Value; 0],
+    cubes: Vec<Value>,
+    spheres: Vec<Value>,
+    cylinders: Vec<Value>,
+    lines: Vec<Line<'a>>,
+    triangles: [Value; 0],
+    texts: Vec<Value>,
+    models: [Value; 0],
+}
+
+/// `foxglove.LinePrimitive`. Its points are written from the map: a tree of values for each takes 30 times
+/// their memory.
+#[derive(Serialize)]
+struct Line<'a> {
+    r#type: u8,
+    pose: Value,
+    thickness: f64,
+    scale_invariant: bool,
+    #[serde(serialize_with = "on_the_ground")]
+    points: &'a [Vec2],
+    color: Value,
+    colors: [Value; 0],
+    indices: [u32; 0],
+}
+
+fn on_the_ground<S: Serializer>(points: &[Vec2], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Point {
+        x: f64,
+        y: f64,
+        z: f64,
     }
-    entity
+    serializer.collect_seq(points.iter().map(|p| Point { x: p.x, y: p.y, z: 0.0 }))
 }
 
-fn update(step: usize, entities: &[Value]) -> Value {
-    json!({"deletions": [{"timestamp": time(step), "type": ALL, "id": ""}], "entities": entities})
+fn entity(
+    id: impl Into<String>,
+    step: usize,
+    primitives: Primitives<'_>,
+    metadata: Vec<Value>,
+) -> Entity<'_> {
+    Entity {
+        timestamp: time(step),
+        frame_id: FRAME,
+        id: id.into(),
+        lifetime: json!({"sec": 0, "nsec": 0}),
+        frame_locked: false,
+        metadata,
+        primitives,
+    }
 }
 
-fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> Value {
-    let points: Vec<Value> = points.iter().map(|p| json!({"x": p.x, "y": p.y, "z": 0.0})).collect();
-    json!({
-        "type": if closed { LOOP } else { STRIP },
-        "pose": pose(Vec2::zeros(), 0.0, 0.0),
-        "thickness": width_m,
-        "scale_invariant": false,
-        "points": points,
-        "color": colour,
-        "colors": [],
-        "indices": [],
-    })
+fn update(step: usize, entities: Vec<Entity<'_>>) -> SceneUpdate<'_> {
+    SceneUpdate { deletions: [json!({"timestamp": time(step), "type": ALL, "id": ""})], entities }
+}
+
+fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> Line<'_> {
+    Line {
+        r#type: if closed { LOOP } else { STRIP },
+        pose: pose(Vec2::zeros(), 0.0, 0.0),
+        thickness: width_m,
+        scale_invariant: false,
+        points,
+        color: colour,
+        colors: [],
+        indices: [],
+    }
 }
 
 /// The road: an entity for each kind of line.
-pub(super) fn map(map: &LaneMap) -> Value {
-    let areas = |list: &[Area], shade: [u8; 3]| -> Vec<Value> {
+pub(super) fn map(map: &LaneMap) -> SceneUpdate<'_> {
+    fn areas(list: &[Area], shade: [u8; 3]) -> Vec<Line<'_>> {
         list.iter().map(|area| line(&area.polygon.xy, true, 0.2, colour(shade, 1.0))).collect()
-    };
+    }
     let lanes =
         map.lanes.iter().map(|lane| line(&lane.points.xy, false, 0.1, colour([0x86, 0x8e, 0x98], 0.6)));
     let paint = map.road_lines.iter().map(|painted| {
@@ -98,22 +156,24 @@ pub(super) fn map(map: &LaneMap) -> Value {
             "top_scale": 1.0,
         })
     });
-    let lines: [(&str, Vec<Value>); 5] = [
+    let lines: [(&str, Vec<Line<'_>>); 5] = [
         ("lanes", lanes.collect()),
         ("road_lines", paint.collect()),
         ("road_edges", edges.collect()),
         ("crosswalks", areas(&map.crosswalks, [0xff, 0xff, 0xff])),
         ("drivable", areas(&map.drivable, [0xb4, 0xba, 0xc2])),
     ];
-    let entities = lines.into_iter().filter(|(_, list)| !list.is_empty());
-    let mut entities: Vec<Value> =
-        entities.map(|(id, list)| entity(id, 0, &[("lines", list)], Vec::new())).collect();
-    entities.push(entity("stop_signs", 0, &[("cylinders", stops.collect())], Vec::new()));
-    update(0, &entities)
+    let lines = lines.into_iter().filter(|(_, list)| !list.is_empty());
+    let drawn = |lines| Primitives { lines, ..Primitives::default() };
+    let mut entities: Vec<Entity<'_>> =
+        lines.map(|(id, list)| entity(id, 0, drawn(list), Vec::new())).collect();
+    let stops = Primitives { cylinders: stops.collect(), ..Primitives::default() };
+    entities.push(entity("stop_signs", 0, stops, Vec::new()));
+    update(0, entities)
 }
 
 /// Signal states at a step.
-pub(super) fn signals(scene: &Scene, step: usize) -> Value {
+pub(super) fn signals(scene: &Scene, step: usize) -> SceneUpdate<'_> {
     let lit = |(i, signal): (usize, &scene::Signal)| {
         let at = signal.stop.or_else(|| {
             let lane = scene.map.lane_index(&signal.lane)?;
@@ -135,14 +195,14 @@ pub(super) fn signals(scene: &Scene, step: usize) -> Value {
             json!({"key": "lane", "value": signal.lane}),
             json!({"key": "state", "value": json!(state).as_str().unwrap_or_default()}),
         ];
-        Some(entity(&format!("signal-{i}"), step, &[("spheres", vec![sphere])], about))
+        let lamp = Primitives { spheres: vec![sphere], ..Primitives::default() };
+        Some(entity(format!("signal-{i}"), step, lamp, about))
     };
-    let entities: Vec<Value> = scene.signals.iter().enumerate().filter_map(lit).collect();
-    update(step, &entities)
+    update(step, scene.signals.iter().enumerate().filter_map(lit).collect())
 }
 
 /// Road users at a step.
-pub(super) fn users(tracks: &[(&Agent, Shown<'_>)], step: usize) -> Value {
+pub(super) fn users<'a>(tracks: &[(&Agent, Shown<'_>)], step: usize) -> SceneUpdate<'a> {
     let seen = |(agent, shown): &(&Agent, Shown<'_>)| {
         let state = shown.track.at(step)?;
         let log = &agent.track;
@@ -150,12 +210,11 @@ pub(super) fn users(tracks: &[(&Agent, Shown<'_>)], step: usize) -> Value {
         let z_m = heights.and_then(|(z, slot)| z.get(slot)).copied();
         Some(user(agent, shown, state, z_m, step))
     };
-    let entities: Vec<Value> = tracks.iter().filter_map(seen).collect();
-    update(step, &entities)
+    update(step, tracks.iter().filter_map(seen).collect())
 }
 
 /// A road user as a box that stands on the ground; recorded heights are those of its centre.
-fn user(agent: &Agent, shown: &Shown<'_>, state: &State, z_m: Option<f64>, step: usize) -> Value {
+fn user<'a>(agent: &Agent, shown: &Shown<'_>, state: &State, z_m: Option<f64>, step: usize) -> Entity<'a> {
     let usual = Size::default_for(shown.agent_type, agent.subtype);
     let height_m = shown.size.height_m.or(usual.height_m).unwrap_or(1.7);
     let shade = match shown.agent_type {
@@ -187,5 +246,6 @@ fn user(agent: &Agent, shown: &Shown<'_>, state: &State, z_m: Option<f64>, step:
     if agent.subtype != Subtype::Unknown {
         about.push(json!({"key": "subtype", "value": json!(agent.subtype).as_str().unwrap_or_default()}));
     }
-    entity(&agent.id, step, &[("cubes", vec![cube]), ("texts", vec![text])], about)
+    let drawn = Primitives { cubes: vec![cube], texts: vec![text], ..Primitives::default() };
+    entity(agent.id.as_str(), step, drawn, about)
 }

@@ -60,7 +60,7 @@ impl Format for GeoJson {
         } else {
             write(scene, options, &mut file)?;
         }
-        Ok(Exported { bytes: file.bytes, losses: lost(scene, options.motion) })
+        Ok(Exported { bytes: file.whole()?, losses: lost(scene, options.motion) })
     }
 }
 

@@ -8,6 +8,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::polyline::{arc_lengths, distance_to, length};
 use crate::sentences;
+use crate::written::BoundedFile;
 use scene::geometry::polyline::Polyline;
 use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::map::{LaneMap, LaneType};
@@ -49,6 +50,15 @@ pub(crate) fn light_id(signal: usize) -> String {
 /// # Errors
 /// `InvalidInput` for a scene without a lane, since a map needs a road.
 pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
+    let (file, losses) = document(scene, options)?;
+    Ok(Exported { bytes: file.whole()?, losses })
+}
+
+/// The file, with its losses.
+///
+/// # Errors
+/// Those of [`write`].
+pub(crate) fn document(scene: &Scene, options: &ExportOptions) -> io::Result<(BoundedFile, Vec<Loss>)> {
     let drawn = roads(&scene.map);
     if drawn.roads.iter().all(|road| length(&road.points) < SHORTEST_M) {
         let message = crate::refusals::file_needs("OpenDRIVE", crate::refusals::what::LANE);
@@ -69,7 +79,7 @@ pub(crate) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         write_junction(*number, connecting, (&drawn, rule), &mut out);
     }
     out.close();
-    Ok(Exported { bytes: out.finish()?, losses: losses(scene, &drawn, off_m) })
+    Ok((out.finish()?, losses(scene, &drawn, off_m)))
 }
 
 fn header(scene: &Scene, out: &mut Markup) {

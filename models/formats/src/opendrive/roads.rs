@@ -114,7 +114,11 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     // Connecting roads, with the lanes that they connect.
     let mut connecting: Vec<(usize, usize, usize)> =
         connectors.iter().map(|(road, (from, to))| (*road, *from, *to)).collect();
-    for (a, b) in &links {
+    let cut_off = links.iter().filter(|(_, b)| cut.contains(b)).count();
+    connecting.reserve_exact(cut_off);
+    all.reserve_exact(cut_off);
+    for (a, b) in links {
+        let (a, b) = (&a, &b);
         if connectors.contains_key(a) || connectors.contains_key(b) {
             continue;
         }
@@ -145,12 +149,9 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     for (i, from, to) in &connecting {
         let junction = groups.root(end_of(*from));
         junctions.entry(junction).or_default().push(*i);
-        all[*i] = Road {
-            junction: Some(junction),
-            predecessor: Some(RoadLink::Road(*from)),
-            successor: Some(RoadLink::Road(*to)),
-            ..all[*i].clone()
-        };
+        let road = &mut all[*i];
+        road.junction = Some(junction);
+        (road.predecessor, road.successor) = (Some(RoadLink::Road(*from)), Some(RoadLink::Road(*to)));
         all[*from].successor = Some(RoadLink::Junction(junction));
         all[*to].predecessor = Some(RoadLink::Junction(junction));
     }

@@ -18,18 +18,18 @@ fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let mut losses = BTreeSet::new();
     let map = match scene.map.lanes.is_empty() {
         true => None,
-        false => Some(opendrive::export::write(scene, options)?),
+        false => Some(opendrive::export::document(scene, options)?),
     };
     let road_file = map.as_ref().map(|_| format!("{name}.xodr"));
     let scenario = scenario::write(scene, options, road_file.as_deref(), &mut losses)?;
     let mut files = vec![(format!("{name}.xosc"), scenario)];
-    if let (Some(map), Some(file)) = (map, road_file) {
-        files.push((file, map.bytes));
+    if let (Some((map, lost)), Some(file)) = (map, road_file) {
+        files.push((file, map));
         let elsewhere = [code::NO_SIGNALS, code::NO_ROAD_USERS];
-        losses.extend(map.losses.into_iter().filter(|loss| !elsewhere.contains(&loss.code)));
+        losses.extend(lost.into_iter().filter(|loss| !elsewhere.contains(&loss.code)));
     }
     let losses: Vec<Loss> = losses.into_iter().collect();
-    Ok(Exported { bytes: pack::zip(&files)?, losses })
+    Ok(Exported { bytes: pack::zip(files)?, losses })
 }
 
 impl Format for OpenScenario {

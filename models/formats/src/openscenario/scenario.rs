@@ -5,6 +5,7 @@ use crate::format::ExportOptions;
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::unwritten;
+use crate::written::BoundedFile;
 use scene::geometry::direction;
 use scene::{Agent, AgentType, STEP_S, Scene, Shown, Size, State, Subtype};
 use std::collections::{BTreeSet, HashSet};
@@ -58,7 +59,7 @@ pub(super) fn write(
     options: &ExportOptions,
     road_file: Option<&str>,
     losses: &mut BTreeSet<Loss>,
-) -> io::Result<Vec<u8>> {
+) -> io::Result<BoundedFile> {
     let written = road_users(scene, options, losses);
     let end =
         written.iter().map(ScenarioEntity::last_step).fold(scene.time.steps.saturating_sub(1), usize::max);

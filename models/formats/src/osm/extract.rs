@@ -9,7 +9,7 @@ use crate::problem::{ReadError, at_most};
 use crate::projection::TransverseMercator;
 use crate::refusals::{self, what};
 use crate::source::Source;
-use crate::written::FileBounds;
+use crate::written::{BoundedFile, FileBounds};
 use scene::Vec2;
 use std::collections::HashSet;
 
@@ -111,7 +111,7 @@ pub(crate) fn read(file: &dyn Source, chosen: &mut Chosen) -> Result<Extract, Re
     else {
         return Err(ReadError::map_too_large(refusals::roads_too_far(reach_deg * 111.0)));
     };
-    let xml = out.finish().map_err(|error| crate::unpack::fault(&error, 0))?;
+    let xml = out.finish().and_then(BoundedFile::whole).map_err(|error| crate::unpack::fault(&error, 0))?;
     Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
 }
 

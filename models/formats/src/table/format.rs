@@ -136,7 +136,7 @@ fn to_csv(named: &[(&Scene, String)], options: &ExportOptions) -> io::Result<Vec
     } else {
         write::csv(named, options, &mut file)?;
     }
-    Ok(file.bytes)
+    file.whole()
 }
 
 fn to_parquet(scenes: &[&Scene], named: &[(&Scene, String)], options: &ExportOptions) -> io::Result<Vec<u8>> {

@@ -83,6 +83,6 @@ impl Format for Womd {
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
         let mut file = BoundedFile::new(options.bounds());
         let losses = super::write(scenes, &mut file, options.gzip, options.motion)?;
-        Ok(Exported { bytes: file.bytes, losses })
+        Ok(Exported { bytes: file.whole()?, losses })
     }
 }

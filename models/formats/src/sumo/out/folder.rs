@@ -7,7 +7,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::pack;
 use crate::sentences;
-use crate::written::FileBounds;
+use crate::written::{BoundedFile, FileBounds};
 use scene::{STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
@@ -52,11 +52,11 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
         let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE_OR_USER);
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
-    Ok(Exported { bytes: pack::zip(&files)?, losses: losses.into_iter().collect() })
+    Ok(Exported { bytes: pack::zip(files)?, losses: losses.into_iter().collect() })
 }
 
 /// Configuration for `sumo -c`: length and step of the scene.
-fn configuration(name: &str, steps: usize) -> io::Result<Vec<u8>> {
+fn configuration(name: &str, steps: usize) -> io::Result<BoundedFile> {
     let mut out = Markup::new(FileBounds::default());
     out.open("configuration", &[]);
     out.open("input", &[]);

@@ -8,7 +8,7 @@ use crate::markup::{Markup, decimal};
 use crate::polyline::{distance_to, length, resample};
 use crate::sentences;
 use crate::sumo::map::{MAX_PIECES, SPACING_M};
-use crate::written::FileBounds;
+use crate::written::{BoundedFile, FileBounds};
 use scene::map::{Lane, LaneMap, LaneType};
 use scene::routes::assumed_speed_limit_mps;
 use scene::{STEP_S, Scene, SignalState, Vec2};
@@ -26,7 +26,7 @@ const MOTORWAY: &str = "highway.motorway";
 pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let network = ExportedNetwork::of(scene);
     let (_, steps) = options.motion.all(scene);
-    let Some(bytes) = document(scene, &network, steps, options.bounds())? else {
+    let Some(file) = document(scene, &network, steps, options.bounds())? else {
         let message = crate::refusals::file_needs("SUMO", crate::refusals::what::LANE);
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     };
@@ -39,7 +39,7 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     if !scene.agents.is_empty() {
         losses.push(Loss::new(code::NO_ROAD_USERS, "road users and their motion"));
     }
-    Ok(Exported { bytes, losses })
+    Ok(Exported { bytes: file.whole()?, losses })
 }
 
 /// The file, with signals over this many steps; nothing for a map without lanes.
@@ -48,7 +48,7 @@ pub(super) fn document(
     network: &ExportedNetwork<'_>,
     steps: usize,
     bounds: FileBounds,
-) -> io::Result<Option<Vec<u8>>> {
+) -> io::Result<Option<BoundedFile>> {
     if network.edges.is_empty() {
         return Ok(None);
     }

@@ -8,7 +8,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::sumo::kinds;
 use crate::unwritten;
-use crate::written::FileBounds;
+use crate::written::{BoundedFile, FileBounds};
 use scene::geometry::direction;
 use scene::{Agent, STEP_S, Scene, Shown, State, Vec2};
 use std::io;
@@ -71,14 +71,14 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     if !scene.signals.is_empty() {
         losses.push(Loss::new(code::NO_SIGNALS, "traffic signals"));
     }
-    Ok(Exported { bytes: document(scene, &written, options.bounds())?, losses })
+    Ok(Exported { bytes: document(scene, &written, options.bounds())?.whole()?, losses })
 }
 
 pub(super) fn document(
     scene: &Scene,
     written: &[ExportedAgent<'_>],
     bounds: FileBounds,
-) -> io::Result<Vec<u8>> {
+) -> io::Result<BoundedFile> {
     let frame = Frame::of(&scene.meta.origin);
     let mut out = Markup::new(bounds);
     out.open("fcd-export", &[]);

@@ -5,7 +5,7 @@ use super::net::limit_mps;
 use super::network::{ExportedNetwork, LaneRole};
 use super::recording::ExportedAgent;
 use crate::markup::{Markup, decimal};
-use crate::written::FileBounds;
+use crate::written::{BoundedFile, FileBounds};
 use scene::geometry::wrap_angle;
 use scene::routes::{LaneGraph, LaneHit};
 use scene::{AgentType, STEP_S, Scene, State};
@@ -41,7 +41,7 @@ pub(super) fn write(
     network: &ExportedNetwork<'_>,
     written: &[ExportedAgent<'_>],
     bounds: FileBounds,
-) -> io::Result<(Vec<u8>, usize)> {
+) -> io::Result<(BoundedFile, usize)> {
     let Some(graph) = LaneGraph::unless(&scene.map, &|| bounds.check(0).is_err()) else {
         return Err(io::ErrorKind::ConnectionAborted.into());
     };
