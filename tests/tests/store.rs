@@ -7,6 +7,7 @@ use dragtraffic_tests::random::Random;
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};
+use std::ffi::OsStr;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -122,6 +123,33 @@ fn a_signal_stops_it_in_order() {
     assert!(took < Duration::from_secs(60), "{took:?}");
     let server = Server::start_at(&db, &[]).unwrap();
     assert_eq!(server.get("/v1/scenes/kept").unwrap().status, 200);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_before_the_address_is_printed_stops_it_in_order() {
+    use std::io::{Read, Write};
+    let folder = tempfile::tempdir().unwrap();
+    let socket = folder.path().join("s.sock");
+    let (mut out, mut taken) = std::io::pipe().unwrap();
+    // A pipe holds 64 kB, so the server waits with its address until it is read.
+    taken.write_all(&[b' '; 65_536]).unwrap();
+    let mut command = Server::command(&folder.path().join("scenes.sqlite"), &["--limit", "shutdown_s=600"]);
+    let listen = format!("unix:{}", socket.display());
+    let mut server = command.args(["--listen", &listen]).stdout(taken).spawn().unwrap();
+    // The command has a copy of the pipe.
+    drop(command);
+    let began = Instant::now();
+    while std::os::unix::net::UnixStream::connect(&socket).is_err() {
+        assert!(began.elapsed() < Duration::from_secs(60), "no socket");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let sent = std::process::Command::new("kill").args(["-TERM", &server.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let mut text = String::new();
+    out.read_to_string(&mut text).unwrap();
+    assert!(text.trim().starts_with("DragTraffic is at unix:"), "{}", text.trim());
+    assert_eq!(server.wait().unwrap().code(), Some(0));
 }
 
 #[test]
@@ -278,22 +306,47 @@ fn where_disks_can_be_mounted_a_server_starts_on_a_full_one() {
     }
 }
 
+fn backed_up(db: &Path, copy: &Path) {
+    let args = [OsStr::new("backup"), OsStr::new("--db"), db.as_os_str(), OsStr::new("-o"), copy.as_os_str()];
+    assert!(std::process::Command::new(program()).args(args).status().unwrap().success());
+}
+
+#[test]
+fn another_program_may_write_to_the_store_through_sqlite() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("scenes.sqlite");
+    let server = Server::start_at(&db, &[]).unwrap();
+    saved(&server, "a", &street(2, 20));
+    backed_up(&db, &folder.path().join("copy"));
+    saved(&server, "b", &street(2, 20));
+    let other = rusqlite::Connection::open(&db).unwrap();
+    other.execute("DELETE FROM scenes WHERE id = 'a'", []).unwrap();
+    drop(other);
+    assert_eq!(server.get("/v1/scenes/a").unwrap().status, 404);
+    saved(&server, "c", &street(2, 20));
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_store_that_is_gone_is_not_written_into() {
     type Fault = fn(&Path) -> std::io::Result<()>;
-    let faults: [(&str, Fault); 5] = [
+    let faults: [(&str, Fault); 7] = [
         ("removed", |db| std::fs::remove_file(db)),
         ("replaced", |db| std::fs::remove_file(db).and_then(|()| std::fs::write(db, b"other"))),
         ("emptied", |db| std::fs::write(db, b"")),
         ("without its log", |db| std::fs::remove_file(db.with_extension("sqlite-wal"))),
         ("without the index of its log", |db| std::fs::remove_file(db.with_extension("sqlite-shm"))),
+        // In place, so that name and inode stay.
+        ("overwritten by an older copy", |db| std::fs::copy(db.with_extension("older"), db).map(drop)),
+        ("with an emptied log", |db| std::fs::write(db.with_extension("sqlite-wal"), b"")),
     ];
     for (name, fault) in faults {
         let folder = tempfile::tempdir().unwrap();
         let db = folder.path().join("scenes.sqlite");
         let server = Server::start_at(&db, &[]).unwrap();
         server.wait_ready().unwrap();
+        saved(&server, "old", &street(2, 20));
+        backed_up(&db, &db.with_extension("older"));
         saved(&server, "kept", &street(2, 20));
         fault(&db).unwrap();
         let refused = server.send(&put("lost", ("if-none-match", "*"), &street(2, 20))).unwrap();

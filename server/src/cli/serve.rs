@@ -28,6 +28,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::net::TcpListener;
+use tokio::signal::unix::{SignalKind, signal};
 use work::{Pool, PoolLane};
 
 /// Flags of `serve`.
@@ -145,6 +146,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         common.engine()?;
         return output::print(plan.lines(&args).as_bytes());
     }
+    let stopped = stop_signal()?;
     let ServePlan { mut limits, tokens, proxies, endpoint, ops, db } = plan;
     let wanted = limits.connections;
     limits.connections = descriptors::connections(wanted);
@@ -218,7 +220,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     }
     let pool = Arc::clone(&app.pool);
     let stop = async {
-        stop_signal().await;
+        stopped.await;
         tracing::info!("stopping");
         pool.close();
     };
@@ -326,17 +328,13 @@ fn answer_simulators(port: u16, app: &App) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn stop_signal() {
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut terminate) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => {}
-                _ = terminate.recv() => {}
-            }
-            return;
+/// A request to stop. Registered before this returns, so no later request is missed.
+fn stop_signal() -> std::io::Result<impl Future<Output = ()>> {
+    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
         }
-    }
-    let _ = tokio::signal::ctrl_c().await;
+    })
 }

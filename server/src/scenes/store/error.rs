@@ -56,8 +56,8 @@ pub enum StoreError {
     /// A limit is reached.
     #[error("the store is full: {0}")]
     Full(String),
-    /// The open file has been deleted or replaced.
-    #[error("the store's file was removed or replaced")]
+    /// The open file has been deleted, replaced or overwritten.
+    #[error("the store's file was removed, replaced or overwritten")]
     Gone,
     /// Another process has the file open.
     #[error("another process uses the store; end it first")]
@@ -82,8 +82,8 @@ impl From<StoreError> for Problem {
             }
             StoreError::Gone => {
                 tracing::error!(error = text, "the store is gone");
-                let detail = "The file of saved scenes was removed or replaced. Nothing is saved until the server \
-                              is started again.";
+                let detail = "The file of saved scenes was removed, replaced or overwritten. Nothing is saved \
+                              until the server is started again.";
                 Self::new(Code::StoreUnavailable, detail).retry_after(60)
             }
             StoreError::OfAnother(owner) => {

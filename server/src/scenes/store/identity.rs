@@ -1,15 +1,29 @@
-//! Identity of the open file, so that nothing is written to one that was deleted or replaced.
+//! Identity of the open file, so that nothing is written to one that was deleted, replaced or overwritten.
 
 use super::StoreError;
+use rusqlite::Connection;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::SystemTime;
 
 /// Suffixes of the files that SQLite keeps beside the open store; commits go to the first one.
 const BESIDE: [&str; 2] = ["-wal", "-shm"];
 
 /// Device and inode of a file; `None` on systems without.
 type FileNumber = Option<(u64, u64)>;
+
+/// Length and last change of a file; `None` without one.
+type Stamp = Option<(u64, SystemTime)>;
+
+/// A file of a store as its writer left it.
+#[derive(Debug, PartialEq, Eq)]
+struct LeftState {
+    /// The store and its log.
+    stamps: [Stamp; 2],
+    /// SQLite's number of the changes by other connections.
+    changes: i64,
+}
 
 /// The files of a store by name and, if the system has them, inode.
 #[derive(Debug)]
@@ -18,6 +32,14 @@ pub struct FileIdentity {
     number: FileNumber,
     /// The files beside it, with their first inodes.
     beside: [(PathBuf, OnceLock<FileNumber>); 2],
+    left: Mutex<WriterView>,
+}
+
+/// What the writer knows of changes by others.
+#[derive(Debug, Default)]
+struct WriterView {
+    left: Option<LeftState>,
+    overwritten: bool,
 }
 
 impl FileIdentity {
@@ -34,10 +56,37 @@ impl FileIdentity {
             let _ = number(&file).map(|number| first.set(number));
             (file, first)
         });
-        Ok(Self { path: path.to_owned(), number: number(path)?, beside })
+        Ok(Self { path: path.to_owned(), number: number(path)?, beside, left: Mutex::default() })
     }
 
-    /// Within a change: checks that the names still refer to the same files, and that the store is not empty.
+    /// Runs work of the only writer. First it looks whether another program has written to the files since the
+    /// last work, and not through SQLite: a copy over the open store leaves its name and inode.
+    pub fn watch(&self, connection: &mut Connection, work: impl FnOnce(&mut Connection)) {
+        let now = self.state(connection);
+        {
+            let mut view = self.left.lock().unwrap_or_else(PoisonError::into_inner);
+            if let (Some(left), Some(now)) = (&view.left, &now)
+                && left.changes == now.changes
+                && left.stamps != now.stamps
+            {
+                view.overwritten = true;
+            }
+        }
+        work(connection);
+        self.left.lock().unwrap_or_else(PoisonError::into_inner).left = self.state(connection);
+    }
+
+    fn state(&self, connection: &Connection) -> Option<LeftState> {
+        let stamp = |path: &Path| {
+            let metadata = path.metadata().ok()?;
+            Some((metadata.len(), metadata.modified().ok()?))
+        };
+        let changes = connection.pragma_query_value(None, "data_version", |row| row.get(0)).ok()?;
+        Some(LeftState { stamps: [stamp(&self.path), stamp(&self.beside[0].0)], changes })
+    }
+
+    /// Within a change: checks that the names still refer to the same files, and that no other program has
+    /// written to them.
     ///
     /// # Errors
     /// [`StoreError::Gone`].
@@ -48,7 +97,8 @@ impl FileIdentity {
             .beside
             .iter()
             .all(|(file, first)| number(file).is_ok_and(|number| *first.get_or_init(|| number) == number));
-        if has_bytes && same && same_beside { Ok(()) } else { Err(StoreError::Gone) }
+        let intact = !self.left.lock().unwrap_or_else(PoisonError::into_inner).overwritten;
+        if intact && has_bytes && same && same_beside { Ok(()) } else { Err(StoreError::Gone) }
     }
 }
 

@@ -68,8 +68,13 @@ impl Store {
             Err(error) if error.is_disk_full() && reserve::give_up_beside(path) => open_writer(path)?,
             opened => opened?,
         };
+        let file = Arc::new(FileIdentity::of(path).map_err(StoreError::File)?);
         let (writer, work) = mpsc::channel::<Work>();
-        spawn("store-writer".into(), move || work.into_iter().for_each(|task| task(&mut connection)))?;
+        let watched = Arc::clone(&file);
+        spawn("store-writer".into(), move || {
+            watched.watch(&mut connection, |_| {});
+            work.into_iter().for_each(|task| watched.watch(&mut connection, task));
+        })?;
         let (readers, queries) = mpsc::channel::<Query>();
         let queries = Arc::new(Mutex::new(queries));
         for number in 0..READERS {
@@ -81,7 +86,6 @@ impl Store {
             })?;
         }
         let reserve = Arc::new(Reserve::beside(path));
-        let file = Arc::new(FileIdentity::of(path).map_err(StoreError::File)?);
         let (limits, viewer, memory) = (Arc::clone(limits), Viewer::default(), Memory::new(u64::MAX));
         Ok(Self { writer, readers, limits, reserve, file, viewer, memory })
     }
@@ -147,10 +151,13 @@ impl Store {
     /// Returns the space of deleted pages and of the log to the disk.
     async fn give_back(&self) -> Result<(), StoreError> {
         let (reply, done) = oneshot::channel();
+        let file = Arc::clone(&self.file);
         let work: Work = Box::new(move |connection| {
-            let given = shrink(connection);
-            let emptied = empty(connection);
-            let _ = reply.send(given.and(emptied));
+            let given = file.check().and_then(|()| {
+                let given = shrink(connection);
+                given.and(empty(connection))
+            });
+            let _ = reply.send(given);
         });
         self.writer.send(work).map_err(|_| StoreError::Closed)?;
         done.await.unwrap_or(Err(StoreError::Closed))
