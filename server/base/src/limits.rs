@@ -69,6 +69,7 @@ limits! {
     user_scenes = 2_000, "scenes of one user, where scenes have owners (--owners)";
     user_bytes = 1 << 30, "scenes of one user as they are stored, without maps";
     store_bytes = 4 << 30, "size of the store's file";
+    scene_keep_days = 0, "days after its last change at which a scene is deleted; 0 means never";
     map_keep_s = 86_400, "time that an unused map is kept";
     cached_map_bytes = 128 << 20, "memory of maps that are kept";
     cached_scene_bytes = 128 << 20, "memory of open scenes: saved and held ones, and as much for demos and the data folder; the party with most of them makes room";

@@ -14,7 +14,7 @@ use crate::http::proxies::TrustedProxies;
 use crate::http::stream::Listener;
 use crate::routes::router;
 use crate::runs::RunStore;
-use crate::scenes::store::Store;
+use crate::scenes::store::{Store, StoreError};
 use crate::scenes::{Catalog, Library};
 use api::Operations;
 use base::limits::Limits;
@@ -260,14 +260,21 @@ fn start_background(app: &App) -> std::io::Result<()> {
         let mut hour = tokio::time::interval(Duration::from_secs(3_600));
         loop {
             hour.tick().await;
-            let done = tidied.catalog.store.drop_unused_maps().await;
-            let measured = tidied.catalog.store.measure().await;
-            if let Err(error) = done.map(|_| ()).and(measured) {
+            if let Err(error) = tidy(&tidied.catalog.store).await {
                 tracing::warn!(%error, "store could not be tidied");
             }
         }
     });
     Ok(())
+}
+
+/// Deletes what is kept for a time only.
+async fn tidy(store: &Store) -> Result<(), StoreError> {
+    for id in store.drop_old_scenes().await? {
+        tracing::info!(id, "deleted: not changed for `scene_keep_days`");
+    }
+    store.drop_unused_maps().await?;
+    store.measure().await
 }
 
 /// `dragtraffic/scenes.sqlite` in the user's data folder, else in this folder.

@@ -45,12 +45,12 @@ fn colour([r, g, b]: [u8; 3], a: f64) -> Value {
 #[derive(Serialize)]
 pub(super) struct SceneUpdate<'a> {
     deletions: [Value; 1],
-    entities: Vec<Entity<'a>>,
+    entities: Vec<SceneEntity<'a>>,
 }
 
 /// An object with its primitives.
 #[derive(Serialize)]
-struct Entity<'a> {
+struct SceneEntity<'a> {
     timestamp: Value,
     frame_id: &'static str,
     id: String,
@@ -68,7 +68,7 @@ struct Primitives<'a> {
     cubes: Vec<Value>,
     spheres: Vec<Value>,
     cylinders: Vec<Value>,
-    lines: Vec<Line<'a>>,
+    lines: Vec<LinePrimitive<'a>>,
     triangles: [Value; 0],
     texts: Vec<Value>,
     models: [Value; 0],
@@ -77,7 +77,7 @@ struct Primitives<'a> {
 /// `foxglove.LinePrimitive`. Its points are written from the map: a tree of values for each takes 30 times
 /// their memory.
 #[derive(Serialize)]
-struct Line<'a> {
+struct LinePrimitive<'a> {
     r#type: u8,
     pose: Value,
     thickness: f64,
@@ -104,8 +104,8 @@ fn entity(
     step: usize,
     primitives: Primitives<'_>,
     metadata: Vec<Value>,
-) -> Entity<'_> {
-    Entity {
+) -> SceneEntity<'_> {
+    SceneEntity {
         timestamp: time(step),
         frame_id: FRAME,
         id: id.into(),
@@ -116,12 +116,12 @@ fn entity(
     }
 }
 
-fn update(step: usize, entities: Vec<Entity<'_>>) -> SceneUpdate<'_> {
+fn update(step: usize, entities: Vec<SceneEntity<'_>>) -> SceneUpdate<'_> {
     SceneUpdate { deletions: [json!({"timestamp": time(step), "type": ALL, "id": ""})], entities }
 }
 
-fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> Line<'_> {
-    Line {
+fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> LinePrimitive<'_> {
+    LinePrimitive {
         r#type: if closed { LOOP } else { STRIP },
         pose: pose(Vec2::zeros(), 0.0, 0.0),
         thickness: width_m,
@@ -135,7 +135,7 @@ fn line(points: &[Vec2], closed: bool, width_m: f64, colour: Value) -> Line<'_> 
 
 /// The road: an entity for each kind of line.
 pub(super) fn map(map: &LaneMap) -> SceneUpdate<'_> {
-    fn areas(list: &[Area], shade: [u8; 3]) -> Vec<Line<'_>> {
+    fn areas(list: &[Area], shade: [u8; 3]) -> Vec<LinePrimitive<'_>> {
         list.iter().map(|area| line(&area.polygon.xy, true, 0.2, colour(shade, 1.0))).collect()
     }
     let lanes =
@@ -156,7 +156,7 @@ pub(super) fn map(map: &LaneMap) -> SceneUpdate<'_> {
             "top_scale": 1.0,
         })
     });
-    let lines: [(&str, Vec<Line<'_>>); 5] = [
+    let lines: [(&str, Vec<LinePrimitive<'_>>); 5] = [
         ("lanes", lanes.collect()),
         ("road_lines", paint.collect()),
         ("road_edges", edges.collect()),
@@ -165,7 +165,7 @@ pub(super) fn map(map: &LaneMap) -> SceneUpdate<'_> {
     ];
     let lines = lines.into_iter().filter(|(_, list)| !list.is_empty());
     let drawn = |lines| Primitives { lines, ..Primitives::default() };
-    let mut entities: Vec<Entity<'_>> =
+    let mut entities: Vec<SceneEntity<'_>> =
         lines.map(|(id, list)| entity(id, 0, drawn(list), Vec::new())).collect();
     let stops = Primitives { cylinders: stops.collect(), ..Primitives::default() };
     entities.push(entity("stop_signs", 0, stops, Vec::new()));
@@ -214,7 +214,13 @@ pub(super) fn users<'a>(tracks: &[(&Agent, Shown<'_>)], step: usize) -> SceneUpd
 }
 
 /// A road user as a box that stands on the ground; recorded heights are those of its centre.
-fn user<'a>(agent: &Agent, shown: &Shown<'_>, state: &State, z_m: Option<f64>, step: usize) -> Entity<'a> {
+fn user<'a>(
+    agent: &Agent,
+    shown: &Shown<'_>,
+    state: &State,
+    z_m: Option<f64>,
+    step: usize,
+) -> SceneEntity<'a> {
     let usual = Size::default_for(shown.agent_type, agent.subtype);
     let height_m = shown.size.height_m.or(usual.height_m).unwrap_or(1.7);
     let shade = match shown.agent_type {

@@ -9,7 +9,7 @@ use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
 use std::io::Read;
 use std::sync::Arc;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Deletes maps without scenes.
 const UNUSED_MAPS: &str = "DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)";
@@ -347,6 +347,22 @@ impl Store {
         self.write(move |tx| {
             let sql = "DELETE FROM maps WHERE used_at < ?1 AND sha NOT IN (SELECT map_sha FROM scenes)";
             Ok(tx.execute(sql, [before])?)
+        })
+        .await
+    }
+
+    /// Deletes scenes that have not changed for `scene_keep_days`, and returns their ids.
+    pub async fn drop_old_scenes(&self) -> Result<Vec<String>, StoreError> {
+        let days = self.limits.scene_keep_days;
+        let kept = Duration::from_secs(days.saturating_mul(86_400));
+        let Some(before) = SystemTime::now().checked_sub(kept).filter(|_| days > 0) else {
+            return Ok(Vec::new());
+        };
+        let before = clock::text(before);
+        self.write(move |tx| {
+            let mut query = tx.prepare("DELETE FROM scenes WHERE updated_at < ?1 RETURNING id")?;
+            let ids = query.query_map([before], |row| row.get(0))?;
+            Ok(ids.collect::<Result<_, _>>()?)
         })
         .await
     }

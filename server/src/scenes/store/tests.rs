@@ -205,3 +205,26 @@ fn a_newer_file_is_left_alone() {
     let opened = Store::open(&path, &Arc::new(Limits::default()));
     assert!(matches!(opened, Err(StoreError::Newer(99))));
 }
+
+#[tokio::test]
+async fn scenes_that_did_not_change_for_days_are_deleted_only_if_that_is_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.sqlite");
+    {
+        let store = store(&folder, Limits::default());
+        for id in ["old", "new"] {
+            store.put(id, Expect::Absent, record(id)).await.unwrap();
+        }
+        rusqlite::Connection::open(&path)
+            .and_then(|file| {
+                file.execute("UPDATE scenes SET updated_at = '2020-01-01T00:00:00.000Z' WHERE id = 'old'", [])
+            })
+            .unwrap();
+        assert!(store.drop_old_scenes().await.unwrap().is_empty());
+    }
+    let store = store(&folder, Limits { scene_keep_days: 180, ..Limits::default() });
+    assert_eq!(store.drop_old_scenes().await.unwrap(), ["old"]);
+    assert!(store.get("old").await.unwrap().is_none() && store.get("new").await.unwrap().is_some());
+    let endless = Limits { scene_keep_days: u64::MAX, ..Limits::default() };
+    assert!(Store::open(&path, &Arc::new(endless)).unwrap().drop_old_scenes().await.unwrap().is_empty());
+}
