@@ -53,7 +53,7 @@ impl Default for FileBounds {
 const PART_BYTES: usize = 1 << 20;
 /// Parts that stay as they are. Further ones are packed until the file is complete, because a long file may
 /// turn out to be too long.
-const PLAIN_PARTS: usize = 8;
+const PLAIN_PARTS: usize = 4;
 
 /// A part of a file.
 enum FilePiece {

@@ -1,4 +1,4 @@
-//! Memory of writing, counted at the allocator: at most 8 bytes for each byte of a scene's JSON, and 48 MB. The only
+//! Memory of writing, counted at the allocator: at most 8 bytes for each byte of a scene's JSON, and 40 MB. The only
 //! test of its process, because all allocations are counted.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
 
@@ -61,7 +61,7 @@ fn moving(agents: usize, steps: usize) -> Scene {
 }
 
 #[test]
-fn writing_takes_eight_times_the_scene_and_48_mb() {
+fn writing_takes_eight_times_the_scene_and_40_mb() {
     let scenes = [
         Scene::bare("linked", linked(3_000, 63), moving(1, 20).agents),
         Scene::bare("crossed", crossed(80, 900), moving(1, 20).agents),
@@ -69,7 +69,7 @@ fn writing_takes_eight_times_the_scene_and_48_mb() {
     ];
     for scene in &scenes {
         let json = native::write(scene).len();
-        let most = 8 * json + (48 << 20);
+        let most = 8 * json + (40 << 20);
         for format in registry::FORMATS.iter().filter(|format| format.info().export) {
             let options = ExportOptions { most_bytes: Some(most_bytes(json)), ..ExportOptions::default() };
             let before = ALLOCATOR.current_usage();

@@ -213,7 +213,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     output::print(format!("DragTraffic is at {url}\n").as_bytes())?;
     tracing::info!(%url, db = %db.display(), "serving");
     if let Some(port) = args.grpc {
-        answer_simulators(port, &app)?;
+        answer_simulators(port, &app).await?;
     }
     if args.open {
         open_browser(&url);
@@ -326,9 +326,9 @@ async fn answer_probes(address: SocketAddr, app: &App) -> Result<(), Failure> {
 }
 
 /// Answers calls of AlpaSim's `TrafficService` on a port of this machine.
-fn answer_simulators(port: u16, app: &App) -> Result<(), Failure> {
+async fn answer_simulators(port: u16, app: &App) -> Result<(), Failure> {
     let refused = |error| Failure::new(Exit::AddressInUse, format!("--grpc {port}: {error}"));
-    let listener = GrpcListener::open(SocketAddr::from(([127, 0, 0, 1], port))).map_err(refused)?;
+    let listener = GrpcListener::open(SocketAddr::from(([127, 0, 0, 1], port))).await.map_err(refused)?;
     output::print(format!("TrafficService is at {}\n", listener.address()?).as_bytes())?;
     let app = app.clone();
     tokio::spawn(async move { listener.serve(&app).await });

@@ -28,7 +28,7 @@ fn heading(from: Vec2, to: Vec2) -> f64 {
 
 /// Headings at which roads end and begin if others continue them.
 fn own_heading(road: &Road<'_>, at_end: bool) -> Option<f64> {
-    match (&road.line[..], at_end) {
+    match (road.line(), at_end) {
         ([first, second, ..], false) => Some(heading(*first, *second)),
         ([.., before, last], true) => Some(heading(*before, *last)),
         _ => None,
@@ -44,7 +44,7 @@ pub(super) fn pieces(road: &Road<'_>, drawn: &Roads<'_>) -> Vec<Piece> {
     };
     let begins = other(road.predecessor, true);
     let ends = other(road.successor, false).filter(|_| road.junction.is_some());
-    let line = &road.line;
+    let line = road.line();
     let mut pieces = Vec::with_capacity(line.len() + 1);
     let last = line.len().saturating_sub(2);
     for (i, way) in line.windows(2).enumerate() {

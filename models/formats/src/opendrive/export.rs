@@ -170,7 +170,7 @@ fn write_road(
     beside: &Roadside,
     out: &mut Markup,
 ) -> f64 {
-    let line = &road.line;
+    let line = road.line();
     let pieces = course::pieces(road, drawn);
     let total = course::length(&pieces);
     let lane = road.lane;

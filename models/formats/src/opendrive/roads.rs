@@ -31,12 +31,19 @@ pub(super) struct Road<'a> {
     /// Lane with type, width and limit.
     pub lane: &'a Lane,
     pub points: Vec<Vec2>,
-    /// Simplified points: the reference line.
-    pub line: Vec<Vec2>,
+    /// The reference line, where it has fewer points.
+    simplified: Option<Vec<Vec2>>,
     /// The junction that it leads through.
     pub junction: Option<usize>,
     pub predecessor: Option<RoadLink>,
     pub successor: Option<RoadLink>,
+}
+
+impl Road<'_> {
+    /// The reference line.
+    pub fn line(&self) -> &[Vec2] {
+        self.simplified.as_deref().unwrap_or(&self.points)
+    }
 }
 
 /// Roads by number; those of the lanes come first, in their order.
@@ -94,7 +101,7 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     let road = |lane| Road {
         lane,
         points: Vec::new(),
-        line: Vec::new(),
+        simplified: None,
         junction: None,
         predecessor: None,
         successor: None,
@@ -137,7 +144,8 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
         }
     }
     for road in &mut all {
-        road.line = simplify(&road.points, KEPT_M.0, KEPT_M.1);
+        let line = simplify(&road.points, KEPT_M.0, KEPT_M.1);
+        road.simplified = (line.len() < road.points.len()).then_some(line);
     }
     for (_, from, to) in &connecting {
         groups.join(end_of(*from), start_of(*to));

@@ -242,6 +242,8 @@ impl<'a> ExportedNetwork<'a> {
             self.map.stop_signs.iter().flat_map(|sign| &sign.lanes).map(String::as_str).collect();
         let stops = |lane: usize| self.map.lanes.get(lane).is_some_and(|lane| signs.contains(&*lane.id));
         for junction in &mut self.junctions {
+            let links = junction.incoming.iter().filter_map(|from| by_lane.get(from)).map(Vec::len).sum();
+            junction.links.reserve_exact(links);
             for from in &junction.incoming {
                 let turn = |way: &Way| {
                     wrap_angle(heading(&self.lines[way.to], false) - heading(&self.lines[way.from], true))
