@@ -21,7 +21,8 @@ const HITCH_PLAY_M: f64 = 1.0;
 const HITCH_TRAVEL_M: f64 = 2.0;
 
 /// Whether two walkers keep together around this step. They are near each other and equally fast, walking or
-/// standing, for most of two seconds before and after.
+/// standing, for most of two seconds before and after. Before the first step, which nobody knows, they kept
+/// together if they do so at that step: a couple that parts within the first second was in company before.
 pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
     if a.agent_type != AgentType::Pedestrian || b.agent_type != AgentType::Pedestrian {
         return false;
@@ -29,11 +30,13 @@ pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
     let around = (COMPANY_S / STEP_S) as usize;
     let (first, end) = (step.saturating_sub(around), (step + around + 1).min(a.moments.len()));
     let (mut seen, mut together) = (0usize, 0usize);
-    for (p, q) in a.moments[first..end].iter().zip(&b.moments[first..end]) {
+    for (k, (p, q)) in a.moments[first..end].iter().zip(&b.moments[first..end]).enumerate() {
         let (Some(p), Some(q)) = (p, q) else { continue };
-        seen += 1;
         let near = (p.outline.center() - q.outline.center()).norm() <= COMPANY_M;
-        together += usize::from(near && (p.velocity - q.velocity).norm() <= COMPANY_MPS);
+        let same = near && (p.velocity - q.velocity).norm() <= COMPANY_MPS;
+        let unknown = if first + k == 0 { around.saturating_sub(step) } else { 0 };
+        seen += 1 + unknown;
+        together += if same { 1 + unknown } else { 0 };
     }
     together as f64 * STEP_S >= LEAST_COMPANY_S && 2 * together > seen
 }

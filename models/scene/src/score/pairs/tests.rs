@@ -139,6 +139,18 @@ fn people_who_walk_in_company_do_not_collide() {
     let third = walk("c", -0.5, 0.4, 0.0, 1.4);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4), third]), 0);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 0.0), walk("b", 0.0, 0.6, PI, 0.0)]), 0);
+    // A couple that parts after a second was in company before, whatever the window shows; strangers were not.
+    let parting = |apart_mps: f64| {
+        let mut other = walk("b", 0.0, 0.55, 0.0, 1.4);
+        other.track = Cow::Owned(track_of(move |i| {
+            let (slow, fast) = (i.min(10) as f64, i.saturating_sub(10) as f64);
+            let y_m = 0.55 + (apart_mps * slow + 2.0 * fast) * STEP_S;
+            let vy_mps = if i < 10 { apart_mps } else { 2.0 };
+            State { x_m: 0.14 * i as f64, y_m, heading_rad: 0.0, vx_mps: 1.4, vy_mps }
+        }));
+        hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), other])
+    };
+    assert_eq!((parting(0.6), parting(0.9)), (0, 1));
     // Two pedestrians that walk into each other, and one that walks into another's back.
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 8.0, 0.0, PI, 1.4)]), 1);
     assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 2.4), walk("b", 5.0, 0.0, 0.0, 1.0)]), 1);
