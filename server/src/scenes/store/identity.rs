@@ -4,7 +4,8 @@ use super::StoreError;
 use rusqlite::Connection;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::SystemTime;
 
 /// Suffixes of the files that SQLite keeps beside the open store; commits go to the first one.
@@ -17,8 +18,8 @@ type FileNumber = Option<(u64, u64)>;
 type Stamp = Option<(u64, SystemTime)>;
 
 /// A file of a store as its writer left it.
-#[derive(Debug, PartialEq, Eq)]
-struct LeftState {
+#[derive(Debug)]
+pub struct LeftState {
     /// The store and its log.
     stamps: [Stamp; 2],
     /// SQLite's number of the changes by other connections.
@@ -32,14 +33,8 @@ pub struct FileIdentity {
     number: FileNumber,
     /// The files beside it, with their first inodes.
     beside: [(PathBuf, OnceLock<FileNumber>); 2],
-    left: Mutex<WriterView>,
-}
-
-/// What the writer knows of changes by others.
-#[derive(Debug, Default)]
-struct WriterView {
-    left: Option<LeftState>,
-    overwritten: bool,
+    /// Whether another program has written to the files, and not through SQLite.
+    overwritten: AtomicBool,
 }
 
 impl FileIdentity {
@@ -56,27 +51,22 @@ impl FileIdentity {
             let _ = number(&file).map(|number| first.set(number));
             (file, first)
         });
-        Ok(Self { path: path.to_owned(), number: number(path)?, beside, left: Mutex::default() })
+        Ok(Self { path: path.to_owned(), number: number(path)?, beside, overwritten: AtomicBool::new(false) })
     }
 
-    /// Runs work of the only writer. First it looks whether another program has written to the files since the
-    /// last work, and not through SQLite: a copy over the open store leaves its name and inode.
-    pub fn watch(&self, connection: &mut Connection, work: impl FnOnce(&mut Connection)) {
-        let now = self.state(connection);
+    /// Before a change by the only writer: looks whether another program has written to the files since the
+    /// writer left them, and not through SQLite. A copy over the open store leaves its name and inode.
+    pub fn look(&self, left: Option<&LeftState>, connection: &Connection) {
+        if let (Some(left), Some(now)) = (left, self.state(connection))
+            && left.changes == now.changes
+            && left.stamps != now.stamps
         {
-            let mut view = self.left.lock().unwrap_or_else(PoisonError::into_inner);
-            if let (Some(left), Some(now)) = (&view.left, &now)
-                && left.changes == now.changes
-                && left.stamps != now.stamps
-            {
-                view.overwritten = true;
-            }
+            self.overwritten.store(true, Ordering::Relaxed);
         }
-        work(connection);
-        self.left.lock().unwrap_or_else(PoisonError::into_inner).left = self.state(connection);
     }
 
-    fn state(&self, connection: &Connection) -> Option<LeftState> {
+    /// The files as the writer leaves them.
+    pub fn state(&self, connection: &Connection) -> Option<LeftState> {
         let stamp = |path: &Path| {
             let metadata = path.metadata().ok()?;
             Some((metadata.len(), metadata.modified().ok()?))
@@ -97,7 +87,7 @@ impl FileIdentity {
             .beside
             .iter()
             .all(|(file, first)| number(file).is_ok_and(|number| *first.get_or_init(|| number) == number));
-        let intact = !self.left.lock().unwrap_or_else(PoisonError::into_inner).overwritten;
+        let intact = !self.overwritten.load(Ordering::Relaxed);
         if intact && has_bytes && same && same_beside { Ok(()) } else { Err(StoreError::Gone) }
     }
 }

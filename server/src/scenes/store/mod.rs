@@ -72,8 +72,12 @@ impl Store {
         let (writer, work) = mpsc::channel::<Work>();
         let watched = Arc::clone(&file);
         spawn("store-writer".into(), move || {
-            watched.watch(&mut connection, |_| {});
-            work.into_iter().for_each(|task| watched.watch(&mut connection, task));
+            let mut left = watched.state(&connection);
+            for task in work {
+                watched.look(left.as_ref(), &connection);
+                task(&mut connection);
+                left = watched.state(&connection);
+            }
         })?;
         let (readers, queries) = mpsc::channel::<Query>();
         let queries = Arc::new(Mutex::new(queries));
