@@ -58,6 +58,13 @@ pub(super) struct CallerNames {
     pub client: Option<String>,
 }
 
+impl CallerNames {
+    /// The names that take turns: the whole first, then its parts.
+    pub fn turns(&self) -> [&String; 3] {
+        [&self.party, &self.share, &self.own]
+    }
+}
+
 /// The name of a party's job among those of all parties. Ids have no spaces.
 pub(super) fn job_name(party: impl Display, id: &str) -> String {
     format!("{party} {id}")

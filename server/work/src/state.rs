@@ -125,6 +125,7 @@ impl PoolState {
 
     /// Adds a waiting job.
     pub fn arrived(&mut self, job: &Arc<Job>) {
+        job.caller.turns().into_iter().for_each(|name| self.fair_queue.wait(name));
         self.lane(job.lane).queue.push_back(Arc::clone(job));
         self.jobs.insert(job.ticket.name.clone(), Arc::clone(job));
         self.show();
@@ -135,15 +136,11 @@ impl PoolState {
     pub fn next(&mut self, lane: PoolLane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
         let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
         let fitting = of_lane.filter(|(_, job)| fits(job));
-        let turns = |job: &Job| {
-            let CallerNames { party, share, own, .. } = &job.caller;
-            [party, share, own].map(|name| self.fair_queue.last_turn(name))
-        };
+        let turns = |job: &Job| job.caller.turns().map(|name| self.fair_queue.last_turn(name));
         let (at, _) = fitting.min_by_key(|(_, job)| turns(job))?;
         let job = self.lane(lane).queue.remove(at)?;
-        let CallerNames { party, share, own, .. } = &job.caller;
         // A caller may be its whole share, and that its whole party.
-        let mut names = vec![party, share, own];
+        let mut names = job.caller.turns().to_vec();
         names.dedup();
         names.into_iter().for_each(|name| self.fair_queue.serve(name));
         self.lane(lane).running += 1;
