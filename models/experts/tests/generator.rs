@@ -14,6 +14,8 @@ use std::sync::{Arc, LazyLock};
 mod blocked_lane;
 #[path = "generator/crossing.rs"]
 mod crossing;
+#[path = "generator/cut_ins.rs"]
+mod cut_ins;
 #[path = "generator/driving.rs"]
 mod driving;
 #[path = "generator/late_arrivals.rs"]

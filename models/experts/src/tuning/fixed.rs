@@ -235,7 +235,7 @@ numbers! {
         /// Distance that a vehicle keeps at each rate, metres.
         VEHICLE_GAPS_M: [f64; 5] = [2.0, 2.0, 2.0, 1.5, 1.0];
         /// Time headway in addition, at its own speed, seconds.
-        VEHICLE_HEADWAYS_S: [f64; 5] = [0.6, 0.4, 0.2, 0.0, 0.0];
+        VEHICLE_HEADWAYS_S: [f64; 5] = [0.9, 0.9, 0.6, 0.2, 0.0];
         /// Distance that pedestrians and riders keep at each rate, metres.
         OTHER_GAPS_M: [f64; 3] = [0.8, 0.4, 0.1];
         /// Speeds of an agent that goes first, as factors of its own.

@@ -346,6 +346,8 @@ tuning! {
         easily_mps2 = 3.0;
         /// Each m/s2 beyond that. Set by hand. 2026-11-22.
         hard = 0.15, off 0.0;
+        /// Each second at a time headway below 0.9 s. Set by hand. 2026-12-01.
+        tailgating = 0.2, off 0.0;
     }
 }
 

@@ -7,7 +7,9 @@ use scene::map::{Lane, LaneMap};
 use scene::{Agent, AgentType, Future, Goal, STEP_S, Sample, Scene, Start, State, Subtype, Vec2, wrap_angle};
 use std::sync::{Arc, LazyLock};
 
-static SHIPPED: LazyLock<Generator> = LazyLock::new(|| Engine::built_in().unwrap().generator.with_threads(1));
+/// The shipped engine.
+pub static SHIPPED: LazyLock<Generator> =
+    LazyLock::new(|| Engine::built_in().unwrap().generator.with_threads(1));
 
 /// A car that goes straight on for the whole recording.
 fn car(id: &str, x_m: f64, y_m: f64, speed_mps: f64) -> Agent {
@@ -32,7 +34,8 @@ fn ask(lanes: Vec<Lane>, agents: Vec<Agent>, asked: &[&str]) -> Request {
     request
 }
 
-fn shown<'a>(sample: &'a Sample, id: &str) -> &'a Future {
+/// The shown future of an agent.
+pub fn shown<'a>(sample: &'a Sample, id: &str) -> &'a Future {
     let futures = &sample.agents[id];
     &futures.modes[futures.chosen]
 }

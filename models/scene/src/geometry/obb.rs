@@ -86,6 +86,13 @@ impl OrientedBox {
         Self { center, ..*self }
     }
 
+    /// The box that its motion to another place covers, if the path between them is straight.
+    pub fn stretched_to(&self, to: &Self) -> Self {
+        let way = to.center - self.center;
+        let half_m = (to.half_length_m + 0.5 * way.norm(), to.half_width_m);
+        Self::facing(self.center + 0.5 * way, half_m, to.heading_rad, to.forward)
+    }
+
     /// Corners counter-clockwise from the front left: front left, rear left, rear right, front right.
     pub fn corners(&self) -> [Vec2; 4] {
         let (along, across) = (self.forward * self.half_length_m, self.left() * self.half_width_m);

@@ -27,7 +27,9 @@ pub(crate) mod walking;
 pub use baseline_score::BaselineScore;
 pub use drivable::Drivable;
 pub use input::{Actor, Exclude, PairChoice, ScoreInput, Threshold, Thresholds};
-pub use overlap::{CLOSE_M, Overlap, SweptBounds, SweptBoxes, comes_within, dangerous_moments, overlap};
+pub use overlap::{
+    CLOSE_M, Overlap, SweptBounds, SweptBoxes, comes_within, dangerous_moments, overlap, tailgating_moments,
+};
 pub use report::{AgentScore, SceneScore, Score};
 
 use pairs::PairScores;

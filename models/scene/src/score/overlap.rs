@@ -112,6 +112,10 @@ pub struct Overlap {
 
 /// Seconds between two moments of the swept boxes.
 const MOMENT_S: f64 = 0.3;
+/// Time headway below which an agent follows too closely, seconds: three moments.
+const HEADWAY_S: f64 = 0.9;
+/// Speed up to which a short headway is that of a queue, m/s.
+const FOLLOWS_MPS: f64 = 3.0;
 /// Half length below which a box is a walker's: two walkers have no near misses, metres.
 const WALKER_M: f64 = 0.6;
 /// Times ahead at which courses are checked, seconds.
@@ -215,6 +219,32 @@ pub fn dangerous_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes) -> impl Itera
     })
 }
 
+/// Moments at which a motion follows another one by less than [`HEADWAY_S`]: within that time, it passes the place
+/// where the other one's box is now. Both head alike, and the one behind is not slow. A headway that is short from
+/// the start on does not count until it has been longer.
+pub fn tailgating_moments<'a>(
+    behind: &'a SweptBoxes,
+    ahead: &'a SweptBoxes,
+) -> impl Iterator<Item = usize> + 'a {
+    let later = (HEADWAY_S / MOMENT_S).round() as usize;
+    let short = near_moments(behind, ahead, HEADWAY_S * behind.top_mps).filter(move |&i| {
+        let (Some(now), Some(then), Some(leader)) = (behind.at(i), behind.at(i + later), ahead.at(i)) else {
+            return false;
+        };
+        let follows = (leader.center() - now.center()).dot(&now.forward()) > 0.0;
+        let turn = wrap_angle(then.heading_rad() - leader.heading_rad()).abs();
+        let moved_m = (then.center() - now.center()).norm();
+        let passes = |w: &[Option<OrientedBox>]| match w {
+            [Some(from), Some(to)] => overlaps(&from.stretched_to(to), leader, 0.0),
+            _ => false,
+        };
+        let ahead_of_it = moved_m > HEADWAY_S * FOLLOWS_MPS && follows && turn < FRAC_PI_6;
+        ahead_of_it && behind.boxes[i..=i + later].windows(2).any(passes)
+    });
+    let from_start = short.enumerate().skip_while(|(count, moment)| count == moment);
+    from_start.map(|(_, moment)| moment)
+}
+
 /// The moments of the groups in which two motions may be nearer than this, metres.
 fn near_moments<'a>(a: &'a SweptBoxes, b: &'a SweptBoxes, margin_m: f64) -> impl Iterator<Item = usize> + 'a {
     let end = a.len().min(b.len());
@@ -286,6 +316,30 @@ mod tests {
         // A parked car is only brushed.
         assert!(dangers(&east, &straight((20.0, 2.1), 0.0, 0.0)) > 0);
         assert_eq!(dangers(&east, &straight((20.0, 2.3), 0.0, 0.0)), 0);
+    }
+
+    #[test]
+    fn tailgating_is_a_headway_below_its_limit() {
+        let tails = |a: &SweptBoxes, b: &SweptBoxes| tailgating_moments(a, b).count();
+        let east = straight((0.0, 0.0), 0.0, 10.0);
+        // From the tenth moment on in the lane of `east`, if `y_m` is zero.
+        let cuts_in = |gap_m: f64, y_m: f64, speed: f64| {
+            let at = |i: usize| {
+                let (x_m, aside_m) = (4.6 + gap_m + 0.3 * speed * i as f64, if i < 10 { 3.5 } else { y_m });
+                Some(OrientedBox::new(Vec2::new(x_m, aside_m), 2.3, 1.0, 0.0))
+            };
+            SweptBoxes::new((0..31).map(at).collect())
+        };
+        // At the last three moments nothing is known of the time after.
+        assert_eq!(tails(&east, &cuts_in(8.9, 0.0, 10.0)), 18, "0.89 s");
+        assert_eq!(tails(&east, &cuts_in(9.1, 0.0, 10.0)), 0, "0.91 s");
+        assert_eq!(tails(&cuts_in(8.9, 0.0, 10.0), &east), 0, "the leader");
+        assert_eq!(tails(&east, &cuts_in(5.0, 2.5, 10.0)), 0, "in the next lane");
+        assert_eq!(tails(&east, &straight((10.0, 0.0), 0.0, 10.0)), 0, "as before");
+        let slow = straight((0.0, 0.0), 0.0, 2.5);
+        assert_eq!(tails(&slow, &cuts_in(1.0, 0.0, 2.5)), 0, "in a queue");
+        let crossing = straight((45.0, -38.0), std::f64::consts::FRAC_PI_2, 10.0);
+        assert_eq!(tails(&east, &crossing), 0, "across");
     }
 
     #[test]

@@ -43,6 +43,11 @@ impl<'a> KeptMotion<'a> {
         Some(straight_on(&state, at.saturating_sub(first)))
     }
 
+    /// Whether only one state is known, so that the motion after it is a guess.
+    pub(in crate::generator) fn is_guessed(&self) -> bool {
+        self.future.is_none() && self.single.is_some()
+    }
+
     /// Whether the motion continues from where an agent with these conditions starts.
     pub(in crate::generator) fn begins_at(&self, start: &State, conditions: &Conditions) -> bool {
         conditions.start == Start::default()

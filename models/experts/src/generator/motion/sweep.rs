@@ -5,7 +5,7 @@ use scene::geometry::Extent;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::Trace;
 use scene::motion::Trajectory;
-use scene::score::{CLOSE_M, SweptBoxes, dangerous_moments, overlap};
+use scene::score::{CLOSE_M, SweptBoxes, dangerous_moments, overlap, tailgating_moments};
 use scene::{AgentId, AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 use std::sync::OnceLock;
 
@@ -142,6 +142,17 @@ impl Sweep {
         };
         let moment = (0..a.len()).find(|i| near(*i))?;
         Some(STRIDE * (moment + 1))
+    }
+
+    /// The first compared step at which this motion comes close to another one, or follows it too closely.
+    pub(in crate::generator) fn first_conflict(&self, other: &Self) -> Option<usize> {
+        let tailgates = tailgating_moments(self.swept(), other.swept()).next();
+        self.first_meeting(other).into_iter().chain(tailgates.map(|moment| STRIDE * (moment + 1))).min()
+    }
+
+    /// Time for which this motion follows another one too closely, seconds.
+    pub(in crate::generator) fn tailgates_s(&self, other: &Self) -> f64 {
+        tailgating_moments(self.swept(), other.swept()).count() as f64 * STRIDE as f64 * STEP_S
     }
 
     /// The first step at which two motions touch, or would soon touch at their present velocities.

@@ -177,7 +177,8 @@ impl Others<'_> {
             decisions[at] += 1;
             let others: Vec<SeenMotion<'_>> = seen.into_iter().filter(|s| s.reactor != Some(at)).collect();
             let now = ways[at].as_ref().map_or(&reactors[at].other.sweep, |w| &w.sweep);
-            let stays: f64 = others.iter().map(|s| self.price(now, s.sweep)).sum();
+            let stays: f64 =
+                others.iter().map(|s| self.price(now, s.sweep) + self.tailgating(now, s.sweep)).sum();
             let stays = stays + ways[at].as_ref().map_or(0.0, |_| self.tuning.choice.deviating);
             match self.way(reactors[at], &others, stays - 1e-9) {
                 Some(way) => ways[at] = Some(way),
@@ -205,8 +206,8 @@ impl Others<'_> {
         asked.chain(reacting).chain(keeping).collect()
     }
 
-    /// For each agent, the changed motion that its kept motion meets; `None` if there is none or the agent
-    /// did not change.
+    /// For each agent, the changed motion with which its kept motion is in conflict; `None` if there is none or
+    /// the agent did not change.
     fn causes(
         &self,
         reactors: &[ReactingAgent<'_>],
@@ -226,7 +227,7 @@ impl Others<'_> {
     }
 }
 
-/// The first step at which an agent meets a changed motion.
+/// The first step at which an agent meets a changed motion, or follows one too closely.
 fn first_conflict(
     who: ReactingAgent<'_>,
     way: Option<&YieldOption>,
@@ -236,11 +237,11 @@ fn first_conflict(
     // Two motions kept from earlier answers do not avoid each other.
     let avoids = |s: &SeenMotion<'_>| way.is_some() || !s.kept || who.other.kept_from == KeptFrom::Log;
     let others = seen.iter().filter(|s| s.reactor != Some(who.at) && avoids(s));
-    others.filter_map(|s| own.first_meeting(s.sweep)).min()
+    others.filter_map(|s| own.first_conflict(s.sweep)).min()
 }
 
-/// The direct cause of each change, if it has one. It is the first motion that the kept motion meets, among
-/// the sources and the changes that have a cause themselves.
+/// The direct cause of each change, if it has one. It is the first motion with which the kept one is in
+/// conflict, among the sources and the changes that have a cause themselves.
 pub(in crate::generator) fn caused<'a>(
     mut sources: Vec<(&'a AgentId, &'a Sweep)>,
     kept: &[&Sweep],
@@ -251,7 +252,7 @@ pub(in crate::generator) fn caused<'a>(
         let mut found = Vec::new();
         for (i, change) in changes.iter().enumerate() {
             let (Some(change), None) = (change, &causes[i]) else { continue };
-            let first = sources.iter().filter_map(|(id, m)| Some((kept[i].first_meeting(m)?, *id))).min();
+            let first = sources.iter().filter_map(|(id, m)| Some((kept[i].first_conflict(m)?, *id))).min();
             if let Some((_, cause)) = first {
                 causes[i] = Some(cause.clone());
                 found.push(*change);

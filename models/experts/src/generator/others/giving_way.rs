@@ -41,6 +41,11 @@ impl Others<'_> {
         price(a.swept(), b.swept(), &self.tuning.choice)
     }
 
+    /// Cost of following another motion too closely.
+    pub(super) fn tailgating(&self, own: &Sweep, other: &Sweep) -> f64 {
+        self.tuning.reacting.tailgating * own.tailgates_s(other)
+    }
+
     /// The cheapest alternative to an agent's kept motion, given the changed motions. `None` if it costs
     /// `most` or more.
     pub(super) fn way(
@@ -71,6 +76,7 @@ impl Others<'_> {
             if way.cost < most {
                 best = Some(way);
             }
+            // Nobody brakes harder for a headway alone.
             if meets == 0.0 {
                 return best;
             }
@@ -111,6 +117,7 @@ impl Others<'_> {
         let states = paced.states(path);
         let sweep = Sweep::entering(own.path.enters, &states, &own.size);
         let mut meets: f64 = changed.iter().map(|c| self.mitigated(who, &sweep, c.sweep)).sum();
+        let mut tailgates: f64 = changed.iter().map(|c| self.tailgating(&sweep, c.sweep)).sum();
         let is_changed = |at: usize| changed.iter().any(|c| c.reactor == Some(at));
         for (at, other) in self.each.iter().enumerate().filter(|(at, _)| *at != who.at && !is_changed(*at)) {
             if is_dear(meets) {
@@ -121,8 +128,10 @@ impl Others<'_> {
                 let share = if at < self.reacting { PASSED_ON } else { 1.0 };
                 meets += share * price;
             }
+            let before = self.tailgating(&who.other.sweep, &other.sweep);
+            tailgates += (self.tailgating(&sweep, &other.sweep) - before).max(0.0);
         }
-        Some((YieldOption { paced, states, sweep, cost: alone + meets }, meets))
+        Some((YieldOption { paced, states, sweep, cost: alone + meets + tailgates }, meets))
     }
 
     /// Cost of an encounter, reduced as giving way lowers the closing speed.

@@ -1,9 +1,9 @@
 //! The agents that do not act in a window, and how they react to the agents that do.
 //!
-//! Such an agent first tries its own motion. It keeps that motion unless it would meet a changed one. Changed
-//! are regenerated agents, and agents that changed because of them. An agent whose kept motion meets neither
-//! keeps it bit for bit. The others keep their path and change their timing ([`giving_way`]), one after the
-//! other ([`chain`]).
+//! Such an agent first tries its own motion. It keeps that motion unless it would meet a changed one, or would
+//! follow one too closely. Changed are regenerated agents, and agents that changed because of them. An agent
+//! whose kept motion is in conflict with neither keeps it bit for bit. The others keep their path and change
+//! their timing ([`giving_way`]), one after the other ([`chain`]).
 
 mod blocks;
 mod chain;

@@ -1,7 +1,7 @@
 //! Every agent that does not act in a window: its motion, and whether it may change.
 
 use super::blocks::{Corridor, PathBlock, closed};
-use super::path_progress::PathProgress;
+use super::path_progress::{PathProgress, along_road};
 use crate::generator::cast::WindowCast;
 use crate::generator::choice::FixedMotion;
 use crate::generator::motion::{KeptMotion, Sweep};
@@ -12,11 +12,11 @@ use crate::planning::world::World;
 use crate::request::Request;
 use crate::tuning::Tuning;
 use crate::tuning::fixed::choice::COMES_IN_STEPS;
+use scene::geometry::direction;
 use scene::judge::Trace;
 use scene::limits::Limits;
 use scene::routes::LaneGraph;
-use scene::score::overlap;
-use scene::{AgentId, AgentType, HORIZON_STEPS, Size, State};
+use scene::{AgentId, AgentType, HORIZON_STEPS, STANDING_MPS, Size, State};
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
@@ -150,9 +150,9 @@ impl<'g> Others<'g> {
         named.map(|other| other.recorded.as_ref().unwrap_or(&other.sweep).trace(&other.id, other.agent_type))
     }
 
-    /// Whether an agent that may react would meet this motion, or would stay out because of it.
+    /// Whether an agent that may react would meet this motion, follow it too closely, or stay out because of it.
     pub(in crate::generator) fn would_react_to(&self, motion: &Sweep) -> bool {
-        self.each[..self.reacting].iter().any(|other| overlap(other.sweep.swept(), motion.swept()).close)
+        self.each[..self.reacting].iter().any(|other| other.sweep.first_conflict(motion).is_some())
             || self.each.iter().any(|other| other.is_kept_out_by(motion))
     }
 
@@ -216,7 +216,13 @@ impl OtherAgent {
         let size = conditions.size_of(agent.size);
         let agent_type = conditions.kind_of(agent);
         let kept = KeptMotion::of(&world.scene, agent, world.step);
-        let recorded: Vec<Option<State>> = (0..=HORIZON_STEPS).map(|step| kept.at(step)).collect();
+        let present = world.present.iter().find(|p| p.index == index);
+        // On a road, an agent of which only one state is known is expected to follow its lane.
+        let ahead_mps = |s: &State| s.velocity().dot(&direction(s.heading_rad));
+        let rolls = present.filter(|p| kept.is_guessed() && ahead_mps(&p.start) >= STANDING_MPS);
+        let on_its_lane = rolls.and_then(|p| along_road(&p.start, &world.graph, agent_type));
+        let recorded: Vec<Option<State>> =
+            on_its_lane.unwrap_or_else(|| (0..=HORIZON_STEPS).map(|step| kept.at(step)).collect());
         let resumed = cast.resumed.get(&index);
         let (mut states, recorded) = match resumed {
             Some(states) => {
@@ -226,7 +232,6 @@ impl OtherAgent {
             }
             None => (recorded, None),
         };
-        let present = world.present.iter().find(|p| p.index == index);
         if let Some(present) = present {
             states[0] = Some(present.start);
         }

@@ -1,10 +1,11 @@
 //! The motion that an agent has without this call, as a path and the progress along it at each step.
 
+use crate::planning::profile::{Caps, cruising, speed_at};
 pub(super) use crate::tuning::fixed::path_progress::BEYOND_M;
 use crate::tuning::fixed::path_progress::{HURRIED, LOOK_AHEAD_M, SETTING_OFF_MPS, TAKES_UP_MPS2};
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::{direction, wrap_angle};
-use scene::routes::{LaneGraph, Pose, base_path, best_route_ahead};
+use scene::routes::{LaneGraph, Polyline, Pose, SpeedRules, base_path, best_route_ahead, speed};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Size, State, Vec2};
 
 /// States closer than this are one place of the path, metres, so that jitter at rest does not lengthen it.
@@ -82,9 +83,7 @@ impl PathProgress {
         }
         let speed_mps = end.speed_mps();
         let length_m = BEYOND_M + HURRIED * HORIZON_STEPS as f64 * STEP_S * speed_mps;
-        let pose = Pose { position: end.position(), heading_rad: end.heading_rad };
-        let Some(route) = best_route_ahead(graph, pose, agent_type, length_m) else { return self };
-        let path = base_path(&route.path, pose, speed_mps, agent_type, None);
+        let Some(path) = road_ahead(&end, graph, agent_type, length_m) else { return self };
         let end_m = last.along_m + (end.position() - last.position).norm();
         let mut heading_rad = last.heading_rad;
         self.places.extend((1..=path.length_m() as usize).map(|at| {
@@ -196,6 +195,44 @@ pub(crate) fn extend_along_road(
         speed = then;
         plan.push(path.state(along, speed));
     }
+}
+
+/// The likeliest path along the road from a state on.
+fn road_ahead(state: &State, graph: &LaneGraph, agent_type: AgentType, length_m: f64) -> Option<Polyline> {
+    let pose = Pose { position: state.position(), heading_rad: state.heading_rad };
+    let route = best_route_ahead(graph, pose, agent_type, length_m)?;
+    Some(base_path(&route.path, pose, state.speed_mps(), agent_type, None))
+}
+
+/// The states of an agent of which one state is known, from that state to the window's end: along the road at its
+/// speed, and slower in bends. `None` where no road leads on, and for pedestrians.
+pub(super) fn along_road(
+    start: &State,
+    graph: &LaneGraph,
+    agent_type: AgentType,
+) -> Option<Vec<Option<State>>> {
+    if agent_type == AgentType::Pedestrian {
+        return None;
+    }
+    let speed_mps = start.speed_mps();
+    let length_m = BEYOND_M + HORIZON_STEPS as f64 * STEP_S * speed_mps;
+    let path = road_ahead(start, graph, agent_type, length_m)?;
+    let caps_mps = speed::speed_caps(&path, &[speed_mps], SpeedRules::default());
+    let progress = cruising(speed_mps, speed_mps, &Caps::new(path.arc_m(), &caps_mps));
+    let at = |step: usize| {
+        let pose = path.sample(progress[step]);
+        let ahead = pose.direction();
+        let position = pose.position + ahead * (progress[step] - path.length_m()).max(0.0);
+        let velocity = ahead * speed_at(&progress, step);
+        State {
+            x_m: position.x,
+            y_m: position.y,
+            heading_rad: pose.heading_rad,
+            vx_mps: velocity.x,
+            vy_mps: velocity.y,
+        }
+    };
+    Some(std::iter::once(*start).chain((1..=HORIZON_STEPS).map(at)).map(Some).collect())
 }
 
 /// States up to the first long gap, with short gaps bridged.
