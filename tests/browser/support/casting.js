@@ -144,7 +144,7 @@ export async function carBesideMedian(e) {
   return { car, across: acrossMedian(medians, car) };
 }
 
-/** A moving car with its box and flag in the current picture, without a panel over them. */
+/** A moving car with its box and flag in the current picture, apart from each other, without a panel over them. */
 export async function carInSight(e) {
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
   const seen = [];
@@ -154,7 +154,7 @@ export async function carInSight(e) {
     const who = await look(e, u);
     const far = distance(who.start, who.end);
     // Moving the picture to it does not count.
-    if (far > 8 && (await clear(e, who))) {
+    if (far > 20 && (await clear(e, who))) {
       await e.letGo();
       const after = await e.view();
       if (after.cx === cx && after.cy === cy) return who;

@@ -139,7 +139,7 @@ journeys('goals relative to another road user', (stage) => {
     assert.equal(await offer.count(), 0, 'nothing is offered where a relation has just ended');
     const flag = await e.at(before.x, before.y);
     const pennant = [flag[0] + 6, flag[1] - 14];
-    const further = await e.at(before.x + 6 * Math.cos(before.heading), before.y + 6 * Math.sin(before.heading));
+    const further = await e.at(before.x + 3 * Math.cos(before.heading), before.y + 3 * Math.sin(before.heading));
     await e.drag(pennant, [pennant[0] + further[0] - flag[0], pennant[1] + further[1] - flag[1]], {
       then: async () => assert.equal(await offer.count(), 0, 'nothing is offered in a drag'),
     });
