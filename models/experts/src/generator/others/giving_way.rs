@@ -128,8 +128,11 @@ impl Others<'_> {
                 let share = if at < self.reacting { PASSED_ON } else { 1.0 };
                 meets += share * price;
             }
-            let before = self.tailgating(&who.other.sweep, &other.sweep);
-            tailgates += (self.tailgating(&sweep, &other.sweep) - before).max(0.0);
+            let tailgating = self.tailgating(&sweep, &other.sweep);
+            if tailgating > 0.0 {
+                // Who is followed closely already is no new cost.
+                tailgates += (tailgating - self.tailgating(&who.other.sweep, &other.sweep)).max(0.0);
+            }
         }
         Some((YieldOption { paced, states, sweep, cost: alone + meets + tailgates }, meets))
     }
