@@ -4,8 +4,8 @@
 use std::process::ExitCode;
 
 /// The allocator keeps freed memory for the next tensor, because candle allocates each operation's output.
-/// Memory unused for ten seconds returns to the system, so a large import does not stay resident. Without huge
-/// pages, since one small piece in use keeps 2 MB resident: a server under load grew for hours with them.
+/// Memory unused for ten seconds returns to the system, so a large import does not stay resident. There are no
+/// huge pages, because 2 MB of one stay resident while any part of it is in use.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

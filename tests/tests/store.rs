@@ -348,7 +348,8 @@ fn a_store_that_is_gone_is_not_written_into() {
         saved(&server, "old", &street(2, 20));
         backed_up(&db, &db.with_extension("older"));
         saved(&server, "kept", &street(2, 20));
-        // Times of files advance with the kernel's clock, every 1 to 10 ms.
+        // Times of files advance with the kernel's clock, every 1 to 10 ms. A change of equal length in the same tick as
+        // the server's own write is not seen.
         std::thread::sleep(Duration::from_millis(20));
         fault(&db).unwrap();
         let refused = server.send(&put("lost", ("if-none-match", "*"), &street(2, 20))).unwrap();

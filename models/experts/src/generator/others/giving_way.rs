@@ -130,7 +130,7 @@ impl Others<'_> {
             }
             let tailgating = self.tailgating(&sweep, &other.sweep);
             if tailgating > 0.0 {
-                // Who is followed closely already is no new cost.
+                // Only the time beyond that of the kept motion costs.
                 tailgates += (tailgating - self.tailgating(&who.other.sweep, &other.sweep)).max(0.0);
             }
         }
