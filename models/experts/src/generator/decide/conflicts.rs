@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Limit of decisions of one driver.
 const MOST_DECISIONS: usize = 3;
-/// Limit of other options that are tried for a driver that collides or breaks a rule.
+/// Limit of other options that are tried for a driver that is in danger or breaks a rule.
 const MOST_ALTERNATIVES: usize = 4;
 /// Limits of decisions that follow such a try, and of those that follow all tries of a scene: they take the most time
 /// of a crowded scene.
@@ -166,13 +166,14 @@ impl OptionTable<'_> {
         left
     }
 
-    /// Options to try for a driver that collides or breaks a rule, the cheapest first: they avoid what it meets, or
-    /// break fewer rules.
+    /// Options to try for a driver that is in danger or breaks a rule, the cheapest first: they avoid the danger, or break
+    /// fewer rules.
     fn alternatives(&mut self, i: usize, now: &Decision<'_>) -> Vec<usize> {
         let chosen = now.chosen[i];
         let broken = self.choice.agents[i][chosen].rule_cost;
         let (own, all) = (&now.sweeps[i], now.others(i));
-        let met: Vec<&Sweep> = all.iter().copied().filter(|o| own.starts_apart(o) && own.meets(o)).collect();
+        let is_met = |o: &&Sweep| own.starts_apart(o) && own.first_danger(o).is_some();
+        let met: Vec<&Sweep> = all.iter().copied().filter(is_met).collect();
         if met.is_empty() && broken == 0.0 {
             return Vec::new();
         }
@@ -190,7 +191,7 @@ impl OptionTable<'_> {
             let option = &options[*o];
             option.cost < now_costs - 1e-9
                 && (!met.is_empty() || option.rule_cost < broken)
-                && !met.iter().any(|other| option.sweep.meets(other))
+                && !met.iter().any(|other| option.sweep.first_danger(other).is_some())
         };
         let mut found: Vec<usize> = (0..options.len()).filter(helps).collect();
         found.sort_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
