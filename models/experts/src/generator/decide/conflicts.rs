@@ -107,8 +107,8 @@ impl Decision<'_> {
 
 impl OptionTable<'_> {
     /// Lets drivers without goals that are still in conflict drive behind the other road user, if that lowers the cost.
-    /// One that collides or breaks a road rule tries its other options, and the others may then drive behind it: the
-    /// first of a queue that brakes needs followers that brake too.
+    /// One that remains in danger or breaks a road rule tries its other options, and the others may then drive behind it:
+    /// the first of a queue that brakes needs followers that brake too.
     pub(super) fn resolve(&mut self, settled: Settled) -> Settled {
         let of = self.of;
         let yields = |i: &usize| {
