@@ -43,6 +43,12 @@ impl Decision<'_> {
         self.fixed.iter().copied().chain(actors).collect()
     }
 
+    /// The motions that endanger an actor.
+    fn endangering(&self, i: usize) -> Vec<&Sweep> {
+        let all = self.sweeps.iter().map(|sweep| &**sweep).chain(self.fixed.iter().copied());
+        all.zip(&self.dangers[i]).filter(|(_, danger)| danger.is_some()).map(|(sweep, _)| sweep).collect()
+    }
+
     /// The same choice, before a try of another option that so many decisions may follow.
     fn without_turns(&self, budget: usize) -> Self {
         Self { left: vec![None; self.left.len()], budget, ..self.clone() }
@@ -171,21 +177,17 @@ impl OptionTable<'_> {
     fn alternatives(&mut self, i: usize, now: &Decision<'_>) -> Vec<usize> {
         let chosen = now.chosen[i];
         let broken = self.choice.agents[i][chosen].rule_cost;
-        let (own, all) = (&now.sweeps[i], now.others(i));
-        let is_met = |o: &&Sweep| own.starts_apart(o) && own.first_danger(o).is_some();
-        let met: Vec<&Sweep> = all.iter().copied().filter(is_met).collect();
+        let own = &now.sweeps[i];
+        let met: Vec<&Sweep> = now.endangering(i).into_iter().filter(|o| own.starts_apart(o)).collect();
         if met.is_empty() && broken == 0.0 {
             return Vec::new();
         }
-        let options = &self.choice.agents[i];
-        let cheapest = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
-        let behind: Vec<MotionCandidate> =
-            cheapest.into_iter().flat_map(|option| self.behind(i, option, &all)).collect();
+        let all = now.others(i);
+        let cheapest = self.cheapest(i).into_iter();
+        let behind: Vec<MotionCandidate> = cheapest.flat_map(|option| self.behind(i, option, &all)).collect();
         self.add(i, behind);
+        let (_, now_costs) = self.joint_cost(now, &[i]);
         let options = &self.choice.agents[i];
-        let tuning = self.choice.tuning;
-        let now_costs = options[chosen].cost
-            + all.iter().map(|other| price(own.swept(), other.swept(), tuning)).sum::<f64>();
         // Whatever the others do, a dearer option saves nothing.
         let helps = |o: &usize| {
             let option = &options[*o];
@@ -255,8 +257,7 @@ impl OptionTable<'_> {
                 actors.map(|(j, other)| if now.can_decide(j) { PASSED_ON } else { 1.0 } * met(other));
             option.cost + fixed + actors.sum::<f64>()
         };
-        let options = &self.choice.agents[i];
-        let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost))?;
+        let meant = self.cheapest(i)?;
         let before = total(self, now.chosen[i]);
         let mut bases = vec![now.chosen[i]];
         bases.extend(Some(meant).filter(|meant| *meant != now.chosen[i]));

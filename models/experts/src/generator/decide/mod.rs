@@ -407,13 +407,17 @@ impl OptionTable<'_> {
         (found, met.map(|(id, _)| (*id).clone()))
     }
 
+    /// The option of an actor that costs least by itself.
+    fn cheapest(&self, i: usize) -> Option<usize> {
+        let options = &self.choice.agents[i];
+        (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost))
+    }
+
     /// The cheapest option by itself, driven behind the agents that it meets, if the choice left it and the actor has
     /// no goal.
     fn behind_others(&self, i: usize, settled: &Settled, all: &[&Sweep]) -> Vec<MotionCandidate> {
-        let options = &self.choice.agents[i];
-        let meant = (0..options.len()).min_by(|a, b| options[*a].cost.total_cmp(&options[*b].cost));
-        let meant =
-            meant.filter(|o| *o != settled.chosen[i] && self.of.actors[i].plan.target.position.is_none());
+        let free = self.of.actors[i].plan.target.position.is_none();
+        let meant = self.cheapest(i).filter(|o| *o != settled.chosen[i] && free);
         meant.and_then(|meant| self.follows(i, meant, all)).into_iter().collect()
     }
 
